@@ -12,7 +12,8 @@ import numpy as np
 from ..errors import MeshError, UrdftoolError
 from ..geometry.load import FARTHEST
 from ..geometry.mesh import Points
-from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
+from ..geometry.tessellate import tessellate
+from ..model.elements import Box, Capsule, Cone, Cylinder, Ellipsoid, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
 from ..parallel import Loss, cores, map_tasks
 from ..source.description import GltfUp
@@ -171,6 +172,10 @@ def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
         yield Part(pose, "capsule", (geometry.radius, geometry.length))
     elif isinstance(geometry, Sphere):
         yield Part(pose, "sphere", (geometry.radius,))
+    elif isinstance(geometry, Ellipsoid):
+        yield Part(pose, "ellipsoid", geometry.radii)
+    elif isinstance(geometry, Cone):
+        yield Part(pose, "cone", (geometry.radius, geometry.length))
     elif isinstance(geometry, Mesh):
         assert robot.source is not None
         path = Path(robot.source.resolve(geometry.filename))
@@ -192,6 +197,8 @@ def _piece(part: Part, *, told: bool = True) -> Piece:
     far = max(map(abs, (*part.pose.translation, *(() if part.path else part.size))))
     if not far < FARTHEST:
         raise MeshError(f"its {part.kind} reaches {far:.3g} m, which is not measured")
+    if part.kind in ("ellipsoid", "cone"):
+        return mesh_piece(*tessellate(part.kind, part.size)).posed(rotation, xyz)
     if part.path is None:
         return primitive(part.kind, part.size, rotation, xyz)
     x, y, z = part.size

@@ -10,16 +10,20 @@ from ..model.elements import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Inertial,
     Link,
     Material,
     Mesh,
+    Plane,
     Sphere,
     Visual,
 )
 from ..model.pose import Pose, pose_of, rpy_of_rotation
+from ..model.shapes import shape_name
 from .change import Change
 from .closeness import all_close, close, distance, moved, same_pose
 
@@ -159,10 +163,14 @@ def shape_facts(geometry: Geometry | None) -> dict[str, Any]:
     """Return geometry as data: its type, and its lengths [m] or its file."""
     if geometry is None:
         return {"shape": None}
-    facts: dict[str, Any] = {"shape": geometry.element.tag}
+    facts: dict[str, Any] = {"shape": shape_name(geometry)}
     if isinstance(geometry, Box):
         facts["size"] = geometry.size
-    elif isinstance(geometry, Cylinder | Capsule):
+    elif isinstance(geometry, Ellipsoid):
+        facts["radii"] = geometry.radii
+    elif isinstance(geometry, Plane):
+        facts["size"] = geometry.size
+    elif isinstance(geometry, Cylinder | Capsule | Cone):
         facts |= {"radius": (geometry.radius,), "length": (geometry.length,)}
     elif isinstance(geometry, Sphere):
         facts["radius"] = (geometry.radius,)

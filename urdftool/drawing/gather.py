@@ -14,7 +14,9 @@ from ..model.elements import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Material,
     Robot,
@@ -142,6 +144,10 @@ def _sized(geometry: Geometry | None) -> tuple[str, Vector] | None:
         return "capsule", (geometry.radius, geometry.length, 0.0)
     if isinstance(geometry, Sphere):
         return "sphere", (geometry.radius, 0.0, 0.0)
+    if isinstance(geometry, Ellipsoid):
+        return "ellipsoid", geometry.radii
+    if isinstance(geometry, Cone):
+        return "cone", (geometry.radius, geometry.length, 0.0)
     return None
 
 

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from ..model.elements import Box, Capsule, Cylinder, Geometry, Sphere, Vector
+from ..model.elements import Box, Capsule, Cone, Cylinder, Ellipsoid, Geometry, Sphere, Vector
 from ..model.pose import Pose, cross, norm, transpose
 
 SupportFunction = Callable[[float, float, float], float]
@@ -61,6 +61,12 @@ def _reach_of(geometry: Geometry | None) -> tuple[SupportFunction, float] | None
     if isinstance(geometry, Capsule):
         r, h = abs(geometry.radius), abs(geometry.length) / 2
         return lambda x, y, z: r * math.hypot(x, y, z) + h * abs(z), r + h
+    if isinstance(geometry, Ellipsoid):
+        a, b, c = map(abs, geometry.radii)
+        return lambda x, y, z: math.hypot(a * x, b * y, c * z), max(a, b, c)
+    if isinstance(geometry, Cone):
+        r, h = abs(geometry.radius), abs(geometry.length) / 2
+        return lambda x, y, z: max(h * z, r * math.hypot(x, y) - h * z), math.hypot(r, h)
     return None
 
 

@@ -13,18 +13,23 @@ AROUND = 96
 
 
 def tessellate(kind: str, size: Sequence[float], around: int = AROUND) -> tuple[Points, Faces]:
-    """Create the closed surface of a primitive about its center, wound outward.
+    """Create the closed surface of a primitive about its origin, wound outward.
 
     Args:
-        kind: ``"box"``, ``"cylinder"``, ``"capsule"`` or ``"sphere"``.
-        size: Lengths [m]: three edges of a box; radius and length of a cylinder or capsule (length
-            between the caps); radius of a sphere.
+        kind: ``"box"``, ``"cylinder"``, ``"capsule"``, ``"sphere"``, ``"ellipsoid"`` or ``"cone"``.
+        size: Lengths [m]: three edges of a box; radius and length of a cylinder, cone or capsule
+            (length between the caps); radius of a sphere; three half axes of an ellipsoid.
         around: Corners of a circle, an even number.
 
     Returns:
         Vertices [m], shape (n, 3), and faces, shape (m, 3).
     """
-    return _box(size) if kind == "box" else _turned(_profile(kind, size, around), around)
+    if kind == "box":
+        return _box(size)
+    if kind == "ellipsoid":
+        vertices, faces = tessellate("sphere", (1.0,), around)
+        return vertices * np.asarray(size), faces
+    return _turned(_profile(kind, size, around), around)
 
 
 def _box(size: Sequence[float]) -> tuple[Points, Faces]:
@@ -40,6 +45,9 @@ def _profile(kind: str, size: Sequence[float], around: int) -> Points:
     if kind == "cylinder":
         half = size[1] / 2
         return np.array([[0, -half], [radius, -half], [radius, half], [0, half]])
+    if kind == "cone":
+        half = size[1] / 2
+        return np.array([[0, -half], [radius, -half], [0, half]])
     half = size[1] / 2 if kind == "capsule" else 0.0
     angles = np.linspace(-np.pi / 2, np.pi / 2, around // 2 + 1)
     rings = np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1)

@@ -15,6 +15,7 @@ from ..model.elements import (
     UnknownShape,
     Visual,
 )
+from ..model.shapes import shape_name
 from .attached import add_attached
 from .figure import Edge, Figure, Node
 from .links import ends
@@ -106,13 +107,13 @@ def _shape(geometry: Geometry | None) -> str:
     if isinstance(geometry, Mesh):
         return visible(geometry.filename.replace("\\", "/").rpartition("/")[2] or "mesh")
     if isinstance(geometry, UnknownShape):
-        return f"<{visible(geometry.element.tag)}>"
-    return geometry.element.tag
+        return f"<{visible(geometry.tag)}>"
+    return shape_name(geometry)
 
 
 def _shape_facts(shape: Visual | Collision) -> dict[str, Any]:
     geometry = shape.geometry
-    facts: dict[str, Any] = {"shape": None if geometry is None else geometry.element.tag}
+    facts: dict[str, Any] = {"shape": None if geometry is None else shape_name(geometry)}
     if isinstance(geometry, Mesh):
         facts["filename"] = geometry.filename
     return facts

@@ -16,15 +16,19 @@ from ..model.elements import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Link,
     Mesh,
+    Plane,
     Sphere,
     UnknownShape,
     Visual,
 )
 from ..model.pose import pose_of
+from ..model.shapes import shape_name
 from . import solids
 from .bodies import MeshBody
 from .inertia_error import InertiaError
@@ -129,7 +133,7 @@ def link_body(link: Link, source: str, meshes: Meshes) -> LinkBody | None:
         try:
             pieces.append(_piece(shape, meshes))
         except ArithmeticError:
-            lacks.append(Lack(shape, "its numbers are too large"))
+            lacks.append(Lack(shape, "it is beyond what numbers can hold"))
         except UrdftoolError as error:
             lacks.append(Lack(shape, str(error)))
     return LinkBody(source, tuple(pieces), tuple(lacks)) if pieces or lacks else None
@@ -140,7 +144,9 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
     if geometry is None:
         raise InertiaError("it has no geometry")
     if isinstance(geometry, UnknownShape):
-        raise InertiaError(f"<{geometry.element.tag}> is not a shape of URDF")
+        raise InertiaError(f"<{geometry.tag}> is not a shape of URDF")
+    if isinstance(geometry, Plane):
+        raise InertiaError("a plane has no volume")
     if isinstance(geometry, Mesh):
         body = meshes.get(geometry.filename)
         if body is None:
@@ -155,7 +161,7 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
         )
     unit, half = _primitive(geometry)
     placed, lower, upper = _placed(shape, unit, (-half, half))
-    return Piece(shape, geometry.element.tag, placed, lower, upper)
+    return Piece(shape, shape_name(geometry), placed, lower, upper)
 
 
 def _primitive(geometry: Geometry) -> tuple[SpatialInertia, Array]:
@@ -182,6 +188,11 @@ _PRIMITIVES: dict[
     Capsule: (
         lambda g: solids.capsule(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2 + g.radius),
+    ),
+    Ellipsoid: (lambda g: solids.ellipsoid(g.radii, density=1.0), lambda g: g.radii),
+    Cone: (
+        lambda g: solids.cone(g.radius, g.length, density=1.0),
+        lambda g: (g.radius, g.radius, g.length / 2),
     ),
 }
 

@@ -9,7 +9,15 @@ from math import fsum
 from ..errors import PackageNotFound
 from ..model.elements import Joint, Mesh, Robot
 
-FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 6}
+FREEDOMS = {
+    "revolute": 1,
+    "continuous": 1,
+    "prismatic": 1,
+    "screw": 1,
+    "planar": 3,
+    "ball": 3,
+    "floating": 6,
+}
 """Degrees of freedom by joint type; a planar joint has two translations and one rotation."""
 
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import UrdftoolError
-from ..model.bounds import Bounds, bounds_of
-from ..model.elements import Collision, Mesh, Origin, Robot, Vector, Visual
+from ..model.bounds import Bounds, bounds_at
+from ..model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..model.kinematics import link_poses
-from ..model.pose import Pose, pose_of, rpy_of_rotation
+from ..model.pose import Pose, pose_of
 
 Progress = Callable[[int, int, str], None]
 
@@ -93,9 +93,7 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
 
 def _primitive(shape: Visual | Collision, at: Pose) -> Bounds | None:
     """Return the bounding box of a primitive in the frame of the link pose."""
-    pose = at @ pose_of(shape.origin)
-    origin = Origin(shape.element, pose.translation, rpy_of_rotation(pose.rotation))
-    return bounds_of(Collision(shape.element, origin=origin, geometry=shape.geometry))
+    return bounds_at(shape.geometry, at @ pose_of(shape.origin))
 
 
 def _read(

@@ -5,7 +5,18 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .elements import Box, Capsule, Collision, Cylinder, Geometry, Sphere, Vector, Visual
+from .elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Sphere,
+    Vector,
+    Visual,
+)
 from .pose import Pose, Rotation, pose_of, rotate
 
 
@@ -58,7 +69,10 @@ def size_of(geometry: Geometry | None) -> Vector | None:
     if isinstance(geometry, Sphere):
         across = 2 * abs(geometry.radius)
         return across, across, across
-    if isinstance(geometry, Cylinder):
+    if isinstance(geometry, Ellipsoid):
+        x, y, z = geometry.radii
+        return 2 * abs(x), 2 * abs(y), 2 * abs(z)
+    if isinstance(geometry, Cylinder | Cone):
         across = 2 * abs(geometry.radius)
         return across, across, abs(geometry.length)
     if isinstance(geometry, Capsule):
@@ -89,6 +103,13 @@ def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
         ]
     elif isinstance(geometry, Sphere):
         half = [size[0] / 2] * 3
+    elif isinstance(geometry, Ellipsoid):
+        half = [
+            math.hypot(*(part * length / 2 for part, length in zip(row, size, strict=True)))
+            for row in pose.rotation
+        ]
+    elif isinstance(geometry, Cone):
+        return _bounds_of_cone(size[0] / 2, size[2] / 2, pose)
     else:  # half extent of a disc of radius r along an axis: r·sin(angle to the disc's axis)
         rounded = isinstance(geometry, Capsule)
         radius, along = size[0] / 2, (size[2] - size[0] * rounded) / 2
@@ -100,3 +121,14 @@ def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
     x, y, z = pose.translation
     a, b, c = half
     return Bounds((x - a, y - b, z - c), (x + a, y + b, z + c))
+
+
+def _bounds_of_cone(radius: float, half: float, pose: Pose) -> Bounds:
+    """Return the bounding box of a disc at -half and a tip at +half along z, at a pose."""
+    low, high = [], []
+    for row, shift in zip(pose.rotation, pose.translation, strict=True):
+        around = radius * math.sqrt(max(0.0, 1.0 - row[2] * row[2]))
+        tip, base = row[2] * half, -row[2] * half
+        low.append(shift + min(tip, base - around))
+        high.append(shift + max(tip, base + around))
+    return Bounds((low[0], low[1], low[2]), (high[0], high[1], high[2]))

@@ -11,60 +11,38 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING
 
 from ..source.document import Element
-from ..source.location import Place
 from ..workspace import Memo
-from .provenance import NOWHERE
+from .mechanism import (
+    Base,
+    Camera,
+    Closure,
+    Configuration,
+    ContactExclusion,
+    Frame,
+    JointActuator,
+    MountedSensor,
+)
+from .part import ZERO as ZERO
+from .part import Origin as Origin
+from .part import Part as Part
+from .part import Vector as Vector
+from .shapes import Box as Box
+from .shapes import Capsule as Capsule
+from .shapes import Cone as Cone
+from .shapes import Cylinder as Cylinder
+from .shapes import Ellipsoid as Ellipsoid
+from .shapes import Geometry as Geometry
+from .shapes import Mesh as Mesh
+from .shapes import Plane as Plane
+from .shapes import Sphere as Sphere
+from .shapes import UnknownShape as UnknownShape
 
 if TYPE_CHECKING:
     from ..source.description import Description
-    from .provenance import Provenance
     from .tree import KinematicTree
-
-Vector = tuple[float, float, float]
-ZERO: Vector = (0.0, 0.0, 0.0)
-
-
-@dataclass(slots=True)
-class Part:
-    """Part of a robot.
-
-    Attributes:
-        provenance: Location in the source; None for a generated part.
-    """
-
-    provenance: Provenance | None = None
-
-    @property
-    def element(self) -> Element:
-        """Return the URDF element from which the part was read.
-
-        Raises:
-            TypeError: The part was not read from URDF.
-        """
-        element = self.provenance
-        if isinstance(element, Element):
-            return element
-        raise TypeError(f"this {type(self).__name__} was not read from URDF")
-
-    @property
-    def place(self) -> Place:
-        """Return the span of the start tag in the source; ``NOWHERE`` for a generated part."""
-        return NOWHERE if self.provenance is None else self.provenance.place
-
-
-@dataclass(slots=True)
-class Origin(Part):
-    """Pose of the child in the parent frame: ``xyz`` [m] and fixed-axis ``rpy`` [rad].
-
-    ``quaternion`` is ``(x, y, z, w)`` if ``quat_xyzw`` of URDF 1.1 is present.
-    """
-
-    xyz: Vector = ZERO
-    rpy: Vector = ZERO
-    quaternion: tuple[float, float, float, float] | None = None
 
 
 @dataclass(slots=True)
@@ -104,52 +82,6 @@ class Inertial(Part):
 
 
 @dataclass(slots=True)
-class Box(Part):
-    """Box centered on its origin; ``size`` [m] along x, y, z."""
-
-    size: Vector = ZERO
-
-
-@dataclass(slots=True)
-class Cylinder(Part):
-    """Cylinder along z, centered on its origin; radius and length [m]."""
-
-    radius: float = 0.0
-    length: float = 0.0
-
-
-@dataclass(slots=True)
-class Sphere(Part):
-    """Sphere centered on its origin; radius [m]."""
-
-    radius: float = 0.0
-
-
-@dataclass(slots=True)
-class Capsule(Part):
-    """Capsule along z, centered on its origin; ``length`` [m] excludes the caps (URDF 1.1)."""
-
-    radius: float = 0.0
-    length: float = 0.0
-
-
-@dataclass(slots=True)
-class Mesh(Part):
-    """Mesh file and its scale factors along x, y, z."""
-
-    filename: str = ""
-    scale: Vector = (1.0, 1.0, 1.0)
-
-
-@dataclass(slots=True)
-class UnknownShape(Part):
-    """Geometry that URDF does not define; its name is the tag of the element."""
-
-
-Geometry = Union[Box, Cylinder, Sphere, Capsule, Mesh, UnknownShape]  # noqa: UP007 -- runtime alias
-
-
-@dataclass(slots=True)
 class Material(Part):
     """Named color (``rgba``, each 0 to 1) or texture; both None for a reference by name."""
 
@@ -179,12 +111,18 @@ class Collision(Part):
 
 @dataclass(slots=True)
 class Link(Part):
-    """Link of a robot: a rigid body or a coordinate frame."""
+    """Link of a robot: a rigid body or a coordinate frame.
+
+    Attributes:
+        is_virtual: Whether a reader inserted it between two joints that the source writes between
+            the same two bodies; it has no mass and no geometry.
+    """
 
     name: str = ""
     inertial: Inertial | None = None
     visuals: list[Visual] = field(default_factory=list)
     collisions: list[Collision] = field(default_factory=list)
+    is_virtual: bool = False
 
     @property
     def mass(self) -> float:
@@ -212,10 +150,21 @@ class Limit(Part):
 
 @dataclass(slots=True)
 class Dynamics(Part):
-    """Damping [N·m·s/rad or N·s/m] and static friction [N·m or N] of a joint."""
+    """Forces that depend on the motion of a joint; None if not written.
+
+    Attributes:
+        damping: Damping [N·m·s/rad or N·s/m].
+        friction: Static friction [N·m or N].
+        armature: Inertia of the rotor at the joint [kg·m² or kg] (MJCF).
+        stiffness: Stiffness of a spring [N·m/rad or N/m] (SDF, MJCF).
+        spring_reference: Position at which the spring exerts no force [rad or m].
+    """
 
     damping: float | None = None
     friction: float | None = None
+    armature: float | None = None
+    stiffness: float | None = None
+    spring_reference: float | None = None
 
 
 @dataclass(slots=True)
@@ -265,12 +214,14 @@ class Joint(Part):
     """Connection of a child link to a parent link.
 
     Attributes:
-        type: Type as written; ``JOINT_TYPES`` are those of URDF.
+        type: Type as written; ``JOINT_TYPES`` are those of URDF. Readers of other formats also
+            use ``ball``, three rotations about the origin, and ``screw``.
         parent: Name of the parent link; empty if not written.
         child: Name of the child link; empty if not written.
         parent_element: The ``<parent>`` element of URDF, if any.
         child_element: The ``<child>`` element of URDF, if any.
         axis: Axis; None if not written, which means x.
+        thread_pitch: Translation along the axis [m] for each right-handed turn of a ``screw``.
     """
 
     name: str = ""
@@ -286,6 +237,7 @@ class Joint(Part):
     mimic: Mimic | None = None
     safety_controller: SafetyController | None = None
     calibration: Calibration | None = None
+    thread_pitch: float | None = None
 
     @property
     def is_fixed(self) -> bool:
@@ -409,6 +361,14 @@ class Robot(Part):
         joints: Joints in the order of the file.
         materials: Materials at the top level.
         gazebo: All ``<gazebo>`` blocks.
+        base: Attachment of the root to the world; None if the format does not specify it.
+        closures: Connections of links beyond the tree, which close loops.
+        frames: Named frames on links.
+        joint_actuators: Actuators of joints, with their gains.
+        exclusions: Pairs of links whose contact is ignored.
+        configurations: Named joint positions.
+        cameras: Cameras on links.
+        mounted_sensors: Sensors of links and joints.
         source: Description from which it was read; None if it was read from a bare element.
         memo: Values shared by several rules, computed once.
     """
@@ -421,6 +381,14 @@ class Robot(Part):
     transmissions: list[Transmission] = field(default_factory=list)
     gazebo: list[GazeboExtension] = field(default_factory=list)
     ros2_controls: list[Ros2Control] = field(default_factory=list)
+    base: Base | None = None
+    closures: list[Closure] = field(default_factory=list)
+    frames: list[Frame] = field(default_factory=list)
+    joint_actuators: list[JointActuator] = field(default_factory=list)
+    exclusions: list[ContactExclusion] = field(default_factory=list)
+    configurations: list[Configuration] = field(default_factory=list)
+    cameras: list[Camera] = field(default_factory=list)
+    mounted_sensors: list[MountedSensor] = field(default_factory=list)
     source: Description | None = field(default=None, repr=False)
     memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 

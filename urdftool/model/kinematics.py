@@ -44,7 +44,7 @@ def motion_of(joint: Joint, value: float) -> Pose:
     Rotations use Rodrigues' formula. The result is the identity for fixed joints and for types
     with more than one position.
     """
-    if not value or joint.type not in MOVABLE:
+    if not value or not _has_position(joint):
         return IDENTITY
     x, y, z = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     length = math.hypot(x, y, z)
@@ -53,6 +53,7 @@ def motion_of(joint: Joint, value: float) -> Pose:
     x, y, z = x / length, y / length, z / length
     if joint.type == "prismatic":
         return Pose(translation=(x * value, y * value, z * value))
+    along = value / math.tau * (joint.thread_pitch or 0.0)
     c, s = math.cos(value), math.sin(value)
     k = 1 - c
     return Pose(
@@ -60,7 +61,8 @@ def motion_of(joint: Joint, value: float) -> Pose:
             (c + x * x * k, x * y * k - z * s, x * z * k + y * s),
             (y * x * k + z * s, c + y * y * k, y * z * k - x * s),
             (z * x * k - y * s, z * y * k + x * s, c + z * z * k),
-        )
+        ),
+        (x * along, y * along, z * along),
     )
 
 
@@ -78,7 +80,12 @@ def with_mimics(robot: Robot, positions: Mapping[str, float]) -> dict[str, float
 
 def movable_joints(robot: Robot) -> dict[str, Joint]:
     """Return the joints with one position, by name, in the order of the file."""
-    return {joint.name: joint for joint in robot.joints if joint.type in MOVABLE}
+    return {joint.name: joint for joint in robot.joints if _has_position(joint)}
+
+
+def _has_position(joint: Joint) -> bool:
+    """Tell whether a joint has one position; a screw has if its pitch is known."""
+    return joint.type in MOVABLE or joint.thread_pitch is not None
 
 
 def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:

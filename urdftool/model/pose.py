@@ -8,9 +8,12 @@ axes x, y, z in this order, so ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from .elements import Origin, Vector
+
+if TYPE_CHECKING:
+    from .provenance import Provenance
 
 Rotation = tuple[Vector, Vector, Vector]
 Quaternion = tuple[float, float, float, float]
@@ -52,6 +55,11 @@ def pose_of(origin: Origin | None) -> Pose:
         x, y, z, w = origin.quaternion
         return Pose(rotation_of_quaternion((w, x, y, z)), origin.xyz)
     return Pose(rotation_of_rpy(origin.rpy), origin.xyz)
+
+
+def origin_at(pose: Pose, provenance: Provenance | None = None) -> Origin:
+    """Return the ``Origin`` of a pose."""
+    return Origin(provenance, pose.translation, rpy_of_rotation(pose.rotation))
 
 
 def rotation_of_rpy(rpy: Vector) -> Rotation:

@@ -175,7 +175,8 @@ def _geometry(element: Element | None) -> Geometry | None:
     if element is None or not element.children:
         return None
     shape = element.children[0]
-    return _SHAPES.get(shape.tag, UnknownShape)(shape)
+    read = _SHAPES.get(shape.tag)
+    return UnknownShape(shape, shape.tag) if read is None else read(shape)
 
 
 def _material(element: Element) -> Material:

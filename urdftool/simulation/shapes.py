@@ -13,8 +13,21 @@ from ..formats.sdf.shapes import has_extent
 from ..geometry.hull import convex_hull, hull_surface
 from ..geometry.mesh import Faces
 from ..geometry.mesh import Mesh as Triangles
-from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
+from ..geometry.tessellate import tessellate
+from ..model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Link,
+    Mesh,
+    Robot,
+    Sphere,
+)
 from ..model.pose import Pose, pose_of
+from ..model.shapes import shape_name
 from .hull_cache import get_or_compute
 from .mesh_cache import cached_for, load_triangles, mesh_key
 from .recording import Array
@@ -24,6 +37,9 @@ MOST_PIECES = 32
 
 MOST_VERTICES = 400
 """Of a hull; a finer one is thinned to the corners that reach farthest."""
+
+_AROUND = 16
+"""Corners of the circle by which an ellipsoid or cone is approximated."""
 
 _LEAST = 1e-9  # m: a mesh that is smaller is a point
 
@@ -116,6 +132,11 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
                 )
             yield Shape(link.name, number, "mesh", (), pieces, faces, pose)
             continue
+        if isinstance(geometry, Ellipsoid | Cone):
+            lengths = _lengths(geometry)
+            points, triangles = tessellate(shape_name(geometry), lengths, _AROUND)
+            yield Shape(link.name, number, "mesh", (), (points,), (triangles,), pose)
+            continue
         size: tuple[float, ...]
         if isinstance(geometry, Box):
             kind, size = "box", geometry.size
@@ -132,6 +153,12 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
                 rule="unsupported-shape",
             )
         yield Shape(link.name, number, kind, tuple(size), pose=pose)
+
+
+def _lengths(geometry: Ellipsoid | Cone) -> tuple[float, ...]:
+    if isinstance(geometry, Ellipsoid):
+        return geometry.radii
+    return geometry.radius, geometry.length
 
 
 def is_without_extent(collision: Collision) -> bool:

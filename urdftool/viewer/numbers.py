@@ -10,16 +10,20 @@ from ..model.elements import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Joint,
     Link,
     Mesh,
     Origin,
+    Plane,
     Robot,
     Sphere,
     Visual,
 )
 from ..model.pose import Pose, pose_of, rpy_of_rotation
+from ..model.shapes import shape_name
 from .sliders import in_words
 
 LONGEST = 60
@@ -142,9 +146,12 @@ def shape_words(shape: Visual | Collision) -> str:
         said = f"box {_lengths(geometry.size)}"
     elif isinstance(geometry, Sphere):
         said = f"sphere, radius {in_words(geometry.radius, False)}"
-    elif isinstance(geometry, Cylinder | Capsule):
-        kind = "capsule" if isinstance(geometry, Capsule) else "cylinder"
-        said = f"{kind}, radius {in_words(geometry.radius, False)}"
+    elif isinstance(geometry, Ellipsoid):
+        said = f"ellipsoid, radii {_lengths(geometry.radii)}"
+    elif isinstance(geometry, Plane):
+        said = "plane"
+    elif isinstance(geometry, Cylinder | Capsule | Cone):
+        said = f"{shape_name(geometry)}, radius {in_words(geometry.radius, False)}"
         said += f", length {in_words(geometry.length, False)}"
     elif isinstance(geometry, Mesh):
         said = geometry.filename or "a mesh without a file"

@@ -13,7 +13,9 @@ from ...model.elements import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Link,
     Mesh,
@@ -73,8 +75,10 @@ def _points(robot: Robot, geometry: Geometry) -> Array | None:
         return _corners([edge / 2 for edge in geometry.size])
     if isinstance(geometry, Sphere):
         return _corners([geometry.radius] * 3)
-    if isinstance(geometry, Cylinder):
+    if isinstance(geometry, Cylinder | Cone):
         return _corners([geometry.radius, geometry.radius, geometry.length / 2])
+    if isinstance(geometry, Ellipsoid):
+        return _corners(geometry.radii)
     if isinstance(geometry, Capsule):
         reach = geometry.length / 2 + geometry.radius
         return _corners([geometry.radius, geometry.radius, reach])

@@ -11,6 +11,7 @@ from ...model.elements import (
     Capsule,
     Collision,
     Cylinder,
+    Ellipsoid,
     Link,
     Mesh,
     Sphere,
@@ -18,6 +19,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.read import number
+from ...model.shapes import shape_name
 from ..common.naming import UniqueNames
 from ..written import Written
 from .digits import numbers_text
@@ -63,6 +65,8 @@ def shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
         return "capsule", (shape.radius, shape.length / 2)
     if isinstance(shape, Sphere):
         return "sphere", (shape.radius,)
+    if isinstance(shape, Ellipsoid):
+        return "ellipsoid", shape.radii
     if isinstance(shape, UnknownShape):
         return _drake_size(shape)
     return None
@@ -99,7 +103,7 @@ def _geoms(
         return
     simple = shape_size(shape.geometry)
     if simple is None:
-        tag = f"<{shape.geometry.element.tag}>" if shape.geometry is not None else "nothing"
+        tag = f"<{shape_name(shape.geometry)}>" if shape.geometry is not None else "nothing"
         _report_shape_loss(
             link,
             shape,

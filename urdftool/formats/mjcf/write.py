@@ -10,6 +10,7 @@ from ...lint.validate import validate
 from ...model.elements import Robot
 from ..common.directory import mark
 from ..common.naming import file_name
+from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL, defect, defects, refuse, taken_world
 from ..written import Written
 from .base import with_base
@@ -53,6 +54,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     robot, world = taken_world(robot)
     model = model_name(robot)
     written = Written(options.file or f"{model}.xml")
+    report_unexpressed(robot, written)
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),

@@ -8,17 +8,21 @@ from ...model.elements import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Link,
     Mesh,
     Origin,
+    Plane,
     Sphere,
     UnknownShape,
     Visual,
 )
 from ...model.mesh_formats import READ_BY
 from ...model.pose import IDENTITY, pose_of
+from ...model.shapes import shape_name
 from ..common.numbers import number_text, numbers_text
 from .pose import set_origin, set_pose
 from .translation import Translation
@@ -41,14 +45,14 @@ def set_place(node: Node, t: Translation, link: Link, origin: Origin | None) -> 
 
 def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
     """Tell whether a shape can be exported; report it if not."""
-    geometry = shape.geometry
-    if geometry is None or isinstance(geometry, UnknownShape) or not has_extent(geometry):
+    geometry, beyond = shape.geometry, (UnknownShape, Ellipsoid, Cone, Plane)
+    if geometry is None or isinstance(geometry, beyond) or not has_extent(geometry):
         if geometry is None:
             what = "has no geometry"
-        elif isinstance(geometry, UnknownShape):
-            what = f"has <{geometry.element.tag}>, which cannot be written"
+        elif isinstance(geometry, beyond):
+            what = f"has <{shape_name(geometry)}>, which cannot be written"
         else:
-            what = f"has a <{geometry.element.tag}> without extent"
+            what = f"has a <{shape_name(geometry)}> without extent"
         t.report_loss(
             "shape",
             f"a {shape.element.tag} of link '{link.name}' {what}; it is not exported",

@@ -15,6 +15,7 @@ from ..common.force_fallbacks import (
     report_passed_defects,
     tree_defects,
 )
+from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL as STRUCTURAL
 from ..defects import refuse
 from ..written import Written
@@ -60,6 +61,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
+    report_unexpressed(robot, written)
     settings = joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)
     root = _root(options)

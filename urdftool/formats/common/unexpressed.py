@@ -1,0 +1,64 @@
+"""Losses of parts that neither writer expresses: closed loops, actuators, frames, sensors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ...finding import Severity
+from ...model.elements import Robot
+from ...model.part import Part
+from ..written import Written
+
+
+class _Kind(NamedTuple):
+    """Parts of one kind.
+
+    Attributes:
+        code: Code of the loss after ``lossy-``.
+        what: Name of the kind, for one part.
+        parts: The parts and their names.
+        severity: ``INFO`` if the robot moves the same without them.
+    """
+
+    code: str
+    what: str
+    parts: list[tuple[Part, str]]
+    severity: Severity = Severity.WARNING
+
+
+def report_unexpressed(robot: Robot, written: Written) -> None:
+    """Report each part that the writers do not express; a robot read from URDF has none.
+
+    Args:
+        robot: The source.
+        written: The export, which receives the losses.
+    """
+    for code, what, parts, severity in _kinds(robot):
+        for part, name in parts:
+            message = f"{what} '{name}' is dropped" if name else f"a {what} is dropped"
+            written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)
+
+
+def _kinds(robot: Robot) -> Iterator[_Kind]:
+    yield _Kind("closure", "closed loop", [(part, part.name) for part in robot.closures])
+    yield _Kind("joint-actuator", "actuator", [(p, p.name) for p in robot.joint_actuators])
+    yield _Kind(
+        "exclusion",
+        "contact exclusion",
+        [(part, f"{part.link} – {part.other}") for part in robot.exclusions],
+    )
+    info = Severity.INFO
+    yield _Kind("frame", "frame", [(part, part.name) for part in robot.frames], info)
+    configurations = [(part, part.name) for part in robot.configurations]
+    yield _Kind("configuration", "configuration", [*configurations], info)
+    yield _Kind("camera", "camera", [(part, part.name) for part in robot.cameras], info)
+    yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
+    yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
+    sprung = [
+        (joint.dynamics, joint.name)
+        for joint in robot.joints
+        if joint.dynamics is not None
+        and (joint.dynamics.armature or joint.dynamics.stiffness or joint.dynamics.spring_reference)
+    ]
+    yield _Kind("joint-spring", "spring or armature of joint", [*sprung])

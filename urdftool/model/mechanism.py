@@ -1,0 +1,141 @@
+"""Parts of a robot that SDF, MJCF and USD have and plain URDF does not.
+
+URDF has no place for them, so their lists are empty in a robot that was read from URDF. Names refer
+to links and joints of the same robot. Lengths are in meters, angles in radians.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .part import Origin, Part, Vector
+
+
+@dataclass(slots=True)
+class Base(Part):
+    """Attachment of the root link to the world.
+
+    Attributes:
+        is_free: Whether the root moves freely; False if it is fixed.
+        origin: Pose of the root in the world of the source; None for the identity.
+    """
+
+    is_free: bool = False
+    origin: Origin | None = None
+
+
+@dataclass(slots=True)
+class Frame(Part):
+    """Named frame on a link, without mass.
+
+    Attributes:
+        kind: ``site`` (MJCF), ``frame`` (SDF), or ``body`` for the frame in which the source
+            writes the link, if the link's own frame is at its joint instead.
+        origin: Pose in the frame of the link.
+    """
+
+    name: str = ""
+    link: str = ""
+    kind: str = "frame"
+    origin: Origin | None = None
+
+
+@dataclass(slots=True)
+class Closure(Part):
+    """Connection of two links beyond the tree, which closes a loop.
+
+    Attributes:
+        type: ``weld``, ``connect`` (a common point), or the type of an SDF joint.
+        parent: Name of one link.
+        child: Name of the other.
+        origin: Frame of the connection in the frame of ``parent``.
+        child_origin: Frame of the connection in the frame of ``child``.
+        axis: Axis of an SDF joint in the frame of the connection.
+        is_active: Whether it acts at the start.
+    """
+
+    name: str = ""
+    type: str = ""
+    parent: str = ""
+    child: str = ""
+    origin: Origin | None = None
+    child_origin: Origin | None = None
+    axis: Vector | None = None
+    is_active: bool = True
+
+
+@dataclass(slots=True)
+class JointActuator(Part):
+    """Actuator of a joint with an affine control law.
+
+    The force at the joint [N or N·m] is ``gear * (gain * control + bias[0] + bias[1] * length +
+    bias[2] * velocity)``, where length and velocity are those of the joint times ``gear``.
+
+    Attributes:
+        mode: ``motor``, ``position``, ``velocity`` or ``general``.
+        control_range: Lower and upper limit of the control; None if not limited.
+        force_range: Limits of the force before ``gear`` [N or N·m]; None if not limited.
+    """
+
+    name: str = ""
+    joint: str = ""
+    mode: str = "general"
+    gear: float = 1.0
+    gain: float = 1.0
+    bias: Vector = (0.0, 0.0, 0.0)
+    control_range: tuple[float, float] | None = None
+    force_range: tuple[float, float] | None = None
+
+
+@dataclass(slots=True)
+class ContactExclusion(Part):
+    """Pair of links between which no contact is computed."""
+
+    link: str = ""
+    other: str = ""
+
+
+@dataclass(slots=True)
+class Configuration(Part):
+    """Named positions of joints [rad or m], such as a keyframe of MJCF.
+
+    Joints with several positions and the pose of a free base are omitted.
+    """
+
+    name: str = ""
+    positions: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class Camera(Part):
+    """Camera on a link.
+
+    Attributes:
+        origin: Pose of the camera in the frame of the link: x forward, z up.
+        vertical_fov: Vertical field of view [rad]; None if not written.
+        resolution: Width and height [pixels]; None if not written.
+    """
+
+    name: str = ""
+    link: str = ""
+    origin: Origin | None = None
+    vertical_fov: float | None = None
+    resolution: tuple[int, int] | None = None
+
+
+@dataclass(slots=True)
+class MountedSensor(Part):
+    """Sensor of a link or joint, other than a camera of MJCF.
+
+    Attributes:
+        type: Type as the source names it.
+        link: Name of the link; empty for a sensor of a joint.
+        joint: Name of the joint; empty for a sensor of a link.
+        origin: Pose in the frame of the link; None for the identity.
+    """
+
+    name: str = ""
+    type: str = ""
+    link: str = ""
+    joint: str = ""
+    origin: Origin | None = None

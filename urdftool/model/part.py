@@ -1,0 +1,56 @@
+"""Base of all parts of a robot: a location in the source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..source.document import Element
+from ..source.location import Place
+from .provenance import NOWHERE
+
+if TYPE_CHECKING:
+    from .provenance import Provenance
+
+Vector = tuple[float, float, float]
+ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(slots=True)
+class Part:
+    """Part of a robot.
+
+    Attributes:
+        provenance: Location in the source; None for a generated part.
+    """
+
+    provenance: Provenance | None = None
+
+    @property
+    def element(self) -> Element:
+        """Return the URDF element from which the part was read.
+
+        Raises:
+            TypeError: The part was not read from URDF.
+        """
+        element = self.provenance
+        if isinstance(element, Element):
+            return element
+        raise TypeError(f"this {type(self).__name__} was not read from URDF")
+
+    @property
+    def place(self) -> Place:
+        """Return the span of the start tag in the source; ``NOWHERE`` for a generated part."""
+        return NOWHERE if self.provenance is None else self.provenance.place
+
+
+@dataclass(slots=True)
+class Origin(Part):
+    """Pose of the child in the parent frame: ``xyz`` [m] and fixed-axis ``rpy`` [rad].
+
+    ``quaternion`` is ``(x, y, z, w)`` if ``quat_xyzw`` of URDF 1.1 is present.
+    """
+
+    xyz: Vector = ZERO
+    rpy: Vector = ZERO
+    quaternion: tuple[float, float, float, float] | None = None

@@ -1,0 +1,104 @@
+"""Geometry of links: primitives and meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Union
+
+from .part import ZERO, Part, Vector
+
+
+@dataclass(slots=True)
+class Box(Part):
+    """Box centered on its origin; ``size`` [m] along x, y, z."""
+
+    size: Vector = ZERO
+
+
+@dataclass(slots=True)
+class Cylinder(Part):
+    """Cylinder along z, centered on its origin; radius and length [m]."""
+
+    radius: float = 0.0
+    length: float = 0.0
+
+
+@dataclass(slots=True)
+class Sphere(Part):
+    """Sphere centered on its origin; radius [m]."""
+
+    radius: float = 0.0
+
+
+@dataclass(slots=True)
+class Capsule(Part):
+    """Capsule along z, centered on its origin; ``length`` [m] excludes the caps (URDF 1.1)."""
+
+    radius: float = 0.0
+    length: float = 0.0
+
+
+@dataclass(slots=True)
+class Ellipsoid(Part):
+    """Ellipsoid centered on its origin; ``radii`` [m] along x, y, z (SDF, MJCF)."""
+
+    radii: Vector = ZERO
+
+
+@dataclass(slots=True)
+class Cone(Part):
+    """Cone along z, its tip up, with the origin at half its length (SDF 1.11); lengths [m]."""
+
+    radius: float = 0.0
+    length: float = 0.0
+
+
+@dataclass(slots=True)
+class Plane(Part):
+    """Plane through its origin, normal to z (SDF, MJCF).
+
+    ``size`` [m] is its extent along x and y where it is drawn, None if not limited. As a collision
+    a plane is infinite and everything below it is inside.
+    """
+
+    size: tuple[float, float] | None = None
+
+
+@dataclass(slots=True)
+class Mesh(Part):
+    """Mesh file and its scale factors along x, y, z."""
+
+    filename: str = ""
+    scale: Vector = (1.0, 1.0, 1.0)
+
+
+@dataclass(slots=True)
+class UnknownShape(Part):
+    """Geometry that the model does not have, such as a heightfield.
+
+    Attributes:
+        tag: Tag of its element, or its type, in the source.
+    """
+
+    tag: str = ""
+
+
+Geometry = Union[  # noqa: UP007 -- runtime alias
+    Box, Cylinder, Sphere, Capsule, Ellipsoid, Cone, Plane, Mesh, UnknownShape
+]
+
+_NAMES: dict[type, str] = {
+    Box: "box",
+    Cylinder: "cylinder",
+    Sphere: "sphere",
+    Capsule: "capsule",
+    Ellipsoid: "ellipsoid",
+    Cone: "cone",
+    Plane: "plane",
+    Mesh: "mesh",
+}
+
+
+def shape_name(geometry: Geometry) -> str:
+    """Return the name of a shape's type: the tag of its element in URDF and SDF."""
+    return geometry.tag if isinstance(geometry, UnknownShape) else _NAMES[type(geometry)]
