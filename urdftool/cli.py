@@ -63,8 +63,8 @@ class Commands(click.Group):
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
             from .suggestions import did_you_mean
 
-            hint = did_you_mean(args[0], COMMANDS, 0.6) or f"; there are {', '.join(COMMANDS)}"
-            ctx.fail(f"no command '{args[0]}'{hint}")
+            hint = did_you_mean(args[0], COMMANDS, 0.6) or f"; choose one of {', '.join(COMMANDS)}"
+            ctx.fail(f"command '{args[0]}' does not exist{hint}")
         return super().resolve_command(ctx, args)
 
 
@@ -74,23 +74,25 @@ class Commands(click.Group):
     no_args_is_help=True,
     subcommand_metavar="COMMAND [ARGS]...",
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    epilog="'urdftool COMMAND --help' tells of each command.",
+    epilog="'urdftool COMMAND --help' describes a command and its options.",
 )
 @click.option(
     "--version",
     is_flag=True,
-    help="Print the version; with -v also Python, libraries and installed extras.",
+    help="Print the version; with -v also Python, the libraries and the extras.",
 )
 @click.option(
     "--color",
     type=click.Choice(["auto", "always", "never"]),
     default="auto",
-    help="Colours: at a terminal (the default), always or never. NO_COLOR and FORCE_COLOR count.",
+    show_default=True,
+    help="Color output: auto (at a terminal, depending on NO_COLOR and FORCE_COLOR), always, "
+    "never.",
 )
 @click.option(
     "--config",
     metavar="FILE",
-    help="The configuration, instead of the nearest pyproject.toml or urdftool.toml.",
+    help="Configuration file.  [default: the nearest pyproject.toml or urdftool.toml]",
 )
 @click.pass_context
 def main(
@@ -99,7 +101,7 @@ def main(
     color: str,
     config: str | None,
 ) -> None:
-    """Work with robot descriptions: URDF and xacro, without ROS."""
+    """Check, fix, convert and simulate robot descriptions in URDF and xacro, without ROS."""
     console = ctx.ensure_object(Console)
     console.color, console.config = color, config
     if version:
@@ -114,7 +116,7 @@ main.params[2:2] = general_options(hidden=False)
 
 
 def run(arguments: list[str] | None = None) -> None:
-    """Run the command line and leave with its exit code."""
+    """Run the command line and exit with its exit code."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # warnings of libraries are for developers
     open_streams()
@@ -185,7 +187,7 @@ def call(arguments: list[str] | None = None) -> int:
     except MemoryError:
         if console.debug:
             raise
-        console.say("there is not enough memory for this")
+        console.say("not enough memory for this command")
         return 2
     except OSError as error:
         if console.debug:
@@ -204,10 +206,9 @@ def call(arguments: list[str] | None = None) -> int:
             console.error(missing(library, f"'urdftool {' '.join(_command_of(words))}'"))
             return 2
         console.say(
-            f"this is a bug in urdftool {__version__}, not in your robot: "
-            f"{type(error).__name__}: {error}\n"
-            f"  Please report it at {REPORT_BUGS} with the command, the file, and what\n"
-            f"  the command prints with --debug."
+            f"bug in urdftool {__version__} (not in the robot): {type(error).__name__}: {error}\n"
+            f"  Please report it at {REPORT_BUGS} with the command, the file and\n"
+            f"  the output of the command with --debug."
         )
         return 3
 
@@ -235,7 +236,7 @@ def _closed_pipe() -> int:
     """Report a closed standard output, discard further output, and return the exit code."""
     _discard(sys.stdout.fileno())
     with suppress(OSError):
-        click.echo("urdftool: standard output was closed before all was written", err=True)
+        click.echo("urdftool: standard output was closed before all output was written", err=True)
     return 2
 
 

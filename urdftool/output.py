@@ -42,7 +42,7 @@ def _write_stdout(text: str) -> None:
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        raise OutputError("standard output was closed before all was written") from None
+        raise OutputError("standard output was closed before all output was written") from None
 
 
 def _same_file(one: str | Path, other: str | Path) -> bool:

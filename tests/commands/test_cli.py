@@ -86,7 +86,7 @@ def test_a_closed_pipe_is_one_line(tmp_path):
     process.stdout.close()
     err = process.stderr.read().decode()
     assert process.wait(timeout=10) == 2
-    assert err == "urdftool: standard output was closed before all was written\n"
+    assert err == "urdftool: standard output was closed before all output was written\n"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a shell")
@@ -100,7 +100,7 @@ def test_a_pipe_that_nobody_reads_is_no_verdict(write, words):
     )
     os.close(theirs)
     assert done.returncode == 2
-    assert done.stderr == b"urdftool: standard output was closed before all was written\n"
+    assert done.stderr == b"urdftool: standard output was closed before all output was written\n"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a shell")
@@ -125,7 +125,7 @@ def test_a_message_without_room_leaves_the_exit_code(tmp_path, words):
 def test_too_little_memory_is_said(urdftool, monkeypatch):
     monkeypatch.setattr(cli.main, "main", _fail(MemoryError()))
     result = urdftool("expand", "r.urdf")
-    assert (result.code, result.err) == (2, "urdftool: there is not enough memory for this\n")
+    assert (result.code, result.err) == (2, "urdftool: not enough memory for this command\n")
 
 
 def test_a_thread_at_work_is_left_without_a_word():

@@ -52,9 +52,9 @@ def test_a_picture_of_a_mesh_in_its_place_is_refused_first(urdftool, write):
     ("output", "word"),
     [
         ("arm/arm.urdf", "is read as an input"),
-        ("arm", "wants to end in .urdf"),
+        ("arm", ".urdf"),
         ("folder.urdf", "is a folder"),
-        ("out.stl", "wants to end in .urdf"),
+        ("out.stl", ".urdf"),
     ],
 )
 def test_an_output_that_cannot_be_is_refused_before_the_work(
@@ -96,7 +96,7 @@ def test_links_whose_meshes_cannot_be_used_are_named(urdftool, write):
     links = (("a", "box.stl", ""), ("left hand", "bad.stl", ""), ("c", "bad.stl", ' scale="2 2 2"'))
     done = urdftool("collision", write("r.urdf", robot(*links)), "-o", "out.urdf", *HULL)
     assert done.code == 2
-    assert "--skip-link 'left hand' --skip-link c leaves these links as they are" in done.err
+    assert "--skip-link 'left hand' --skip-link c" in done.err
 
 
 def test_a_robot_without_meshes_is_said_to_have_none(urdftool, write):

@@ -145,13 +145,13 @@ def test_mode_and_links_of_an_output_are_kept(urdftool, arm, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ([], "a robot is wanted"),
-        (["a.xacro", "b.xacro"], "one robot is wanted"),
+        ([], "IN"),
+        (["a.xacro", "b.xacro"], "a.xacro b.xacro"),
         (["a.xacro", ":=1"], "has no name"),
-        (["a.xacro", "--depfile", "x.d"], "wants -o"),
+        (["a.xacro", "--depfile", "x.d"], "-o OUT"),
         (["a.xacro", "--deps", "--list-args"], "exclude each other"),
         (["a.xacro", "-p", "name"], "NAME=DIR"),
-        (["a.xacro", "-p", "name=/no/such"], "is no folder"),
+        (["a.xacro", "-p", "name=/no/such"], "/no/such"),
         (["absent.xacro"], "absent.xacro: no such file"),
     ],
 )

@@ -69,7 +69,7 @@ def test_only_what_is_missing_is_asked_for():
 
 
 def test_an_answer_that_is_no_size_is_asked_for_again():
-    answers = [("Radius", "wide"), ("Error", "-3"), ("above zero", "0.5")]
+    answers = [("Radius", "wide"), ("Error", "-3"), ("greater than zero", "0.5")]
     code, out, _ = converse(["sphere", "--mass", "2"], answers)
     assert code == 0
     assert 'ixx="0.2"' in out

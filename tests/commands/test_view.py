@@ -27,7 +27,7 @@ def test_a_broken_file_at_the_start(urdftool, write):
 def test_no_link(urdftool, write):
     result = urdftool("view", write("r.urdf", "<robot name='r'/>"))
     assert result.code == 2
-    assert "there is no link in it" in result.err
+    assert "the robot has no links" in result.err
 
 
 def test_an_occupied_port(urdftool, arm):

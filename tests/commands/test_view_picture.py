@@ -71,7 +71,7 @@ def test_no_joint_moves(urdftool, write):
     path = write("r.urdf", ROBOT.format(""))
     done = urdftool("view", path, "--contact-sheet", "s.png")
     assert done.code == 2
-    assert "no joint of the robot moves" in done.err
+    assert "r.urdf:1:1: no joint" in done.err
     assert not os.path.exists("s.png")
 
 
@@ -89,7 +89,7 @@ def test_nothing_to_draw(urdftool, write):
     path = write("r.urdf", '<robot name="r"><link name="a"/></robot>')
     done = urdftool("view", path, "--picture", "p.png")
     assert done.code == 2
-    assert "r.urdf:1:1: the robot has no visual that could be drawn" in done.err
+    assert "r.urdf:1:1: the robot has no visual" in done.err
     assert not os.path.exists("p.png")
 
 
@@ -101,8 +101,8 @@ def test_nothing_to_draw(urdftool, write):
         (("--size", "99999x99999"), "WIDTHxHEIGHT"),
         (("--camera", "1"), "AZIMUTH,ELEVATION"),
         (("--camera", "1,nan"), "AZIMUTH,ELEVATION"),
-        (("--camera", "1,91"), "elevation of 91"),
-        (("--camera", "1,2,0"), "above zero"),
+        (("--camera", "1,91"), "91"),
+        (("--camera", "1,2,0"), "0 m"),
         (("--pose", "j"), "JOINT=VALUE"),
         (("--pose", "j=x"), "JOINT=VALUE"),
         (("--pose", "j=1", "--pose", "j=2"), "given twice"),
@@ -151,5 +151,5 @@ def test_links_in_a_loop_are_said_and_the_rest_drawn(urdftool, write):
     path = write("r.urdf", ROBOT.format(LINK.format("b", BOX) + LINK.format("c", BOX) + loop))
     done = urdftool("view", path, "--picture", "p.png", "--size", "80x60")
     assert done.code == 1
-    assert "link 'b' hangs on no root and is not drawn" in done.err
+    assert "link 'b' is not connected" in done.err
     assert pixels("p.png").shape == (60, 80, 3)

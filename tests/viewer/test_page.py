@@ -208,7 +208,7 @@ def test_a_broken_file_is_said_and_the_robot_stays(show):
     assert "no such file" in page._banner.content
     rewrite(path, urdf(name="empty"))
     tend(page)
-    assert "there is no link in it" in page._banner.content
+    assert "the robot has no links" in page._banner.content
     rewrite(path, ARM)
     tend(page)
     assert not page._banner.visible

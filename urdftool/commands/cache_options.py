@@ -1,4 +1,4 @@
-"""Where a command keeps what it computed, for the next time."""
+"""Options of the result cache."""
 
 from __future__ import annotations
 
@@ -10,28 +10,32 @@ import click
 F = TypeVar("F", bound=Callable[..., Any])
 
 CACHE_OPTIONS = (
-    click.option("--cache-dir", metavar="DIR", help="Where results are kept for the next time."),
-    click.option("--no-cache", is_flag=True, help="Compute all anew, and keep nothing."),
+    click.option(
+        "--cache-dir",
+        metavar="DIR",
+        help="Folder of the result cache.  [default: in the user's cache folder]",
+    ),
+    click.option("--no-cache", is_flag=True, help="Neither read nor write the result cache."),
 )
 
 
 def cache_options(function: F) -> F:
-    """``--cache-dir`` and ``--no-cache``."""
+    """Add ``--cache-dir`` and ``--no-cache``."""
     for option in reversed(CACHE_OPTIONS):
         function = option(function)
     return function
 
 
-def cache_place(room: str, cache_dir: str | None, no_cache: bool) -> str | None:
-    """The folder that the two options say; None keeps nothing.
+def cache_place(name: str, cache_dir: str | None, no_cache: bool) -> str | None:
+    """Return the folder of the result cache, or None for no cache.
 
     Args:
-        room: The command's own folder in the user's cache, where none is said.
-        cache_dir: A folder.
-        no_cache: Nothing is to be kept.
+        name: Name of the command, whose folder in the user's cache folder is the default.
+        cache_dir: Value of ``--cache-dir``.
+        no_cache: Value of ``--no-cache``.
 
     Raises:
-        click.UsageError: They contradict each other.
+        click.UsageError: Both options are given.
     """
     from ..storage import cache_folder
 
@@ -39,4 +43,4 @@ def cache_place(room: str, cache_dir: str | None, no_cache: bool) -> str | None:
         if cache_dir:
             raise click.UsageError("--cache-dir and --no-cache exclude each other")
         return None
-    return cache_dir or str(cache_folder(room))
+    return cache_dir or str(cache_folder(name))

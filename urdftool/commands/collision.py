@@ -1,4 +1,4 @@
-"""``urdftool collision``: simpler shapes for contact, measured."""
+"""``urdftool collision``: simplify collision geometry and measure its error."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ import click
 from ..console import Console
 from .collision_options import one_thread_each, require_libraries, settings_options
 from .general_options import accept_general_options
-from .options import gltf_option, package_options, split_arguments
+from .grouped_help import GroupedCommand
+from .options import gltf_option, jobs_option, package_options, split_arguments
 from .picture_file import checked_picture
 
 
-class _OrMesh(click.Command):
-    """A robot, unless the first word is ``mesh``."""
+class _OrMesh(GroupedCommand):
+    """Command for a robot that delegates to the command for a mesh if the first word is so."""
 
     def make_context(
         self,
@@ -24,7 +25,7 @@ class _OrMesh(click.Command):
         parent: click.Context | None = None,
         **extra: Any,
     ) -> click.Context:
-        """The context of the robot's command, or of the mesh's."""
+        """Make the context of the command for a robot or, after ``mesh``, for a mesh file."""
         if args and args[0] == "mesh":
             from .collision_mesh import command as mesh
 
@@ -34,53 +35,73 @@ class _OrMesh(click.Command):
         return super().make_context(info_name, args, parent=parent, **extra)
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
-        """The mesh's command, for those who write help pages."""
+        """Return the command for a mesh file, which the generated documentation includes."""
         from .collision_mesh import command as mesh
 
         return mesh if name == "mesh" else None
 
 
-@click.command("collision", cls=_OrMesh)
+_GROUPS = {
+    "What to do": "output in_place check",
+    "Geometry": "method max_error source only skip keep_primitives "
+    "max_hulls max_vertices max_triangles threshold",
+    "Output": "style mesh_dir mesh_format uri overwrite picture",
+    "Performance": "jobs time_limit scheduler",
+}
+
+
+@click.command("collision", cls=_OrMesh, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="IN [name:=value ...]")
-@click.option("-o", "--output", metavar="OUT", help="The new URDF; for folders, a folder.")
-@click.option("--in-place", is_flag=True, help="Edit the source itself, only where it changes.")
-@click.option("--check", is_flag=True, help="Measure the collisions that are there instead.")
+@click.option("-o", "--output", metavar="OUT", help="Write a new URDF; for folders, a folder.")
+@click.option("--in-place", is_flag=True, help="Edit the collision geometry in the source files.")
+@click.option("--check", is_flag=True, help="Measure the existing collision geometry; write none.")
 @settings_options
 @click.option(
     "--from",
     "source",
     type=click.Choice(["visual", "collision"]),
-    help="The meshes to simplify; without it visuals, or collisions where there are none.",
+    help="Meshes to simplify.  [default: visual; collision for links without visuals]",
 )
-@click.option("--link", "only", multiple=True, metavar="NAME", help="This link. Repeatable.")
-@click.option("--skip-link", "skip", multiple=True, metavar="NAME", help="Not this. Repeatable.")
+@click.option(
+    "--link", "only", multiple=True, metavar="NAME", help="Process only this link. Repeatable."
+)
+@click.option(
+    "--skip-link", "skip", multiple=True, metavar="NAME", help="Skip this link. Repeatable."
+)
 @click.option(
     "--keep-primitives/--replace-primitives",
     default=True,
-    help="Leave collisions that are primitives already.  [default: keep]",
+    help="Keep or replace collisions that are primitives.  [default: keep]",
 )
-@click.option("--mesh-dir", metavar="DIR", help="Folder of the pieces; default: beside OUT.")
+@click.option(
+    "--mesh-dir", metavar="DIR", help="Folder of the new mesh files.  [default: next to OUT]"
+)
 @click.option(
     "--uri",
     type=click.Choice(["auto", "package", "relative", "file"]),
     default="auto",
-    help="How pieces are named; auto: as the robot names its own meshes. relative holds for "
-    "its own, too, so that engines without ROS find them.",
+    show_default=True,
+    metavar="FORM",
+    help="URIs of new meshes: package, relative (also rewrites the URIs of existing meshes), file, "
+    "or auto (the form of the robot's meshes).",
 )
 @click.option(
-    "--mesh-format", type=click.Choice(["stl", "obj"]), default="stl", help="Files of the pieces."
+    "--mesh-format",
+    type=click.Choice(["stl", "obj"]),
+    default="stl",
+    show_default=True,
+    help="Format of the new mesh files.",
 )
-@click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
-@click.option("--scheduler", metavar="ADDRESS", help="A Dask scheduler that does the work.")
+@jobs_option
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler that runs the computation.")
 @gltf_option
 @package_options
 @click.pass_context
 def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int:
-    """Give the links of IN collision geometry that is cheap, tight and measured.
+    """Replace the collision geometry of the robot IN by simple shapes of known error.
 
-    IN is a .urdf or .xacro file; folders are searched for robots. OUT is the robot with one
-    <collision> a piece, its mesh files in --mesh-dir. 'urdftool collision mesh IN.stl -o OUT.stl'
-    simplifies one mesh.
+    IN is a .urdf or .xacro file, or a folder with robots. In OUT, each convex piece is a
+    <collision>. To simplify a single mesh file: 'urdftool collision mesh IN.stl -o OUT.stl'.
 
     \b
         urdftool collision arm.urdf -o arm_sim.urdf --max-error 0.01
@@ -88,20 +109,20 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
         urdftool collision robots/ -o simulated/ -j 8
         urdftool collision arm.urdf --check
 
-    Exit 1 if --check finds an error above --max-error, 2 if a mesh cannot be used or there
-    is nothing to check.
+    Exit code 1: --check measures an error above --max-error. Exit code 2: a mesh cannot be used, or
+    there is nothing to check.
     """  # noqa: D301 -- \b is a character that click looks for
     console: Console = ctx.obj
     paths, arguments = split_arguments(words)
     if not paths:
-        raise click.UsageError("a robot is wanted: a .urdf or .xacro file, or a folder of them")
+        raise click.UsageError("missing argument IN: a .urdf or .xacro file, or a folder")
     output, in_place, check = values["output"], values["in_place"], values["check"]
     if sum((output is not None, in_place, check)) != 1:
-        raise click.UsageError("one of -o OUT, --in-place and --check is wanted")
+        raise click.UsageError("exactly one of -o OUT, --in-place and --check is required")
     if in_place and "-" in paths:
         raise click.UsageError("standard input cannot be edited in place; use -o OUT")
     if check and values["scheduler"]:
-        raise click.UsageError("--check measures here; --scheduler is for making collisions")
+        raise click.UsageError("--check does not support --scheduler")
     checked_picture(values["picture"])
     require_libraries(values["method"], check=check)
     one_thread_each()

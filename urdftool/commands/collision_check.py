@@ -1,4 +1,4 @@
-"""``urdftool collision --check``: how good the collisions are that are there."""
+"""``urdftool collision --check``: measure existing collision geometry."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict[str, Any]) -> int:
-    """Measure the collisions of robots; the exit code."""
+    """Measure the collision geometry of robots, print the result, and return the exit code."""
     looks, owners = [], []
     for number, (robot, wishes) in enumerate(robots):
         check_names(robot, (*wishes.only, *wishes.skip))
@@ -50,11 +50,11 @@ def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict
 
 
 def _nothing(robot: Robot, wishes: Wishes) -> str:
-    """Why there was nothing to check."""
+    """Explain why nothing was checked."""
     shapes = sum(bool(link.collisions) for link in robot.links)
-    which = "of the links that were asked for, none" if wishes.only or wishes.skip else "no link"
-    have = f"; {counted(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} collisions"
-    return f"{which} has a visual to measure collisions against{have if shapes else ''}"
+    which = "none of the selected links" if wishes.only or wishes.skip else "no link"
+    have = f" ({counted(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} collisions)"
+    return f"{which} has visual geometry to compare with{have if shapes else ''}"
 
 
 def _tell(
@@ -64,11 +64,11 @@ def _tell(
     for line in report.remarks(found, limit):
         console.say(line)
     if not found:
-        console.say(f"{path}: nothing was checked, since {_nothing(robot, wishes)}")
+        console.say(f"{path}: nothing was checked, because {_nothing(robot, wishes)}")
         return 2
     say_gltf(console, robot)
     bad = sum(not report.is_good(item, limit) for item in found)
     console.note(
-        f"{path}: {counted(len(found), 'link')} with visuals, {bad} not within {limit:.2%}"
+        f"{path}: {counted(len(found), 'link')} with visuals, {bad} with an error above {limit:.2%}"
     )
     return int(bad > 0)

@@ -1,4 +1,4 @@
-"""``urdftool collision mesh``: one mesh file simplified."""
+"""``urdftool collision mesh``: simplify one mesh file."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from .collision_options import (
     settings_of,
     settings_options,
 )
+from .grouped_help import GroupedCommand
 from .options import gltf_option, gltf_up_for, scale_factors
 from .picture_file import checked_picture
 
@@ -23,17 +24,25 @@ if TYPE_CHECKING:
     from ..collision.compute import Result
 
 SUFFIXES = (".stl", ".obj")
+_GROUPS = {
+    "Input": "scale",
+    "Geometry": "method max_error max_hulls max_vertices max_triangles threshold",
+    "Output": "output style overwrite picture",
+    "Performance": "time_limit",
+}
 
 
-@click.command("mesh")
+@click.command("mesh", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("file", metavar="IN")
-@click.option("-o", "--output", metavar="OUT", help="An .stl or .obj file; without it, none.")
+@click.option(
+    "-o", "--output", metavar="OUT", help="Mesh file to write, .stl or .obj.  [default: none]"
+)
 @click.option(
     "--scale",
     default="1",
     callback=scale_factors,
     metavar="S | 'SX SY SZ'",
-    help="Factors, as URDF's <mesh scale>; negative ones mirror.",
+    help="Scale factors, as in <mesh scale>; negative factors mirror.",
 )
 @settings_options
 @gltf_option
@@ -48,8 +57,8 @@ def command(
 ) -> int:
     """Simplify the mesh IN: STL, OBJ, DAE, PLY, glTF or GLB.
 
-    OUT gets all pieces; where there are several, each gets a file of its own as well, numbered
-    beside OUT, since most engines take the hull of all that is in one file.
+    OUT contains all convex pieces. If there are several, each piece is also written to a numbered
+    file next to OUT, because most physics engines use the convex hull of a whole file.
 
     \b
         urdftool collision mesh gripper.stl -o gripper_col.obj --method coacd --max-hulls 16
@@ -58,7 +67,7 @@ def command(
     checked_picture(values["picture"])
     check_targets([output, values["picture"]], inputs=[file])
     if output is not None and not output.lower().endswith(SUFFIXES):
-        raise click.UsageError(f"OUT wants to end in .stl or .obj; '{output}' does not")
+        raise click.UsageError(f"OUT must end in .stl or .obj, but is '{output}'")
     require_libraries(values["method"])
     one_thread_each()
     from ..collision.cache import key_of, known_result
@@ -103,9 +112,11 @@ def command(
     for line in report.notes([row]):
         console.note(line, level=1)
     if len(files) > 1 and files[0] != files[1]:
-        console.note(f"{output} has all pieces; {files[0]} … {Path(files[-1]).name} one each")
+        console.note(
+            f"{output} contains all pieces; {files[0]} … {Path(files[-1]).name} one piece each"
+        )
     if cache.trouble:
-        console.note(f"the result could not be kept in the cache: {cache.trouble}")
+        console.note(f"the result was not stored in the cache: {cache.trouble}")
     return 0
 
 
@@ -120,7 +131,7 @@ def _primitive(piece: Any) -> str:
 
 
 def _write(file: str, result: Result, output: str | None, overwrite: bool) -> tuple[str, ...]:
-    """Write the pieces; the names of their files, in their order."""
+    """Write the pieces, and return the names of their files in the same order."""
     if output is None:
         return ()
     from ..collision.mesh_files import mesh_bytes, write_all

@@ -1,4 +1,4 @@
-"""What ``urdftool collision`` and ``urdftool collision mesh`` have in common."""
+"""Options that ``urdftool collision`` and ``urdftool collision mesh`` share."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
-_PATIENCE = 1.0  # seconds
 _NAMES = (
     "method",
     "max_error",
@@ -31,12 +30,12 @@ _NAMES = (
 
 def _positive(ctx: click.Context, parameter: click.Parameter, value: float) -> float:
     if not 0 < value < float("inf"):
-        raise click.BadParameter(f"{value:g} is not above zero", ctx, parameter)
+        raise click.BadParameter(f"{value:g} is not greater than zero", ctx, parameter)
     return value
 
 
 def settings_options(function: F) -> F:
-    """The choices of ``Settings``, and those about speed and reports."""
+    """Add the options of :class:`Settings`, of the cache and of the output."""
     for option in reversed(_OPTIONS):
         function = option(function)
     return function
@@ -48,7 +47,8 @@ _OPTIONS = (
         type=click.Choice(METHODS),
         default="auto",
         show_default=True,
-        help="How meshes are simplified; auto takes the cheapest within --max-error.",
+        metavar="METHOD",
+        help="Method: primitive, hull, coacd, simplify, or auto (cheapest within --max-error).",
     ),
     click.option(
         "--max-error",
@@ -57,13 +57,15 @@ _OPTIONS = (
         show_default=True,
         callback=_positive,
         metavar="E",
-        help="Largest distance of mesh and collision, relative to the diagonal of the part's box.",
+        help="Maximum distance between mesh and collision, as a fraction of the diagonal of the "
+        "mesh's bounding box.",
     ),
     click.option(
         "--max-hulls",
         type=click.IntRange(1),
         metavar="N",
-        help="Convex pieces a mesh may become; without it 32 for auto, any number for coacd.",
+        help="Maximum number of convex pieces per mesh.  [default: 32 for auto, unlimited for "
+        "coacd]",
     ),
     click.option(
         "--max-vertices",
@@ -71,7 +73,7 @@ _OPTIONS = (
         default=64,
         show_default=True,
         metavar="N",
-        help="Vertices a convex piece may have.",
+        help="Maximum number of vertices per convex piece.",
     ),
     click.option(
         "--max-triangles",
@@ -79,7 +81,7 @@ _OPTIONS = (
         default=1000,
         show_default=True,
         metavar="N",
-        help="Triangles that simplify and coacd leave of a mesh.",
+        help="Maximum number of triangles of a mesh after simplify or coacd.",
     ),
     click.option(
         "--threshold",
@@ -87,7 +89,7 @@ _OPTIONS = (
         default=0.06,
         show_default=True,
         metavar="T",
-        help="CoACD's concavity at which --method coacd stops to cut.",
+        help="Concavity below which --method coacd stops cutting (CoACD threshold).",
     ),
     click.option(
         "--time-limit",
@@ -96,41 +98,42 @@ _OPTIONS = (
         show_default=True,
         callback=_positive,
         metavar="S",
-        help="Processor time of CoACD for one mesh, in all [s].",
+        help="Maximum total CPU time of CoACD per mesh [s].",
     ),
     *CACHE_OPTIONS,
     click.option(
-        "--picture", metavar="FILE.png", help="Draw what was there beside what there is now."
+        "--picture", metavar="FILE.png", help="Write a picture of the geometry before and after."
     ),
     click.option(
         "--format",
         "style",
         type=click.Choice(["table", "json"]),
         default="table",
-        help="How the result is told.",
+        show_default=True,
+        help="Output format.",
     ),
-    click.option("--overwrite", is_flag=True, help="Replace mesh files that are not ours."),
+    click.option("--overwrite", is_flag=True, help="Overwrite mesh files not written by urdftool."),
 )
 
 
 def settings_of(values: dict[str, Any]) -> Settings:
-    """The settings that the options say."""
+    """Make the settings from the values of the options, by parameter name."""
     from ..collision.settings import Settings
 
     return Settings(**{name: values[name] for name in _NAMES})
 
 
 def given_names(ctx: click.Context) -> tuple[str, ...]:
-    """The settings that stand on the command line."""
+    """Return the names of the settings that are given on the command line."""
     source = click.core.ParameterSource.COMMANDLINE
     return tuple(name for name in _NAMES if ctx.get_parameter_source(name) == source)
 
 
 def cache_of(values: dict[str, Any]) -> DiskCache:
-    """The cache that the options say.
+    """Open the result cache that the options choose.
 
     Raises:
-        click.UsageError: Two options contradict each other.
+        click.UsageError: ``--cache-dir`` and ``--no-cache`` are both given.
     """
     from ..storage import DiskCache
 
@@ -141,7 +144,7 @@ def require_libraries(method: str, *, check: bool = False) -> None:
     """Check that the libraries of a method are installed, before anything is read.
 
     Raises:
-        MissingDependency: One of them is not.
+        MissingDependency: A library is missing.
     """
     from ..extras import require
 
@@ -151,6 +154,6 @@ def require_libraries(method: str, *, check: bool = False) -> None:
 
 
 def one_thread_each() -> None:
-    """Keep the numerical libraries from starting threads of their own beside our processes."""
+    """Limit the numerical libraries to one thread per worker process."""
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")

@@ -1,4 +1,4 @@
-"""The work of ``urdftool collision`` on one robot or a fleet: read, compute, write, tell."""
+"""Simplify the collision geometry of one robot or several: read, compute, write, report."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _FEW = 6
 
 @dataclass
 class Job:
-    """A robot on its way: read, and what is to be done to it."""
+    """Robot that was read, with the plans for its links and the place of its output."""
 
     path: str
     robot: Robot
@@ -47,14 +47,18 @@ class Job:
 
     @property
     def tasks(self) -> list[Task]:
-        """The meshes it needs."""
+        """Meshes to simplify."""
         return tasks_of(self.plans)
 
 
 def one(
     ctx: click.Context, console: Console, path: str, arguments: dict[str, str], values: Values
 ) -> int:
-    """One robot; what is wrong with it ends the command."""
+    """Process one robot, and return the exit code.
+
+    Raises:
+        UrdftoolError: The robot cannot be read, or a mesh cannot be simplified.
+    """
     robot = require_links(_read(console, path, arguments, values))
     check_picture(values["picture"], robot)
     wishes = _wishes(ctx, console, path, values)
@@ -74,7 +78,7 @@ def one(
     if values["picture"]:
         _draw(values["picture"], robot, job.plans, done)
     if cache.trouble:
-        console.note(f"results could not be kept in the cache: {cache.trouble}")
+        console.note(f"the results were not stored in the cache: {cache.trouble}")
     return 0
 
 
@@ -93,14 +97,14 @@ def fleet(
     arguments: dict[str, str],
     values: Values,
 ) -> int:
-    """Many robots, their meshes in one heap; what is wrong with one does not stop the others."""
+    """Process several robots with one pool of workers; an error in one does not stop the others."""
     from ..lint.discover import find_descriptions, nothing_below
 
     files = find_descriptions(paths)
     if not files:
         raise click.UsageError(nothing_below(paths))
     if values["picture"]:
-        raise click.UsageError("--picture draws one robot, not several")
+        raise click.UsageError("--picture does not support several robots")
     root = os.path.commonpath([os.path.abspath(p) for p in paths])
     root = root if os.path.isdir(root) else os.path.dirname(root)
     code = 0
@@ -110,7 +114,7 @@ def fleet(
         try:
             robot = _read(console, path, arguments, values)
             if not robot.links:
-                console.note(f"{path}: skipped, it has no links of its own", level=1)
+                console.note(f"{path}: skipped, the file has no links", level=1)
                 continue
             wishes = _wishes(ctx, console, path, values)
             if values["check"]:
@@ -174,13 +178,13 @@ def _planned(
 
 
 def _place(path: str, output: str | None, values: Values) -> Place:
-    """Where a robot goes; a description on stdout has its pieces in the current folder."""
+    """Choose the place of the output; with ``-o -``, mesh files go to the current folder."""
     bare = output == "-"
     target = Path(output if output and not bare else path)
     if bare:
         target = Path.cwd() / (target.name if path != "-" else "robot.urdf")
     elif output and target.suffix.lower() not in SUFFIXES:
-        raise click.UsageError(f"OUT wants to end in .urdf; '{output}' does not")
+        raise click.UsageError(f"OUT must end in .urdf, but is '{output}'")
     return Place(
         target,
         Path(values["mesh_dir"]) if values["mesh_dir"] else None,
@@ -193,7 +197,11 @@ def _place(path: str, output: str | None, values: Values) -> Place:
 
 
 def _refuse_failed(console: Console, job: Job, results: dict[Task, Result | UrdftoolError]) -> None:
-    """Say which meshes could not be simplified, and the links that want them."""
+    """Report the meshes that could not be simplified, with their links.
+
+    Raises:
+        UrdftoolError: There is such a mesh.
+    """
     problems, links = [], []
     for item in job.plans:
         failed = [f for t in tasks_of([item]) if isinstance(f := results[t], UrdftoolError)]
@@ -203,7 +211,11 @@ def _refuse_failed(console: Console, job: Job, results: dict[Task, Result | Urdf
 
 
 def _refuse(console: Console, problems: Sequence[UrdftoolError], links: Sequence[str] = ()) -> None:
-    """Say all that is wrong with meshes, the last as the error that ends the work."""
+    """Report all problems, and raise the last of them.
+
+    Raises:
+        UrdftoolError: There is a problem.
+    """
     unique = list({str(problem): problem for problem in problems}.values())
     for problem in unique[:-1]:
         console.error(problem)
@@ -211,8 +223,8 @@ def _refuse(console: Console, problems: Sequence[UrdftoolError], links: Sequence
         last = unique[-1]
         names = links if 0 < len(links) <= _FEW else ("NAME",)
         skips = " ".join(f"--skip-link {quote(name)}" for name in names)
-        which = "leaves a link as it is" if len(names) == 1 else "leaves these links as they are"
-        last.notes = (*last.notes, f"nothing was written; {skips} {which}")
+        which = "skips a link" if len(names) == 1 else "skips these links"
+        last.notes = (*last.notes, f"no file was written; {skips} {which}")
         raise last
 
 
@@ -230,7 +242,7 @@ def _compute(
 
 
 def _beside(values: Values, path: str, root: str) -> str | None:
-    """Where a robot of a fleet goes: below the output folder as it lies below the given ones."""
+    """Return the output path of one of several robots, relative to the common input folder."""
     if values["output"] is None:
         return None
     relative = os.path.relpath(os.path.abspath(path), root)

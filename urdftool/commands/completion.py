@@ -1,7 +1,6 @@
-"""What the shell completes beyond commands and options: paths, rules and targets.
+"""Completion of values in the shell: paths, rules and targets.
 
-Only a shell that asks for completions comes here. What is to be completed follows from how a
-parameter's value is called in the help.
+The kind of value is derived from the metavar of a parameter. Imported only for completion.
 """
 
 from __future__ import annotations
@@ -13,14 +12,14 @@ _PATHS = ("FILE", "IN", "OUT", "PATH", "A [")
 
 
 def prepare() -> None:
-    """Let parameters that take any text complete it; for the rest of this process."""
+    """Install :func:`complete_text` for all parameters that accept any text."""
     click.STRING.shell_complete = complete_text  # type: ignore[assignment]
 
 
 def complete_text(
     ctx: click.Context, parameter: click.Parameter, incomplete: str
 ) -> list[CompletionItem]:
-    """What can stand for a value; a path the shell completes itself."""
+    """Return the completions of a value; for a path, the shell completes it."""
     metavar = parameter.metavar or ""
     if metavar == "DIR":
         return [CompletionItem(incomplete, type="dir")]

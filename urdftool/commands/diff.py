@@ -1,4 +1,4 @@
-"""``urdftool diff``: what changed between two robots."""
+"""``urdftool diff``: compare two robots."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .options import ASSIGN, output_option, package_options, split_arguments
 
 if TYPE_CHECKING:
@@ -19,22 +20,25 @@ if TYPE_CHECKING:
 Side = tuple[str, dict[str, str]]
 
 
-@click.command("diff")
+_GROUPS = {"Comparison": "tolerance", "Output": "style output"}
+
+
+@click.command("diff", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="A [name:=value ...] B [name:=value ...]")
-@output_option("Write it there; without it, to standard output.")
+@output_option("Output file.  [default: standard output]")
 @click.option(
     "--tolerance",
     type=click.FloatRange(0.0),
     metavar="T",
-    help="Numbers that differ by less are equal: relative, and for origins in metres and radians. "
-    "[default: 1e-9]",
+    help="Tolerance of numbers, relative; of origins, absolute [m and rad].  [default: 1e-9]",
 )
 @click.option(
     "--format",
     "style",
     type=click.Choice(["text", "json", "markdown"]),
     default="text",
-    help="How the result is shown.",
+    show_default=True,
+    help="Output format.",
 )
 @package_options
 @click.pass_obj
@@ -47,19 +51,18 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Say what changed from the robot A to the robot B, as a reviewer means it.
+    """List the changes from the robot A to the robot B, ignoring order and formatting.
 
-    Links, joints, origins as poses, masses, limits, geometry, and the blocks for simulators and
-    controllers; not order, layout or how a number is written. A and B are .urdf or .xacro files;
-    REV:PATH is a file at a git revision, with its includes. xacro arguments follow the file they
-    are for; those after B hold for A too if A has none.
+    Links, joints, poses, masses, limits, geometry, and elements for simulators and controllers are
+    compared. A and B are .urdf or .xacro files, or REV:PATH for a file of a git revision. xacro
+    arguments follow their file; those of B are also used for A if A has none.
 
     \b
         urdftool diff HEAD:arm.urdf.xacro arm.urdf.xacro
         urdftool diff arm.urdf.xacro prefix:=left_ arm.urdf.xacro prefix:=right_
         urdftool diff main:arm.urdf arm.urdf --format markdown
 
-    Exit 1 if they differ.
+    Exit code 1: the robots differ.
     """  # noqa: D301 -- click reads the escape
     from ..compare.closeness import TOLERANCE
     from ..compare.differences import compare
@@ -68,7 +71,7 @@ def command(
 
     one, two = _sides(words)
     if one[0] == two[0] == "-":
-        raise click.UsageError("standard input can be one of the two, not both")
+        raise click.UsageError("only one of A and B can be standard input ('-')")
     limit = TOLERANCE if tolerance is None else tolerance
     a = _read(console, one, package, package_path)
     b = _read(console, two, package, package_path)
@@ -87,7 +90,7 @@ def command(
 
 
 def _sides(words: tuple[str, ...]) -> tuple[Side, Side]:
-    """Both files with their xacro arguments."""
+    """Split the words into both files, each with its xacro arguments."""
     sides: list[list[str]] = []
     for word in words:
         if ASSIGN not in word:
@@ -95,9 +98,9 @@ def _sides(words: tuple[str, ...]) -> tuple[Side, Side]:
         elif sides:
             sides[-1].append(word)
         else:
-            raise click.UsageError(f"'{word}' stands before the file it is for")
+            raise click.UsageError(f"xacro argument '{word}' must follow a file")
     if len(sides) != 2:
-        raise click.UsageError(f"two robots are wanted, not {len(sides)}")
+        raise click.UsageError(f"{len(sides)} files are given, but the command compares two robots")
     a, b = (split_arguments(tuple(side))[1] for side in sides)
     return (sides[0][0], a or b), (sides[1][0], b)
 
@@ -119,7 +122,7 @@ def _read(
             arguments,
             {name: checkout.there(folder) for name, folder in package.items()},
             [str(checkout.there(folder)) for folder in package_path],
-            neighbours=checkout.neighbours(),
+            neighbors=checkout.neighbors(),
             shown=checkout.shown,
         )
     return checkout.renamed(robot)
@@ -127,7 +130,7 @@ def _read(
 
 @contextmanager
 def _at_revision(checkout: Checkout) -> Iterator[None]:
-    """Errors say the revision, not the temporary folder."""
+    """Replace the temporary folder by the revision in the paths of errors."""
     from ..errors import UrdftoolError
 
     try:

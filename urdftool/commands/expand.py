@@ -1,4 +1,4 @@
-"""``urdftool expand``: xacro to URDF."""
+"""``urdftool expand``: expand xacro to URDF."""
 
 from __future__ import annotations
 
@@ -7,22 +7,30 @@ from pathlib import Path
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .options import output_option, package_options, robot_argument
 
+_GROUPS = {
+    "What to do": "output check deps list_args",
+    "More output": "depfile source_map",
+}
 
-@click.command("expand")
+
+@click.command("expand", cls=GroupedCommand, groups=_GROUPS)
 @robot_argument
-@output_option("Write the URDF there; without it, to standard output.")
-@click.option("--deps", is_flag=True, help="List the files that are read, and expand nothing.")
-@click.option("--depfile", metavar="OUT.d", help="Write a make rule for OUT with those files.")
-@click.option("--list-args", is_flag=True, help="List the xacro arguments with their defaults.")
+@output_option("Output file.  [default: standard output]")
+@click.option("--deps", is_flag=True, help="Print the files that are read, instead of the URDF.")
+@click.option("--depfile", metavar="OUT.d", help="Write a make rule with the dependencies of OUT.")
 @click.option(
-    "--check", metavar="OUT", help="Compare with a committed URDF; exit 1 if it is stale."
+    "--list-args", is_flag=True, help="Print the xacro arguments and their defaults, not the URDF."
+)
+@click.option(
+    "--check", metavar="OUT", help="Compare with the URDF file OUT; exit with 1 if it is outdated."
 )
 @click.option(
     "--source-map",
     metavar="FILE",
-    help="Write where each element came from, as JSON ('-': stdout).",
+    help="Write the source position of each element as JSON ('-': standard output).",
 )
 @package_options
 @click.pass_obj
@@ -38,11 +46,11 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Expand the xacro file IN to URDF, equal as XML to what xacro prints.
+    """Expand the xacro file IN to URDF, without ROS; the XML equals that of xacro.
 
-    IN is a .xacro or .urdf.xacro file, or '-'. Arguments follow it as name:=value. ROS is not
-    needed: $(find NAME) looks in the file's workspace, the configuration, ROS_PACKAGE_PATH and
-    AMENT_PREFIX_PATH, and follows install() rules.
+    IN is a .xacro file or '-' (standard input); xacro arguments follow as name:=value. Packages of
+    $(find NAME) are searched in the file's workspace, the configuration, ROS_PACKAGE_PATH and
+    AMENT_PREFIX_PATH; install() rules are followed.
 
     \b
         urdftool expand arm.urdf.xacro prefix:=left_ -o arm.urdf
@@ -58,7 +66,7 @@ def command(
 
     path, arguments = robot
     if depfile and not output:
-        raise click.UsageError("--depfile wants -o OUT, the file its rule is for")
+        raise click.UsageError("--depfile requires -o OUT, the target of its make rule")
     if sum(map(bool, (deps, list_args, check))) > 1:
         raise click.UsageError("--deps, --list-args and --check exclude each other")
     file = read_file(path)
@@ -91,7 +99,7 @@ def command(
 def _check(console: Console, difference: str, check: str) -> int:
     if difference:
         click.echo(difference, nl=False)
-        console.note(f"{check}: is stale; expand again with -o {check}")
+        console.note(f"{check}: is outdated; update it with -o {check}")
         return 1
     console.note(f"{check}: is up to date", level=1)
     return 0

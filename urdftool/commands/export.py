@@ -1,4 +1,4 @@
-"""``urdftool export``: the robot in the language of a simulator."""
+"""``urdftool export``: convert a robot to the format of a simulator."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .general_options import accept_general_options
 
 
 class Formats(click.Group):
-    """The formats that can be written, each imported when it is used."""
+    """Group with a command for each output format, imported on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return their names."""
@@ -26,4 +26,4 @@ class Formats(click.Group):
 
 @click.command("export", cls=Formats)
 def command() -> None:
-    """Turn a robot into what a simulator needs, and prove it is the same robot."""
+    """Convert a robot to the format of a simulator."""

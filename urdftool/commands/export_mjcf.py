@@ -1,4 +1,4 @@
-"""``urdftool export mjcf``: a MuJoCo model."""
+"""``urdftool export mjcf``: convert a robot to a MuJoCo model."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import click
 
 from ..console import Console
 from .export_options import export_options, fix_inertia_option
+from .grouped_help import GroupedCommand
 from .options import gltf_option, name_numbers, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
 
@@ -17,96 +18,107 @@ from .read_strict import read_strict, say_gltf
 def _pose(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> tuple[str, dict[str, float]]:
-    """The name of a group state, and the positions by joint."""
+    """Parse the name of an SRDF group state, and joint positions by name."""
     names = [value for value in values if "=" not in value]
     if len(names) > 1:
-        raise click.BadParameter(f"{' and '.join(names)}: one group state at most", ctx, parameter)
+        raise click.BadParameter(
+            f"{' and '.join(names)}: only one group state is possible", ctx, parameter
+        )
     positions = tuple(value for value in values if "=" in value)
     return "".join(names), name_numbers(ctx, parameter, positions)
 
 
-@click.command("mjcf")
+_GROUPS = {
+    "Output": "output scene mesh_dir overwrite style",
+    "Robot": "base pose srdf base_sensors exclude fuse keep_locked_joints fix_inertia decompose",
+    "Actuators": "actuators actuator_config armature",
+    "Verification": "verified strict force",
+}
+
+
+@click.command("mjcf", cls=GroupedCommand, groups=_GROUPS)
 @robot_argument
 @click.option(
     "-o",
     "--output",
     metavar="OUT",
-    help="A folder, or a file that ends in .xml or .mjcf; '-' is standard output.",
+    help="Output folder, or .xml or .mjcf file.  [default: standard output]",
 )
 @click.option(
     "--actuators",
     type=click.Choice(("auto", "none", "position", "velocity", "motor")),
     default="auto",
-    help="As transmissions, ros2_control and drive plugins say (auto), none, or one kind for all.",
+    show_default=True,
+    metavar="KIND",
+    help="Actuators: none, position, velocity or motor for all joints, or auto (from "
+    "transmissions, ros2_control and drive plugins).",
 )
 @click.option(
     "--base",
     type=click.Choice(("auto", "fixed", "free")),
     default="auto",
-    help="Whether the root is held; auto: free where the robot stands on legs or driven wheels, or "
-    "where the description says so.",
+    show_default=True,
+    help="Base of the robot; auto: free for robots with legs or driven wheels, or if the file "
+    "defines it so.",
 )
-@click.option("--scene", is_flag=True, help="Write also scene.xml, with a floor and light.")
+@click.option("--scene", is_flag=True, help="Also write scene.xml with a floor and a light.")
 @click.option(
     "--srdf",
     metavar="FILE",
     type=Path,
-    help="Take over an SRDF's disabled collisions and its group state for the home position.",
+    help="SRDF file with disabled collisions and group states for the home position.",
 )
 @click.option(
     "--pose",
     multiple=True,
     metavar="JOINT=VALUE|NAME",
     callback=_pose,
-    help="Position of a joint in the home position [rad or m], or the name of the SRDF's group "
-    "state. Repeatable.",
+    help="Home position of a joint [rad or m], or name of an SRDF group state. Repeatable.",
 )
 @click.option(
     "--base-sensors",
     is_flag=True,
-    help="Add linear velocity, gyro, accelerometer and orientation of a free base where the file "
-    "has none.",
+    help="Add missing sensors of a free base: linear velocity, gyro, accelerometer, orientation.",
 )
 @click.option(
     "--exclude",
     type=click.Choice(("touching", "adjacent", "none")),
     default="touching",
     show_default=True,
-    help="Links that never collide: those that a joint joins (adjacent), also those that overlap "
-    "at home (touching), or none but those of --srdf.",
+    metavar="PAIRS",
+    help="Link pairs without contacts: adjacent (joined by a joint), touching (also those that "
+    "overlap at home), or none (only those of --srdf).",
 )
 @click.option(
     "--fuse",
     is_flag=True,
-    help="Merge links that are fixed to another into it; their frames become sites.",
+    help="Merge links of fixed joints into their parents; their frames become sites.",
 )
 @click.option(
     "--actuator-config",
     metavar="FILE",
     type=Path,
-    help='TOML file: under [joints."NAME or PATTERN"] kp, kd, armature, damping, friction, '
-    "force-range, type.",
+    help="TOML file with kp, kd, armature, damping, friction, force-range and type under "
+    '[joints."NAME or PATTERN"].',
 )
 @click.option(
     "--armature",
     metavar="VALUE",
     type=click.FloatRange(min=0),
-    help="Rotor inertia reflected at every joint [kg·m²; kg of a slide].",
+    help="Rotor inertia reflected at every joint [kg·m², or kg for prismatic joints].",
 )
 @click.option(
     "--keep-locked-joints",
     is_flag=True,
-    help="Keep joints with lower = upper, held by an equality; without it their links are welded.",
+    help="Keep joints with lower = upper, held by an equality (default: weld their links).",
 )
 @fix_inertia_option
-@click.option(
-    "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."
-)
+@click.option("--decompose", is_flag=True, help="Decompose collision meshes into convex pieces.")
 @export_options(
     mesh_dir="assets",
     verify=(
-        "Compile it in MuJoCo and prove by comparison with IN: tree, masses, limits, base, "
-        "contacts, friction, gravity, springs, actuators, sensors, looks, home position."
+        "Compile the result in MuJoCo and compare it with IN: tree, masses, limits, base, "
+        "contacts, friction, gravity, springs, actuators, sensors, visuals, home position."
     ),
 )
 @gltf_option
@@ -128,10 +140,10 @@ def command(
     pose: tuple[str, dict[str, float]],
     **choices: Any,
 ) -> int:
-    """Turn the robot IN into a MuJoCo model, and prove that it is the same robot.
+    """Convert the robot IN to a MuJoCo model (MJCF).
 
-    One body a link, with its mass, names and limits as they are; meshes are copied or converted.
-    What is lost is said, with its place.
+    Each link becomes a body with the same name, mass and joint limits; meshes are copied or
+    converted. Every loss is reported with its place; --verify compares the model with IN.
 
     \b
         urdftool export mjcf panda.urdf -o panda/ --scene --verify

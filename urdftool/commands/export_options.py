@@ -1,4 +1,4 @@
-"""Options that mean the same in every export."""
+"""Options that have the same meaning in every export."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
-    """Where meshes go, what may be replaced, how strict it is, and the form of the result.
+    """Make a decorator that adds the options of meshes, strictness, verification and output.
 
     Args:
-        mesh_dir: The folder of the meshes, if none is named.
-        verify: What ``--verify`` does, in a sentence.
+        mesh_dir: Default of ``--mesh-dir``.
+        verify: Help text of ``--verify``.
     """
     options = [
         click.option(
@@ -27,18 +27,25 @@ def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
             default=mesh_dir,
             show_default=True,
             callback=_beside,
-            help="Folder of the meshes, beside the model.",
+            help="Folder of the mesh files, relative to the model.",
         ),
-        click.option("--overwrite", is_flag=True, help="Replace also what urdftool did not write."),
-        click.option("--strict", is_flag=True, help="What cannot be carried is an error."),
-        click.option("--force", is_flag=True, help="Go on past errors where a robot is left."),
+        click.option("--overwrite", is_flag=True, help="Overwrite files not written by urdftool."),
+        click.option(
+            "--strict",
+            is_flag=True,
+            help="Treat information that the format cannot hold as an error.",
+        ),
+        click.option(
+            "--force", is_flag=True, help="Export despite errors, if a usable robot remains."
+        ),
         click.option("--verify", "verified", is_flag=True, help=verify),
         click.option(
             "--format",
             "style",
             type=click.Choice(("text", "json")),
             default="text",
-            help="How the result is shown.",
+            show_default=True,
+            help="Output format of the report.",
         ),
     ]
 
@@ -51,20 +58,26 @@ def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
 
 
 def fix_inertia_option(function: F) -> F:
-    """``--fix-inertia``: what becomes of a tensor that no rigid body has."""
+    """Add ``--fix-inertia``, the repair of physically inconsistent inertia tensors."""
     return click.option(
         "--fix-inertia",
         type=click.Choice(REPAIRS),
         default="none",
-        help="What to do with a tensor that no rigid body has; none: refuse it.",
+        metavar="REPAIR",
+        show_default=True,
+        help="Repair of physically inconsistent inertia: lift, balance, box, or none (refuse it).",
     )(function)
 
 
 def _beside(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
-    """A folder beside the model, with single slashes."""
+    """Return a folder relative to the model, with single slashes.
+
+    Raises:
+        UsageError: The folder is absolute, or outside of the model's folder.
+    """
     folder = Path(value)
     if folder.is_absolute() or ".." in folder.parts:
         raise click.UsageError(
-            f"--mesh-dir is a folder beside the model, such as {parameter.default}", ctx
+            f"--mesh-dir must be a folder relative to the model, such as {parameter.default}", ctx
         )
     return folder.as_posix()

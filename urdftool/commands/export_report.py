@@ -1,4 +1,4 @@
-"""What every export says and does at its end: losses, the comparison, the files."""
+"""Run an export, and report its losses, the comparison and the files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
-    """Every defect, one a line; nothing is written."""
+    """Print every defect on one line; nothing is written. Return the exit code."""
     from ..formats.common.loss_report import format_lines
 
     if as_json:
@@ -30,7 +30,7 @@ def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
     report = list(format_lines(findings))
     for line in report:
         click.echo(visible(line), err=True)
-    click.echo(f"urdftool: nothing is written: {counted(len(report), 'error')}", err=True)
+    click.echo(f"urdftool: no file was written: {counted(len(report), 'error')}", err=True)
     return 2
 
 
@@ -50,22 +50,22 @@ def run_export(
     """Export a robot, and report what was lost, compared and written.
 
     Args:
-        console: Where messages go.
-        target: The format.
-        robot: The robot.
-        options: The options of its writer.
-        output: Where it goes; ``-`` is standard output.
+        console: Output for messages.
+        target: Output format.
+        robot: Robot.
+        options: Options of the format's writer.
+        output: File or folder; ``-`` is standard output.
         strict: Treat losses as errors.
         verify: Compare the result with the robot.
-        overwrite: Replace also what urdftool did not write.
-        as_json: Print the result as JSON.
-        more_checks: Finds what else to report of the robot.
+        overwrite: Overwrite files not written by urdftool.
+        as_json: Print the report as JSON.
+        more_checks: Returns further findings about the robot.
 
     Returns:
         The exit code.
 
     Raises:
-        OutputError: It cannot be written there; what was there is as it was.
+        OutputError: The output cannot be written; existing files are unchanged.
     """
     from ..formats.common.loss_report import losses_as_errors
     from ..formats.defects import Refused
@@ -92,15 +92,15 @@ def run_export(
 
 
 def _print_model(written: Written, *, as_json: bool) -> None:
-    """Print a model without companions, unless standard output is for JSON.
+    """Print a model that consists of one file, unless the report is printed as JSON.
 
     Raises:
-        OutputError: Other files come with it.
+        OutputError: The model consists of several files.
     """
     from ..errors import OutputError
 
     if len(written.files) > 1:
-        raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
+        raise OutputError("the model has several files (meshes or a scene); write them with -o OUT")
     content = written.files[written.main]
     if not as_json and isinstance(content, bytes):
         click.echo(content, nl=False)
@@ -115,18 +115,18 @@ def report_written(
     as_json: bool,
     not_compared: Sequence[str] = (),
 ) -> int:
-    """Losses on stderr, the table or JSON on stdout; notes only for those who asked for more.
+    """Print losses to stderr, and the table or JSON to stdout; notes only with ``-v``.
 
     Args:
-        console: Where messages go.
-        written: What was exported.
-        checks: What was compared; nothing without ``--verify``.
-        output: Where it was written; ``-`` for standard output.
-        as_json: Whether the result is JSON.
-        not_compared: What ``--verify`` does not compare.
+        console: Output for messages.
+        written: Exported files and losses.
+        checks: Results of the comparison; empty without ``--verify``.
+        output: File or folder; ``-`` for standard output.
+        as_json: Print the report as JSON.
+        not_compared: Properties that ``--verify`` does not compare.
 
     Returns:
-        The exit code: 1 where something differs that was not announced.
+        The exit code: 1 if a property differs without a reported loss.
     """
     from ..finding import Severity
     from ..formats.check import is_faithful

@@ -1,4 +1,4 @@
-"""``urdftool export sdf``: the robot for Gazebo."""
+"""``urdftool export sdf``: convert a robot to SDF for Gazebo."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import click
 
 from ..console import Console
 from .export_options import export_options, fix_inertia_option
+from .grouped_help import GroupedCommand
 from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
 
@@ -17,51 +18,64 @@ if TYPE_CHECKING:
     from ..formats.sdf.options import Options
 
 
-@click.command("sdf")
+_GROUPS = {
+    "Output": "output world uri mesh_dir overwrite style",
+    "Conversion": "target version fixed_joints fix_inertia actuator_config",
+    "Verification": "verified strict force",
+}
+
+
+@click.command("sdf", cls=GroupedCommand, groups=_GROUPS)
 @robot_argument
 @click.option(
     "-o",
     "--output",
     metavar="OUT",
-    help="A folder, or a file that ends in .sdf, .xml or .world; '-' is standard output.",
+    help="Output folder, or .sdf, .xml or .world file.  [default: standard output]",
 )
 @click.option(
     "--target",
     type=click.Choice(("gz", "gazebo-classic")),
     default="gz",
     show_default=True,
-    help="The Gazebo it is for.",
+    help="Target simulator.",
 )
 @click.option(
     "--sdf-version",
     "version",
     type=click.Choice(("1.6", "1.7", "1.9", "1.10", "1.11", "1.12")),
-    help="1.9 to 1.12 for gz (default 1.11), 1.6 and 1.7 for gazebo-classic (default 1.7).",
+    metavar="VERSION",
+    help="SDF version: 1.9 to 1.12 for gz, 1.6 or 1.7 for gazebo-classic.  [default: 1.11 for gz, "
+    "1.7 for gazebo-classic]",
 )
 @click.option(
     "--fixed-joints",
     type=click.Choice(("keep", "lump")),
-    help="Keep them (default for gz), or make one link of what they join (for gazebo-classic).",
+    metavar="METHOD",
+    help="Fixed joints: keep, or lump their links into one.  [default: keep for gz, lump for "
+    "gazebo-classic]",
 )
 @click.option(
     "--uri",
     type=click.Choice(("relative", "model", "package", "file")),
-    help="How meshes are named; with package and file none is copied.",
+    metavar="FORM",
+    help="Form of mesh URIs: relative, model, package or file; meshes are copied for relative and "
+    "model only.",
 )
-@click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
+@click.option("--world", is_flag=True, help="Write a world with the model, a ground and a sun.")
 @click.option(
     "--actuator-config",
     metavar="FILE",
     type=Path,
-    help='TOML file: under [joints."NAME or PATTERN"] damping, friction, force-range; the same '
-    "file as for export mjcf.",
+    help='TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
+    "the same file as for export mjcf.",
 )
 @fix_inertia_option
 @export_options(
     mesh_dir="meshes",
     verify=(
-        "Read it back and prove by comparison with IN: tree, masses, limits, base, contacts, "
-        "friction, flags, springs, sensors, plugins, looks."
+        "Read the result and compare it with IN: tree, masses, limits, base, contacts, friction, "
+        "flags, springs, sensors, plugins, visuals."
     ),
 )
 @gltf_option
@@ -80,10 +94,10 @@ def command(
     style: str,
     **choices: Any,
 ) -> int:
-    """Turn the robot IN into SDF for Gazebo, and prove that it is the same robot.
+    """Convert the robot IN to SDF for Gazebo.
 
-    A folder has model.config, model.sdf and meshes; a file its meshes beside it. Links, joints and
-    what <gazebo> says of them stay under their names. What is lost is said, with its place.
+    A folder OUT contains model.config, model.sdf and meshes; meshes of a file OUT are written next
+    to it. Every loss is reported with its place; --verify compares the model with IN.
 
     \b
         urdftool export sdf arm.urdf.xacro -o arm/ --verify
@@ -113,18 +127,18 @@ def command(
 
 
 def _options(output: str, choices: dict[str, Any]) -> Options:
-    """The choices, with those that follow from where it goes."""
+    """Make the options of the writer from those of the command line and the output path."""
     from ..formats.sdf.options import MODEL, VERSIONS, Options, folder_and_file
 
     target, version = choices["target"], choices.pop("version") or ""
     if version and version not in VERSIONS[target]:
         known = ", ".join(VERSIONS[target])
-        raise click.UsageError(f"{target} reads SDF {known}; {version} is for the other Gazebo")
+        raise click.UsageError(f"{target} supports SDF {known}, not {version}")
     folder, file = folder_and_file(MODEL if output == "-" else output)
     config = choices.pop("actuator_config")
     choices = {name: value or "" if value is None else value for name, value in choices.items()}
     if output == "-" and not choices["uri"]:
-        choices["uri"] = "file"  # nothing can lie beside standard output
+        choices["uri"] = "file"  # standard output has no folder for relative URIs
     return Options(
         version=version,
         folder=folder,

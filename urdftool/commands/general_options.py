@@ -1,4 +1,4 @@
-"""Options of urdftool itself, which every command accepts after its name too."""
+"""General options, which are accepted before and after the name of a command."""
 
 from __future__ import annotations
 
@@ -10,11 +10,7 @@ from ..console import Console
 
 
 def accept_general_options(command: click.Command) -> click.Command:
-    """Let a command accept -q, -v, --debug and --trust; they are hidden in its help.
-
-    The parser of the command finds them, so that the values of other options and what follows
-    ``--`` are never mistaken for them.
-    """
+    """Add the general options to a command; its help does not list them."""
     known = {name for parameter in command.params for name in parameter.opts}
     if "--debug" not in known:
         command.params.extend(general_options(hidden=True))
@@ -22,7 +18,7 @@ def accept_general_options(command: click.Command) -> click.Command:
 
 
 def general_options(*, hidden: bool) -> list[click.Option]:
-    """Make the options, which change the :class:`Console` of the context as they are parsed."""
+    """Make the options; each one changes the :class:`Console` of the context when parsed."""
 
     def option(*names: str, **more: Any) -> click.Option:
         return click.Option(names, expose_value=False, hidden=hidden, **more)
@@ -32,22 +28,22 @@ def general_options(*, hidden: bool) -> list[click.Option]:
             *("-q", "--quiet"),
             is_flag=True,
             callback=_set_quiet,
-            help="Print no progress, summaries or warnings.",
+            help="Do not print progress, summaries and warnings.",
         ),
         option(
             *("-v", "--verbose"),
             count=True,
             callback=_set_verbose,
-            help="Print more about what is done. Repeatable.",
+            help="Print more details. Repeatable.",
         ),
         option(
-            "--debug", is_flag=True, callback=_set_debug, help="Show the traceback of an error."
+            "--debug", is_flag=True, callback=_set_debug, help="Print the traceback of an error."
         ),
         option(
             "--trust",
             is_flag=True,
             callback=_set_trust,
-            help="Let xacro see the environment, and files outside packages and the project.",
+            help="Trust the input: allow xacro to read the environment and all files.",
         ),
     ]
 

@@ -1,4 +1,4 @@
-"""``urdftool graph``: the robot's tree as a picture, as text, or at the terminal."""
+"""``urdftool graph``: draw the kinematic tree as a picture, a text file or at the terminal."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .options import output_option, package_options, robot_argument
 
 if TYPE_CHECKING:
@@ -21,20 +22,20 @@ TEXTS = (".gv", ".dot", ".mmd", ".json")
 PICTURES = (".pdf", ".svg", ".png")
 
 
-@click.command("graph")
+@click.command("graph", cls=GroupedCommand, groups={"Output": "output style fold_fixed linted"})
 @robot_argument
 @output_option(
-    "Write that file: .gv, .dot, .pdf, .svg, .png, .mmd (Mermaid) or .json; '-' prints a tree. "
-    "Without it, NAME.gv and NAME.pdf, NAME being the robot's."
+    "Output file: .gv, .dot, .pdf, .svg, .png, .mmd (Mermaid) or .json; '-' prints a tree.  "
+    "[default: ROBOT.gv and ROBOT.pdf]"
 )
 @click.option(
     "--style",
     type=click.Choice(["ros", "detailed"]),
-    help="'ros' is what urdf_to_graphiz draws, and the default of .gv, .dot and pictures; "
-    "'detailed' has types, axes, limits, masses, shapes, sensors and controllers.",
+    help="Drawing style: ros as urdf_to_graphiz, or detailed with types, axes, limits, masses, "
+    "geometry, sensors and controllers.  [default: ros for .gv, .dot and pictures]",
 )
-@click.option("--fold-fixed", is_flag=True, help="Draw links that fixed joints join as one.")
-@click.option("--lint", "linted", is_flag=True, help="Mark what lint finds where it finds it.")
+@click.option("--fold-fixed", is_flag=True, help="Draw links with fixed joints as one node.")
+@click.option("--lint", "linted", is_flag=True, help="Mark links and joints with lint findings.")
 @package_options
 @click.pass_obj
 def command(
@@ -47,17 +48,17 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Draw the links and joints of IN.
+    """Draw the kinematic tree of the robot IN: its links and joints.
 
-    Without -o it writes what urdf_to_graphiz writes, NAME.gv and NAME.pdf in the current folder;
-    nothing else need be installed. In an SVG, each node has a tooltip and a link to its line.
+    Without -o, it writes ROBOT.gv and ROBOT.pdf to the current folder, as urdf_to_graphiz does.
+    Nodes of an SVG file have a tooltip and a link to their source line.
 
     \b
         urdftool graph arm.urdf
         urdftool graph arm.urdf.xacro prefix:=left_ -o arm.svg --style detailed --lint
         urdftool graph arm.urdf.xacro -o -
 
-    Exit 1 if the links are no tree, or if --lint finds an error or a warning.
+    Exit code 1: the links are not a tree, or --lint finds an error or a warning.
     """  # noqa: D301 -- click reads the escape
     suffix = _suffix(output)
     if suffix in (None, "", *PICTURES):
@@ -90,13 +91,13 @@ def command(
 
 
 def _suffix(output: str | None) -> str | None:
-    """The kind of output; ``-`` for the terminal, empty for the name of a pair of files."""
+    """Return the output format; ``-`` for the terminal, empty for the stem of two files."""
     if output is None or output == "-":
         return output
     suffix = os.path.splitext(output)[1].lower()
     if suffix not in ("", *TEXTS, *PICTURES):
         raise click.UsageError(
-            f"'{output}' says no kind of graph; it ends in {', '.join((*TEXTS, *PICTURES))}"
+            f"the suffix of '{output}' is unknown; use {', '.join((*TEXTS, *PICTURES))}"
         )
     return suffix
 
@@ -108,7 +109,7 @@ def _figure(
     from ..graph.marks import mark_faults, mark_findings
 
     if not model.links and not model.joints:
-        raise ModelError("there is no link in it, so nothing can be drawn", at=model.place)
+        raise ModelError("the robot has no links; there is nothing to draw", at=model.place)
     if style == "ros":
         from ..graph.ros import ros_figure as figure_of
     else:

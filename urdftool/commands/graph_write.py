@@ -1,4 +1,4 @@
-"""Where a graph goes: a pair of files, one file, or the terminal."""
+"""Write a graph to a pair of files, one file, or the terminal."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ def write_pair(
     output: str | None,
     artist: Artist | None,
 ) -> None:
-    """NAME.gv and NAME.pdf, with the messages of ``urdf_to_graphiz``.
+    """Write NAME.gv and NAME.pdf, and print the messages of ``urdf_to_graphiz``.
 
     Args:
-        console: Where it is said.
-        model: The robot.
-        figure: How it is drawn.
-        source: The description as it was named; a nameless robot's files are called as it is.
-        output: NAME where the user chose it; otherwise the robot's.
-        artist: Who draws; None where pygraphviz is not installed, which leaves NAME.gv.
+        console: Output for messages.
+        model: Robot.
+        figure: Graph to draw.
+        source: Path of the description, whose stem is NAME for a robot without a name.
+        output: NAME that the user chose; None for the name of the robot.
+        artist: Graphviz process; None if pygraphviz is not installed: NAME.pdf is not written.
 
     Raises:
         MissingDependency: pygraphviz is not installed; NAME.gv is written.
@@ -68,7 +68,7 @@ def write_one(
     suffix: str,
     artist: Artist | None,
 ) -> None:
-    """One file of a kind, or a tree at the terminal for ``-``."""
+    """Write one file of the format of its suffix, or print a tree for ``-``."""
     if suffix == "-":
         import shutil
 
@@ -87,7 +87,9 @@ def write_one(
 
         text = to_mermaid(figure)
         if too_large(figure, text):
-            console.note(f"{output}: warning: it has {too_large(figure, text)}; try --fold-fixed")
+            console.note(
+                f"{output}: warning: the graph has {too_large(figure, text)}; try --fold-fixed"
+            )
         data = text.encode("utf-8")
     else:
         from ..graph.dot import to_dot
@@ -106,5 +108,5 @@ def _put(data: bytes, target: str, model: Robot) -> None:
 
 
 def _read(model: Robot) -> list[str]:
-    """The files of the description."""
+    """Return the source files of the description."""
     return [file.path for file in model.source.files] if model.source is not None else []

@@ -1,4 +1,4 @@
-"""``urdftool inertia``: how heavy a body is and how it resists turning."""
+"""``urdftool inertia``: mass properties of shapes, meshes and robots."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ OTHERS = ("mesh", "robot", "macros")
 
 
 class Kinds(click.Group):
-    """What has an inertia, each command made when it is wanted."""
+    """Group with a command for each shape, each made on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Their names: the shapes, then the rest."""
+        """Return the command names: the shapes, then the others."""
         return [*(shape.name for shape in SHAPES), *OTHERS]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """One of them; None for another name."""
+        """Return a command; None for an unknown name."""
         if cmd_name in OTHERS:
             module = import_module(f".inertia_{cmd_name}", __package__)
             return accept_general_options(module.command)
@@ -35,24 +35,24 @@ class Kinds(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does it, with the nearest name for a mistyped one."""
+        """Resolve the command as click does; suggest the nearest name for an unknown one."""
         names = self.list_commands(ctx)
         if args and args[0] not in names and not args[0].startswith("-"):
             from ..suggestions import did_you_mean
 
-            hint = did_you_mean(args[0], names, 0.6) or f"; there are {', '.join(names)}"
+            hint = did_you_mean(args[0], names, 0.6) or f"; choose one of {', '.join(names)}"
             if args[0].lower().endswith((".urdf", ".xacro")):
-                hint = f"; for a robot write 'urdftool inertia robot {args[0]}'"
-            ctx.fail(f"'{args[0]}' is no shape{hint}")
+                hint = f"; for a robot use 'urdftool inertia robot {args[0]}'"
+            ctx.fail(f"'{args[0]}' is not a shape{hint}")
         return super().resolve_command(ctx, args)
 
 
 @click.command("inertia", cls=Kinds, invoke_without_command=True)
 @click.pass_context
 def command(ctx: click.Context) -> int:
-    """Mass properties of a shape, a mesh or a whole robot.
+    """Compute the mass properties of a shape, a mesh or a whole robot.
 
-    Without anything at a terminal it asks: for the shape, its mass and its sizes.
+    At a terminal, without a subcommand, it asks for the shape, its mass and its dimensions.
 
     \b
         urdftool inertia cylinder --mass 0.18 --radius 0.06 --length 0.09
@@ -67,7 +67,7 @@ def command(ctx: click.Context) -> int:
 
     if not at_terminal():
         raise click.UsageError(
-            "say of what: " + ", ".join((ctx.command).list_commands(ctx))  # type: ignore[attr-defined]
+            "missing subcommand: " + ", ".join((ctx.command).list_commands(ctx))  # type: ignore[attr-defined]
         )
     console: Console = ctx.obj
     with shape_command(choose_shape()).make_context(None, [], parent=ctx, obj=console) as inner:

@@ -1,4 +1,4 @@
-"""The questions that are asked at a terminal: which shape, how heavy, how large."""
+"""Questions at a terminal: shape, mass and dimensions."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ..inertia.shapes import SHAPES, Shape, Size
 
 
 def at_terminal() -> bool:
-    """Whether somebody is there to answer."""
+    """Tell whether standard input is a terminal."""
     return sys.stdin is not None and sys.stdin.isatty()
 
 
 def choose_shape() -> Shape:
-    """The menu."""
+    """Show the shapes as a menu, and return the chosen one."""
     width = max(len(shape.name) for shape in SHAPES)
     for number, shape in enumerate(SHAPES, start=1):
         click.echo(f"  {number}  {shape.name:<{width}}  {shape.what}", err=True)
@@ -25,16 +25,16 @@ def choose_shape() -> Shape:
         for number, shape in enumerate(SHAPES, start=1):
             if answer in (str(number), shape.name):
                 return shape
-        click.echo(f"Error: type a number from 1 to {len(SHAPES)}, or a name.", err=True)
+        click.echo(f"Error: enter a number from 1 to {len(SHAPES)}, or a name.", err=True)
 
 
 def ask_mass() -> float:
-    """The mass [kg]."""
+    """Ask for the mass [kg]."""
     return _number("Mass [kg]")
 
 
 def ask_size(size: Size) -> float | tuple[float, ...]:
-    """One size of a shape [m]."""
+    """Ask for one dimension of a shape [m]."""
     if size.numbers == 1:
         return _number(f"{size.name.capitalize()} {size.what}")
     click.echo(f"{size.name.capitalize()}, {size.what}", err=True)
@@ -46,4 +46,4 @@ def _number(question: str) -> float:
         value = float(click.prompt(question, type=float, err=True))
         if math.isfinite(value) and value > 0:
             return value
-        click.echo("Error: a number above zero is wanted.", err=True)
+        click.echo("Error: enter a number greater than zero.", err=True)

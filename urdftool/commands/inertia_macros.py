@@ -1,16 +1,17 @@
-"""``urdftool inertia macros``: inertia as xacro macros."""
+"""``urdftool inertia macros``: write inertia as xacro macros."""
 
 from __future__ import annotations
 
 import click
 
+from .grouped_help import GroupedCommand
 from .options import output_option
 
 
-@click.command("macros")
-@output_option("Write the file there; without it, to standard output.")
+@click.command("macros", cls=GroupedCommand, groups={"Output": "output"})
+@output_option("Output file.  [default: standard output]")
 def command(output: str | None) -> int:
-    """A xacro file with an inertia macro for each shape, solid and hollow.
+    """Write a xacro file with an inertia macro for each shape, solid and hollow.
 
     \b
         urdftool inertia macros -o inertia.xacro

@@ -1,4 +1,4 @@
-"""``urdftool inertia mesh``: mass properties of a mesh file."""
+"""``urdftool inertia mesh``: compute the mass properties of a mesh file."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .inertia_options import amount_options, check_amount, check_pose, result_options
 from .options import gltf_option, gltf_up_for, scale_factors
 
@@ -15,11 +16,11 @@ if TYPE_CHECKING:
     from ..inertia.bodies import MeshBody
 
 
-class _Scaled(click.Command):
-    """``--scale`` takes one factor or three."""
+class _Scaled(GroupedCommand):
+    """Command whose ``--scale`` takes one factor or three."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Make one word of the numbers behind ``--scale``."""
+        """Parse the arguments after joining the numbers that follow ``--scale`` into one."""
         words: list[str] = []
         rest = list(args)
         while rest:
@@ -40,7 +41,13 @@ def _is_number(word: str) -> bool:
     return True
 
 
-@click.command("mesh", cls=_Scaled)
+_GROUPS = {
+    "Input": "mass density scale surface origin_xyz origin_rpy",
+    "Output": "style output",
+}
+
+
+@click.command("mesh", cls=_Scaled, groups=_GROUPS)
 @click.argument("file", metavar="FILE")
 @amount_options
 @click.option(
@@ -48,9 +55,11 @@ def _is_number(word: str) -> bool:
     default="1",
     callback=scale_factors,
     metavar="S | SX SY SZ",
-    help="Factors, as URDF's <mesh scale>; negative ones mirror.",
+    help="Scale factors, as in <mesh scale>; negative factors mirror.",
 )
-@click.option("--surface", is_flag=True, help="Weigh the surface as a shell; --density in kg/m².")
+@click.option(
+    "--surface", is_flag=True, help="Treat the mesh as a thin shell; --density is in kg/m²."
+)
 @result_options
 @gltf_option
 @click.pass_obj
@@ -66,10 +75,10 @@ def command(
     style: str,
     output: str | None,
 ) -> int:
-    """Mass properties of the mesh FILE: STL, OBJ, DAE, PLY, glTF or GLB.
+    """Compute the mass properties of the mesh FILE: STL, OBJ, DAE, PLY, glTF or GLB.
 
-    A closed mesh is integrated exactly. What is not closed is repaired or estimated, and the
-    method, its error and whether to rely on it are said.
+    A closed mesh is integrated exactly. An open mesh is repaired or estimated; the method, its
+    error and its reliability are reported.
 
     \b
         urdftool inertia mesh link3.stl --mass 1.2 --scale 0.001
@@ -78,7 +87,7 @@ def command(
     check_amount(mass, density)
     check_pose(origin_xyz, origin_rpy)
     if mass is None and density is None:
-        raise click.UsageError("a mesh wants --mass M [kg] or --density D [kg/m³]")
+        raise click.UsageError("missing option: --mass M [kg] or --density D [kg/m³]")
     from ..inertia.bodies import mesh_body, weighed
     from ..inertia.rounding import round_properties
     from ..model.pose import Pose, rotation_of_rpy
@@ -147,5 +156,6 @@ def _say(console: Console, file: str, body: MeshBody, result: Any, style: str) -
         console.note(f"  {note}")
     if not body.reliable:
         console.say(
-            f"{file}: these numbers are not reliable; close the mesh, or weigh it otherwise"
+            f"{file}: the mass properties are an estimate that is not reliable; close the mesh, or "
+            "compute them from another geometry"
         )

@@ -1,4 +1,4 @@
-"""Options that mean the same for every body: its mass, its pose, the form of the result."""
+"""Options for every kind of body: its mass, its pose and the output format."""
 
 from __future__ import annotations
 
@@ -13,24 +13,27 @@ FORMATS = ("urdf", "sdf", "mjcf", "xacro", "json", "table")
 
 
 def amount_options(function: F) -> F:
-    """``--mass`` and ``--density``."""
+    """Add ``--mass`` and ``--density``."""
     function = click.option(
-        "--density", type=float, metavar="D", help="Density [kg/m³], instead of the mass."
+        "--density", type=float, metavar="D", help="Density [kg/m³]; excludes --mass."
     )(function)
     return click.option("--mass", type=float, metavar="M", help="Mass [kg].")(function)
 
 
 def result_options(function: F) -> F:
-    """``--origin-xyz``, ``--origin-rpy``, ``--format`` and ``-o``."""
+    """Add ``--origin-xyz``, ``--origin-rpy``, ``--format`` and ``-o``."""
     for option in (
-        click.option("-o", "--output", metavar="FILE", help="Write the result there."),
+        click.option(
+            "-o", "--output", metavar="FILE", help="Output file.  [default: standard output]"
+        ),
         click.option(
             "--format",
             "style",
             type=click.Choice(FORMATS),
             default="urdf",
             show_default=True,
-            help="The form of the result.",
+            metavar="FORMAT",
+            help=f"Output format: {', '.join(FORMATS)}.",
         ),
         click.option(
             "--origin-rpy",
@@ -38,7 +41,7 @@ def result_options(function: F) -> F:
             nargs=3,
             default=(0.0, 0.0, 0.0),
             metavar="R P Y",
-            help="Turn it: roll, pitch, yaw of its frame in the link [rad].",
+            help="Roll, pitch and yaw of the body's frame in the link frame [rad].",
         ),
         click.option(
             "--origin-xyz",
@@ -46,7 +49,7 @@ def result_options(function: F) -> F:
             nargs=3,
             default=(0.0, 0.0, 0.0),
             metavar="X Y Z",
-            help="Move it: where its frame is in the link [m].",
+            help="Position of the body's frame in the link frame [m].",
         ),
     ):
         function = option(function)
@@ -54,17 +57,17 @@ def result_options(function: F) -> F:
 
 
 def check_amount(mass: float | None, density: float | None) -> None:
-    """Refuse both of the two."""
+    """Refuse a mass together with a density."""
     if mass is not None and density is not None:
         raise click.UsageError(
-            "--mass and --density exclude each other; one follows from the other"
+            "--mass and --density exclude each other, because the geometry relates them"
         )
 
 
 def check_pose(xyz: tuple[float, ...], rpy: tuple[float, ...]) -> None:
-    """Refuse a pose that is no pose."""
+    """Refuse numbers that are not finite."""
     from math import isfinite
 
     for option, values in (("--origin-xyz", xyz), ("--origin-rpy", rpy)):
         if not all(map(isfinite, values)):
-            raise click.UsageError(f"{option} wants three finite numbers")
+            raise click.UsageError(f"{option} requires three finite numbers")

@@ -1,4 +1,4 @@
-"""``urdftool inertia robot``: a whole robot looked over, filled in, recomputed or lumped."""
+"""``urdftool inertia robot``: check, complete, recompute or lump the inertia of a robot."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
-from .options import gltf_option, package_options, robot_argument
+from .grouped_help import GroupedCommand
+from .options import gltf_option, jobs_option, package_options, robot_argument
 from .progress import Progress
 from .read_strict import read_strict
 
@@ -18,13 +19,10 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
 
 
-_PATIENCE = 1.0  # seconds
-
-
 def _pairs(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
-    """``NAME=NUMBER``, repeated."""
+    """Parse ``NAME=NUMBER`` values."""
     found: dict[str, float] = {}
     for value in values:
         name, equals, number = value.rpartition("=")
@@ -34,19 +32,32 @@ def _pairs(
             found[name] = float(number)
         except ValueError:
             raise click.BadParameter(
-                f"'{number}' in '{value}' is no number", ctx, parameter
+                f"'{number}' in '{value}' is not a number", ctx, parameter
             ) from None
     return found
 
 
-@click.command("robot")
+_GROUPS = {
+    "What to do": "write diff all_links lump pose",
+    "Mass and geometry": "masses mass_file density total source only",
+    "Output": "output style",
+    "Performance": "jobs",
+}
+
+
+@click.command("robot", cls=GroupedCommand, groups=_GROUPS)
 @robot_argument
-@click.option("-o", "--output", metavar="OUT", help="Write the result there, not to the source.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT",
+    help="Output file.  [default: standard output; with --write, the source files]",
+)
 @click.option(
     "--from",
     "source",
     type=click.Choice(["collision", "visual"]),
-    help="The geometry that counts. Without it collisions, and visuals where there are none.",
+    help="Geometry for the inertia.  [default: collision; visual for links without collisions]",
 )
 @click.option(
     "--mass",
@@ -54,37 +65,46 @@ def _pairs(
     multiple=True,
     callback=_pairs,
     metavar="LINK=KG",
-    help="What a link weighs. Repeatable.",
+    help="Mass of a link [kg]. Repeatable.",
 )
-@click.option("--masses", "mass_file", metavar="FILE", help="A CSV or YAML file of link and mass.")
+@click.option(
+    "--masses", "mass_file", metavar="FILE", help="CSV or YAML file with links and masses [kg]."
+)
 @click.option("--density", type=float, metavar="D", help="Density of the other links [kg/m³].")
 @click.option(
     "--total-mass",
     "total",
     type=float,
     metavar="KG",
-    help="Mass of the robot; the other links share what is left of it by volume.",
+    help="Total mass of the robot [kg]; the remainder is divided among the other links by volume.",
 )
-@click.option("--link", "only", multiple=True, metavar="NAME", help="This link only. Repeatable.")
-@click.option("--write", is_flag=True, help="Fill in what is missing, in the source or in OUT.")
-@click.option("--diff", is_flag=True, help="Show what --write would change, and write nothing.")
-@click.option("--all", "recompute", is_flag=True, help="Replace written inertials, too.")
-@click.option("--lump", is_flag=True, help="Links joined by fixed joints as one; the whole robot.")
+@click.option(
+    "--link", "only", multiple=True, metavar="NAME", help="Process only this link. Repeatable."
+)
+@click.option("--write", is_flag=True, help="Add missing inertials to the source files or to OUT.")
+@click.option("--diff", is_flag=True, help="Print the changes of --write as a diff; write no file.")
+@click.option(
+    "--all", "all_links", is_flag=True, help="Recompute the existing masses and inertials, too."
+)
+@click.option(
+    "--lump", is_flag=True, help="Lump links with fixed joints together; also the whole robot."
+)
 @click.option(
     "--pose",
     multiple=True,
     callback=_pairs,
     metavar="JOINT=VALUE",
-    help="With --lump: where a joint is [rad or m]. Repeatable.",
+    help="With --lump: position of a joint [rad or m]. Repeatable.",
 )
 @click.option(
     "--format",
     "style",
     type=click.Choice(["table", "json"]),
     default="table",
-    help="How the result is shown.",
+    show_default=True,
+    help="Output format.",
 )
-@click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
+@jobs_option
 @gltf_option
 @package_options
 @click.pass_obj
@@ -100,7 +120,7 @@ def command(
     only: tuple[str, ...],
     write: bool,
     diff: bool,
-    recompute: bool,
+    all_links: bool,
     lump: bool,
     pose: dict[str, float],
     style: str,
@@ -108,11 +128,11 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Look over the inertia of every link of IN, fill in what is missing, or recompute it.
+    """Check the inertia of every link of the robot IN, add what is missing, or recompute it.
 
-    A table shows what is written and what the geometry implies at uniform density, and marks what
-    no body can have. With --write the source is edited: only the bytes that are added or changed
-    differ, and numbers that xacro computes are left alone and said.
+    A table compares the values of the file with those of the geometry at uniform density, and marks
+    physically inconsistent ones. --write edits the source files and changes only the bytes of these
+    values; values that xacro computes are reported and not changed.
 
     \b
         urdftool inertia robot arm.urdf.xacro
@@ -121,11 +141,11 @@ def command(
         urdftool inertia robot arm.urdf --write --mass base_link=4.5 --density 2700 -o filled.urdf
         urdftool inertia robot arm.urdf --lump --pose elbow=1.57
 
-    Exit 1 if something written cannot be; with --diff, if anything would be written.
+    Exit code 1: a value is physically inconsistent; with --diff, something would be written.
     """  # noqa: D301 -- \b is a character that click looks for
     _check_options(density, total, write or diff, lump, pose, output)
     if diff and output is not None:
-        raise click.UsageError("--diff writes nothing; leave out -o")
+        raise click.UsageError("--diff writes no file; remove -o")
     from ..inertia.mass_file import read_masses
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
@@ -134,13 +154,13 @@ def command(
 
     path = robot[0]
     if write and path == "-" and output is None:
-        raise click.UsageError("standard input cannot be edited in place; --write wants -o OUT")
+        raise click.UsageError("standard input cannot be edited in place; add -o OUT to --write")
     by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
     description = read_strict(console, robot, package, package_path)
     model = take_world(console, require_links(robot_of(description)))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
-    wanted = Masses(by_link, density, total, recompute)
+    wanted = Masses(by_link, density, total, all_links)
     with Progress(console, "meshes") as progress:
         found = review(
             model, _reader(description, jobs, progress), masses=wanted, source=source, only=only
@@ -164,14 +184,14 @@ def _check_options(
 ) -> None:
     if density is not None and total is not None:
         raise click.UsageError(
-            "--density and --total-mass exclude each other; one follows from the other"
+            "--density and --total-mass exclude each other, because the geometry relates them"
         )
     if write and lump:
         raise click.UsageError("--lump excludes --write and --diff")
     if pose and not lump:
-        raise click.UsageError("--pose says where the joints are for --lump; add --lump")
+        raise click.UsageError("--pose requires --lump")
     if output and output.endswith((".urdf", ".xacro")) and not write:
-        raise click.UsageError(f"{output} would be a table; to write the robot there, add --write")
+        raise click.UsageError(f"the output is a table; add --write to write the robot to {output}")
 
 
 def _reader(description: Any, jobs: int | None, progress: Progress) -> Any:
@@ -248,7 +268,7 @@ def _write(
 
 
 def _diff(console: Console, model: Robot, found: list[LinkReview], wanted: Masses) -> int:
-    """Show what would be written as a unified diff; exit 1 if there is anything."""
+    """Print the changes as a unified diff; return 1 if there are any."""
     from ..inertia.fill_check import checked_filling
     from ..report import inertia_fill as report
     from ..report.file_diff import file_diff

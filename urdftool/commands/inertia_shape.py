@@ -1,4 +1,4 @@
-"""``urdftool inertia SHAPE``: a command for each shape that has a closed form."""
+"""``urdftool inertia SHAPE``: compute the mass properties of a shape."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ import click
 
 from ..console import Console
 from ..inertia.shapes import THICKNESS, Shape, Size
+from .grouped_help import GroupedCommand
 from .inertia_options import amount_options, check_amount, check_pose, result_options
+
+_INPUT = "mass density size radius length radii thickness closed origin_xyz origin_rpy"
+_GROUPS = {"Input": _INPUT, "Output": "style output"}
 
 
 def shape_command(shape: Shape) -> click.Command:
-    """The command of one shape."""
+    """Make the command of a shape."""
 
     @click.pass_obj
     def callback(console: Console, /, **given: Any) -> int:
@@ -22,20 +26,22 @@ def shape_command(shape: Shape) -> click.Command:
     function: Any = result_options(callback)
     if shape.ends:
         function = click.option(
-            "--closed", is_flag=True, help="A hollow one has end plates, as thick as its wall."
+            "--closed", is_flag=True, help="Hollow: add end plates, as thick as the wall."
         )(function)
     if shape.hollow:
         function = _size_option(THICKNESS, "Hollow: thickness ")(function)
     for size in reversed(shape.sizes):
         function = _size_option(size, f"{size.name.capitalize()} ")(function)
-    made: click.Command = click.command(shape.name)(amount_options(function))
-    return made
+    made = click.command(shape.name, cls=GroupedCommand, groups=_GROUPS)
+    command: click.Command = made(amount_options(function))
+    return command
 
 
 def _help(shape: Shape) -> str:
+    article = "an" if shape.name.startswith("e") else "a"
     return (
-        f"{shape.name.capitalize()}: {shape.what}.\n\n"
-        "Numbers have twelve significant digits at most. At a terminal, what is missing is asked "
+        f"Compute the mass properties of {article} {shape.name} ({shape.what}).\n\n"
+        "Numbers have at most twelve significant digits. At a terminal, missing values are asked "
         "for."
     )
 
@@ -57,7 +63,7 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
     check_amount(mass, density)
     check_pose(given["origin_xyz"], given["origin_rpy"])
     if closed and thickness is None:
-        raise click.UsageError("--closed wants --thickness; a solid cylinder has no end plates")
+        raise click.UsageError("--closed requires --thickness; a solid body has no end plates")
     mass = _asked_mass(shape, mass, density)
     sizes = {size.name: _asked_size(shape, size, given[size.name]) for size in shape.sizes}
 
@@ -95,7 +101,7 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
 
 
 def _text(style: str, what: str, result: Any, facts: dict[str, Any]) -> str | None:
-    """The result in one of the forms; None for xacro."""
+    """Format the result; None for xacro."""
     from ..inertia.rounding import round_number
     from ..report import inertia as report
 
@@ -118,7 +124,7 @@ def _asked_mass(shape: Shape, mass: float | None, density: float | None) -> floa
         return mass
     if at_terminal():
         return ask_mass()
-    raise click.UsageError(f"{shape.title} wants --mass M [kg] or --density D [kg/m³]")
+    raise click.UsageError(f"{shape.title} requires --mass M [kg] or --density D [kg/m³]")
 
 
 def _asked_size(shape: Shape, size: Size, value: Any) -> Any:
@@ -128,4 +134,4 @@ def _asked_size(shape: Shape, size: Size, value: Any) -> Any:
         return value
     if at_terminal():
         return ask_size(size)
-    raise click.UsageError(f"{shape.title} wants --{size.name} {size.metavar}: {size.what}")
+    raise click.UsageError(f"{shape.title} requires --{size.name} {size.metavar}: {size.what}")

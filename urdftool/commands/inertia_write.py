@@ -1,4 +1,4 @@
-"""The edited source of a robot on its way to disk: written whole, and only over what was read."""
+"""Write the edited source files of a robot, unless they changed since they were read."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def write_files(robot: Robot, edited: Mapping[str, bytes], output: str | None) -> list[str]:
-    """Write the edited files; the names of those that changed.
+    """Write the edited files, and return the names of those that changed.
 
     Raises:
         OutputError: A file cannot be written, or was changed since it was read.
@@ -34,22 +34,22 @@ def write_files(robot: Robot, edited: Mapping[str, bytes], output: str | None) -
 
 
 def _check_unchanged(path: str, data: bytes) -> None:
-    """Refuse a file that is not, byte for byte, what was read."""
+    """Refuse a file whose bytes differ from those that were read."""
     from ..errors import OutputError
 
     try:
         with open(path, "rb") as stream:
             now = stream.read()
     except OSError as error:
-        raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
+        raise OutputError(f"cannot be read before writing: {error.strerror}", path=path) from None
     if now.startswith((b"\xff\xfe", b"\xfe\xff", b"\x00\x00\xfe\xff")):
-        raise OutputError("is in UTF-16 or UTF-32; save it as UTF-8 to have it edited", path=path)
+        raise OutputError("is in UTF-16 or UTF-32; convert it to UTF-8 to edit it", path=path)
     if now != data:
-        raise OutputError("was changed while its inertia was computed; run again", path=path)
+        raise OutputError("was changed by another program; run the command again", path=path)
 
 
 def _write_out(data: bytes, output: str, inputs: list[str]) -> None:
-    """The bytes as they are, to a file that is no input or to standard output."""
+    """Write the bytes unchanged to a file that is not an input, or to standard output."""
     from ..errors import OutputError
     from ..output import write_file, write_result
 
@@ -58,11 +58,12 @@ def _write_out(data: bytes, output: str, inputs: list[str]) -> None:
     except UnicodeDecodeError:
         if output == "-":
             raise OutputError(
-                "is not in UTF-8 and is written to a file only; give -o a name", path=inputs[0]
+                "is not in UTF-8 and cannot be printed; write it to a file with -o",
+                path=inputs[0],
             ) from None
         for name in inputs:
             if os.path.exists(output) and os.path.exists(name) and os.path.samefile(name, output):
-                raise OutputError("is read as an input; write to another file", path=name) from None
+                raise OutputError("is an input; write to another file", path=name) from None
         write_file(output, data)
     else:
         write_result(text, output, inputs=inputs)

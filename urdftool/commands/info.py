@@ -1,4 +1,4 @@
-"""``urdftool info``: the robot in one table."""
+"""``urdftool info``: print the properties of a robot in one table."""
 
 from __future__ import annotations
 
@@ -7,19 +7,21 @@ from pathlib import Path
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .options import gltf_option, output_option, package_options, robot_argument
 from .progress import Progress
 
 
-@click.command("info")
+@click.command("info", cls=GroupedCommand, groups={"Output": "style output"})
 @robot_argument
-@output_option("Write it there; without it, to standard output.")
+@output_option("Output file.  [default: standard output]")
 @click.option(
     "--format",
     "style",
     type=click.Choice(["table", "json"]),
     default="table",
-    help="How the result is shown.",
+    show_default=True,
+    help="Output format.",
 )
 @gltf_option
 @package_options
@@ -32,10 +34,10 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Say what IN is made of, in one table.
+    """Print the properties of the robot IN in one table.
 
-    Links, joints by type, degrees of freedom, mass, size at zero pose, meshes and triangles,
-    packages, plugins, sensors. A mesh that cannot be read is named with the reason.
+    Links, joints by type, degrees of freedom, mass, bounding box at the zero pose, meshes and
+    triangles, packages, plugins and sensors; mesh files that cannot be read, with the reason.
 
     \b
         urdftool info arm.urdf.xacro prefix:=left_

@@ -1,4 +1,4 @@
-"""``urdftool lint``: what is wrong with a robot, at the line that is."""
+"""``urdftool lint``: check robot descriptions and report each finding at its line."""
 
 from __future__ import annotations
 
@@ -8,69 +8,88 @@ import click
 
 from ..console import Console
 from .cache_options import cache_options, cache_place
-from .options import gltf_option, package_options, split_arguments
+from .grouped_help import GroupedCommand
+from .options import gltf_option, jobs_option, package_options, split_arguments
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 _WITH_FIXES = ("full", "json", "sarif", "html")
 LEVELS = ("error", "warning", "info")
+_GROUPS = {
+    "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
+    "Rules": "select extend_select ignore target baseline write_baseline",
+    "Output": "style whole output_file statistics fail_on exit_zero",
+    "Performance": "jobs",
+}
 
 
-@click.command("lint")
+@click.command("lint", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="PATH... [name:=value ...]")
-@click.option("--select", multiple=True, metavar="RULES", help="Only these rules.")
-@click.option("--extend-select", multiple=True, metavar="RULES", help="These rules as well.")
-@click.option("--ignore", multiple=True, metavar="RULES", help="Not these rules.")
+@click.option("--select", multiple=True, metavar="RULES", help="Check only these rules.")
+@click.option(
+    "--extend-select",
+    multiple=True,
+    metavar="RULES",
+    help="Check these rules in addition to the default ones.",
+)
+@click.option("--ignore", multiple=True, metavar="RULES", help="Skip these rules.")
 @click.option(
     "--target",
     multiple=True,
     metavar="TARGET",
-    help="What the robot is for: ros1, ros2, gazebo-classic, gz, mujoco, pybullet, moveit. "
-    "Repeatable; without it, what the file shows.",
+    help="Target program: ros1, ros2, gazebo-classic, gz, mujoco, pybullet or moveit. Repeatable.  "
+    "[default: detected from the file]",
 )
 @click.option(
     "--format",
     "style",
     type=click.Choice(FORMATS),
-    help="Format of the findings.  [default: full; concise at a terminal for more than 8 findings]",
+    metavar="FORMAT",
+    help=f"Output format: {', '.join(FORMATS)}.  [default: full; concise at a terminal with more "
+    "than 8 findings]",
 )
 @click.option(
     "--all",
     "whole",
     is_flag=True,
-    help="Show every finding with all details, not at most 25 lines for each family of rules.",
+    help="Print all findings in full (default: at most 25 lines per rule family).",
 )
-@click.option("--output-file", metavar="FILE", help="Write the findings there, not to stdout.")
-@click.option("--statistics", is_flag=True, help="Count findings by rule instead of showing them.")
+@click.option(
+    "--output-file", metavar="FILE", help="Write the findings to FILE instead of standard output."
+)
+@click.option(
+    "--statistics", is_flag=True, help="Print the number of findings per rule, not the findings."
+)
 @click.option("--fix", is_flag=True, help="Apply safe fixes to the files.")
 @click.option(
     "--unsafe-fixes",
     is_flag=True,
-    help="With --fix or --diff: also those that invent or remove physics.",
+    help="With --fix or --diff: include fixes that change the robot's physics.",
 )
 @click.option(
     "--fix-meshes",
     is_flag=True,
-    help="With --fix or --diff: also those that write mesh files, which may be binary.",
+    help="With --fix or --diff: include fixes that write mesh files.",
 )
-@click.option("--diff", is_flag=True, help="Show what --fix would change, and write nothing.")
+@click.option("--diff", is_flag=True, help="Print the changes of --fix as a diff; write no file.")
 @click.option(
     "--exit-zero",
     is_flag=True,
-    help="Exit 0 even if there are findings, but 2 if a robot was not checked.",
+    help="Exit with 0 despite findings, but with 2 if a robot was not checked.",
 )
 @click.option(
     "--fail-on",
     type=click.Choice(LEVELS),
     default="warning",
     show_default=True,
-    help="Exit 1 from this severity on.",
+    metavar="SEVERITY",
+    help="Lowest severity that causes exit code 1: error, warning, info.",
 )
-@click.option("--baseline", metavar="FILE", help="Pass over the findings that FILE has.")
-@click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE, as a baseline.")
-@click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
+@click.option("--baseline", metavar="FILE", help="Ignore the findings that are listed in FILE.")
+@click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE as a baseline.")
+@jobs_option
 @cache_options
-@click.option("--explain", metavar="RULE", help="Show a rule's page and stop.")
-@click.option("--list-rules", is_flag=True, help="List all rules and stop.")
+@click.option("--explain", metavar="RULE", help="Print the documentation of a rule and exit.")
+@click.option("--list-rules", is_flag=True, help="Print all rules and exit.")
 @gltf_option
 @package_options
 @click.pass_obj
@@ -101,12 +120,10 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Find what is wrong with robots, and point at the line that is.
+    """Check robot descriptions for errors, and report each finding at its line.
 
-    PATH is a .urdf or .xacro file, a folder to search for .urdf and .urdf.xacro files, or '-'.
-    RULES are rule names, prefixes such as 'mesh-*' and families such as 'inertia', separated by
-    commas. A comment <!-- urdftool-ignore[RULE] reason --> silences a rule for its own line or the
-    next element.
+    PATH is a .urdf or .xacro file, a folder with .urdf and .urdf.xacro files, or '-' (standard
+    input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with commas.
 
     \b
         urdftool lint arm.urdf.xacro prefix:=left_
@@ -114,9 +131,12 @@ def command(
         urdftool lint src/ --fix
         urdftool lint --explain zero-axis
 
-    Exit 1 if there are findings of --fail-on or above that the baseline does not have (with --fix,
-    those that are left; with --diff, if anything would be fixed), 2 if a robot could not be read or
-    expanded and was therefore not checked, whatever the options say.
+    A comment <!-- urdftool-ignore[RULE] reason --> suppresses a rule on its line or in the next
+    element.
+
+    Exit code 1: findings of severity --fail-on or above that are not in the baseline (with --fix:
+    findings that remain; with --diff: something would be fixed). Exit code 2, with all options: a
+    robot could not be read or expanded, and was not checked.
     """  # noqa: D301 -- click reads the escape
     from ..lint.discover import find_descriptions, nothing_below
     from ..lint.outcome import Options
@@ -130,7 +150,7 @@ def command(
         return _show_rules(explain)
     paths, arguments = split_arguments(words)
     if not paths:
-        raise click.UsageError("a file or folder is wanted")
+        raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
     files = find_descriptions(paths)
     if not files:
         raise click.UsageError(nothing_below(paths))
@@ -144,7 +164,7 @@ def command(
     )
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):
-            raise click.UsageError(f"{option} goes with --fix or --diff")
+            raise click.UsageError(f"{option} requires --fix or --diff")
     kept = cache_place("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up, options.workspace = console.gltf_up, workspace

@@ -1,4 +1,4 @@
-"""``urdftool lint --fix`` and ``--diff``: the fixes, on disk or shown."""
+"""``urdftool lint --fix`` and ``--diff``: apply the fixes, or print them."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _MOST = 6
 
 
 class Kinds(NamedTuple):
-    """Which fixes are made besides the safe ones.
+    """Kinds of fixes to apply in addition to the safe ones.
 
     Attributes:
-        unsafe: Those that invent or remove physics.
-        meshes: Those that write mesh files.
+        unsafe: Fixes that change the robot's physics.
+        meshes: Fixes that write mesh files.
     """
 
     unsafe: bool = False
@@ -44,9 +44,9 @@ def fix_files(
     kinds: Kinds,
     diff: bool,
 ) -> int:
-    """Fix descriptions, or show how; gives the exit code.
+    """Fix descriptions, or print the changes, and return the exit code.
 
-    Standard input is fixed to standard output, and what remains is reported on stderr.
+    The fixed standard input is written to standard output; its remaining findings to stderr.
     """
     from ..inertia.scales import Scales
     from ..lint.fix_run import apply_fixes
@@ -80,10 +80,10 @@ def fix_files(
 
 
 def _write(console: Console, done: FixResult, reports: Sequence[Report], options: Options) -> int:
-    """Write the files that changed; gives the exit code.
+    """Write the changed files, and return the exit code.
 
-    The files of one description are written together or not at all. Where they cannot be, its
-    findings are those that it has.
+    The files of one description are written together or not at all. If they cannot be written,
+    the description is linted again, so that its original findings are reported.
     """
     from ..errors import OutputError
     from ..lint.fix_run import concerns
@@ -112,28 +112,28 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
 def _say_broken(console: Console, done: FixResult) -> None:
     for rule, how in done.broken.items():
         console.say(
-            f"the fix of {rule} would make things worse and is not made: {how}. "
-            "If that is not plain from the file, it is a bug in urdftool"
+            f"the fix of {rule} was not applied, because it would introduce a defect: {how}. "
+            "If the file does not explain this, it is a bug in urdftool"
         )
     for rule, how in done.unmade.items():
-        console.note(f"is not fixed [{rule}]: {how}")
+        console.note(f"not fixed [{rule}]: {how}")
 
 
 def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds) -> None:
-    """Print which fixes could not be made, and which options would make others."""
+    """Print which fixes could not be applied, and which options enable others."""
     outside: Counter[str] = Counter()
     for report in reports:
         for finding, reason in report.unmended:
             if "outside of" in reason:
                 outside[reason.removeprefix("it is written in ")] += 1
             else:
-                console.note(f"{finding.place}: is not fixed [{finding.rule}]: {reason}", level=1)
+                console.note(f"{finding.place}: not fixed [{finding.rule}]: {reason}", level=1)
     for where, count in outside.items():
-        what = "1 fix is" if count == 1 else f"{count} fixes are"
-        console.note(f"{what} not made in {where}")
+        what = "1 fix was" if count == 1 else f"{count} fixes were"
+        console.note(f"{what} not applied to {where}")
     skipped = {rule: name for report in reports for rule, name in report.skipped_fixes.items()}
     for rule, library in skipped.items():
-        console.note(str(missing(library, f"not fixed: the fix of {rule}")))
+        console.note(str(missing(library, f"not fixed [{rule}]: the fix")))
     left: dict[str, set[tuple[str, str, int]]] = {}
     for finding in (f for report in reports for f in report.findings):
         if finding.fix is None:
@@ -159,7 +159,7 @@ _KINDS = {
 
 
 def _say(console: Console, did: str, done: FixResult) -> None:
-    """``Fixed 5: axis-not-unit × 3, empty-dynamics × 2 (in 2 files)``."""
+    """Print a line such as ``Fixed 5 in 2 files: axis-not-unit × 3, empty-dynamics × 2``."""
     total = sum(done.applied.values())
     if not total:
         console.note("Nothing to fix.")
@@ -173,11 +173,11 @@ def _say(console: Console, did: str, done: FixResult) -> None:
 
 
 def _say_where(console: Console, done: FixResult, files: Sequence[str]) -> None:
-    """The files that changed or were made beside the ones that were asked for."""
+    """Print the files that were changed or created in addition to the named ones."""
     from ..source.packages import shown_path
 
     asked = {os.path.realpath(path) for path in files}
-    for what, new in (("changed", False), ("made", True)):
+    for what, new in (("changed", False), ("created", True)):
         paths = [
             shown_path(path)
             for path, before in done.before.items()
@@ -190,7 +190,7 @@ def _say_where(console: Console, done: FixResult, files: Sequence[str]) -> None:
 
 
 def _show(console: Console, done: FixResult, wanted: Wanted) -> int:
-    """The fixes as a unified diff; exit 1 if there are any."""
+    """Print the fixes as a unified diff; return 1 if there are any."""
     from ..output import write_result
     from ..report.file_diff import file_diff
 

@@ -1,4 +1,4 @@
-"""What ``urdftool lint`` says at the end: findings, baseline, summary, exit code."""
+"""Report of ``urdftool lint``: findings, baseline, summary and exit code."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ _MOST_ENTRIES = 3
 
 @dataclass
 class Wanted:
-    """How findings are to be shown, and which of them fail.
+    """Options of the report.
 
     Attributes:
-        style: The format; None for what suits where the findings go.
-        output_file: Where they go, instead of standard output.
-        statistics: Whether they are counted by rule instead.
-        exit_zero: Whether findings leave the exit code 0.
-        fail_on: The severity from which on they do not.
-        baseline: A file of findings that were there before.
-        write_baseline: A file to write the findings to.
-        to_stderr: Whether they go to standard error, because standard output is taken.
-        paths: The files and folders that were named.
-        whole: Whether people get every finding, and not at most a screen of each family of rules.
+        style: Output format; None for the default of a terminal or a file.
+        output_file: File of the findings; None for standard output.
+        statistics: Print the number of findings per rule instead.
+        exit_zero: Return exit code 0 despite findings.
+        fail_on: Lowest severity that causes exit code 1.
+        baseline: File with findings to ignore.
+        write_baseline: File to which the findings are written as a baseline.
+        to_stderr: Write the findings to stderr, because the fixed description goes to stdout.
+        paths: Files and folders of the command line.
+        whole: Print all findings, without the limit per rule family.
     """
 
     style: str | None
@@ -50,7 +50,7 @@ class Wanted:
 
 
 def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
-    """Show a run; gives the exit code."""
+    """Print the report of a run, and return the exit code."""
     from ..finding import Severity
     from ..lint.group import together
     from ..lint.merge import gather
@@ -99,7 +99,7 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
 
 
 def _inputs(outcome: Outcome) -> list[str]:
-    """Every file of every description."""
+    """Return all source files of all descriptions."""
     from ..source.document import STDIN
 
     named = [path for report in outcome.reports for path in (report.path, *report.files)]
@@ -109,7 +109,7 @@ def _inputs(outcome: Outcome) -> list[str]:
 def _with_baseline(
     console: Console, outcome: Outcome, settings: Settings, wanted: Wanted
 ) -> Outcome:
-    """The run without what the baseline has, after writing it where that is wanted."""
+    """Remove the findings of the baseline from a run; first write the baseline if requested."""
     from ..lint.baseline import compare, read_baseline
     from ..lint.stale import looked_for
 
@@ -128,7 +128,7 @@ def _with_baseline(
 
 
 def _write(console: Console, outcome: Outcome, settings: Settings, path: str) -> Baseline | None:
-    """Write a baseline; entries of another that this run has not looked for stay in it."""
+    """Write a baseline; keep entries of the old file for which this run did not search."""
     import os
 
     from ..lint.baseline import baseline_of, read_baseline, to_text
@@ -136,7 +136,7 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     from ..output import write_result
 
     if not outcome.complete:
-        console.say(f"{path}: is not written, because not all robots could be checked")
+        console.say(f"{path}: not written, because a robot could not be checked")
         return None
     kept = {}
     if os.path.exists(path):
@@ -151,18 +151,18 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
 
 
 def _said(baseline: Baseline, stale: list[Entry]) -> str:
-    """That entries match nothing any more, with some of them."""
+    """Describe the baseline entries that match no finding, with the first of them."""
     some = [f"{e.path}: {e.rule} of {e.kind} '{e.name}'" for e in stale[:_MOST_ENTRIES]]
     more = ["…"] if len(stale) > _MOST_ENTRIES else []
     what = "1 entry matches" if len(stale) == 1 else f"{len(stale)} entries match"
     return (
-        f"{baseline.path}: {what} nothing any more ({'; '.join(some + more)}); "
-        f"--write-baseline {baseline.path} takes them out"
+        f"{baseline.path}: {what} no finding ({'; '.join(some + more)}); "
+        f"remove with --write-baseline {baseline.path}"
     )
 
 
 def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence[str]) -> None:
-    """Files that were skipped: those that were named, and the .xacro files of folders."""
+    """Print the skipped files with the reason; some of them only with ``-v``."""
     groups: dict[tuple[str, int], list[Report]] = {}
     reports = list(reports)
     read = {path for report in reports if report.checked for path in report.files}
@@ -182,7 +182,7 @@ def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence
 
 
 def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
-    """Unreadable files, and rules that broke; the exit code these ask for."""
+    """Print errors of files and of rules, and return their exit code; 0 without errors."""
     from .. import __version__
     from ..cli import REPORT_BUGS
 
@@ -194,8 +194,8 @@ def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
             code = max(code, 2)
         for rule, reason in report.failed_rules.items():
             console.say(
-                f"{report.path}: the rule {rule} broke, which is a bug in urdftool {__version__} "
-                f"({reason}); the others have run. Please report it at {REPORT_BUGS}"
+                f"{report.path}: rule {rule} failed because of a bug in urdftool {__version__} "
+                f"({reason}); other rules are not affected. Please report it at {REPORT_BUGS}"
             )
             code = 3
     return code

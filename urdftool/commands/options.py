@@ -1,4 +1,4 @@
-"""Arguments that mean the same in every command."""
+"""Arguments and options that have the same meaning in every command."""
 
 from __future__ import annotations
 
@@ -21,23 +21,29 @@ ASSIGN = ":="
 
 
 def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
-    """Paths, and xacro arguments written ``name:=value``."""
+    """Separate paths from xacro arguments, which are written ``name:=value``.
+
+    Raises:
+        UsageError: An argument has no name, or a missing file looks like ``name=value``.
+    """
     paths = [word for word in words if ASSIGN not in word]
     for word in paths:
         name, equals, value = word.partition("=")
         if equals and name.isidentifier() and not os.path.exists(word):
-            raise click.UsageError(f"no file is called '{word}'; did you mean {name}:={value}?")
+            raise click.UsageError(f"file '{word}' does not exist; did you mean {name}:={value}?")
     pairs = (word.partition(ASSIGN) for word in words if ASSIGN in word)
     arguments = {}
     for name, _, value in pairs:
         if not name.strip():
-            raise click.UsageError(f"'{name}{ASSIGN}{value}' has no name; write name:=value")
+            raise click.UsageError(
+                f"xacro argument '{name}{ASSIGN}{value}' has no name; write name:=value"
+            )
         arguments[name.strip()] = value.strip()
     return paths, arguments
 
 
 def robot_argument(function: F) -> F:
-    """``IN [name:=value …]``: the path and the xacro arguments, as a pair in ``robot``."""
+    """Add ``IN [name:=value …]``, whose value is the path and the xacro arguments by name."""
     return click.argument(
         "robot",
         nargs=-1,
@@ -54,31 +60,33 @@ def _robot(
 
 
 def one_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[str, str]]:
-    """The one path among words, and the xacro arguments.
+    """Return the single path among words, and the xacro arguments by name.
 
     Raises:
-        UsageError: There is none, or more than one.
+        UsageError: There is no path, or more than one.
     """
     paths, arguments = split_arguments(words)
     if not paths:
-        raise click.UsageError("a robot is wanted: a .urdf or .xacro file, or '-'", ctx)
+        raise click.UsageError(
+            "missing argument IN: a .urdf or .xacro file, or '-' for standard input", ctx
+        )
     if len(paths) > 1:
         raise click.UsageError(
-            f"one robot is wanted, not {len(paths)} ({' '.join(paths)}); "
-            "xacro arguments are written name:=value",
+            f"{len(paths)} files are given ({' '.join(paths)}), but the command reads one robot; "
+            "write xacro arguments as name:=value",
             ctx,
         )
     return paths[0], arguments
 
 
 def package_options(function: F) -> F:
-    """Where packages are: ``package`` as a dict by name, ``package_path`` as a list."""
+    """Add ``-p``, a dictionary of folders by package name, and ``--package-path``, a tuple."""
     function = click.option(
         "--package-path",
         "package_path",
         multiple=True,
         metavar="DIR",
-        help="A folder with ROS packages in it or below. Repeatable.",
+        help="Folder that is searched recursively for ROS packages. Repeatable.",
     )(function)
     return click.option(
         "-p",
@@ -87,7 +95,7 @@ def package_options(function: F) -> F:
         multiple=True,
         metavar="NAME=DIR",
         callback=_packages,
-        help="Where a ROS package is. Repeatable.",
+        help="Folder of the ROS package NAME. Repeatable.",
     )(function)
 
 
@@ -100,20 +108,31 @@ def _packages(
         if not (equals and name and folder):
             raise click.BadParameter(f"'{value}' is not NAME=DIR", ctx, parameter)
         if not Path(folder).is_dir():
-            raise click.BadParameter(f"'{folder}' is no folder", ctx, parameter)
+            raise click.BadParameter(f"'{folder}' is not a folder", ctx, parameter)
         found[name] = Path(folder)
     return found
 
 
+def jobs_option(function: F) -> F:
+    """Add ``-j``, the number of worker processes; None for the default of the command."""
+    return click.option(
+        "-j",
+        "--jobs",
+        type=click.IntRange(1),
+        metavar="N",
+        help="Number of worker processes.  [default: at most one per core]",
+    )(function)
+
+
 def gltf_option(function: F) -> F:
-    """Which axis is up in glTF meshes: kept in the console, which what reads a robot is given."""
+    """Add ``--gltf-up``, whose value is stored in the :class:`Console`."""
     return click.option(
         "--gltf-up",
         type=click.Choice(("y", "z")),
         expose_value=False,
         callback=_gltf_up,
-        help="The axis that is up in glTF meshes: y by their standard, which RViz turns to Z; z "
-        "keeps the axes of the file, as Gazebo does.  [default: y]",
+        help="Up axis of glTF meshes: y as in the glTF standard and RViz, z as in Gazebo (axes are "
+        "not converted).  [default: y]",
     )(function)
 
 
@@ -125,7 +144,7 @@ def _gltf_up(ctx: click.Context, parameter: click.Parameter, value: GltfUp | Non
 
 
 def gltf_up_for(console: Console, file: str) -> GltfUp:
-    """The axis that is up in a glTF file: as the line says, or else the configuration."""
+    """Return the up axis of a glTF file, from the command line or the configuration."""
     from ..configuration import find_configuration
 
     return console.gltf_up or find_configuration(file, console.config).gltf_up
@@ -134,26 +153,30 @@ def gltf_up_for(console: Console, file: str) -> GltfUp:
 def scale_factors(
     ctx: click.Context, parameter: click.Parameter, value: str
 ) -> tuple[float, float, float]:
-    """The factors of ``--scale``: three, or one for all."""
+    """Parse the value of ``--scale``: one factor, or three for x, y and z."""
     try:
         words = [float(word) for word in value.replace(",", " ").split()]
     except ValueError:
         words = []
     if len(words) not in (1, 3):
-        raise click.BadParameter(f"'{value}' is neither one factor nor three", ctx, parameter)
+        raise click.BadParameter(f"'{value}' is not one number or three numbers", ctx, parameter)
     x, y, z = words * 3 if len(words) == 1 else words
     return x, y, z
 
 
 def output_option(help_text: str) -> Callable[[F], F]:
-    """``-o FILE``; ``-`` is standard output."""
+    """Make the option ``-o FILE``; ``-`` is standard output."""
     return click.option("-o", "--output", metavar="FILE", help=help_text)
 
 
 def name_numbers(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
-    """Read values of the form ``NAME=NUMBER`` of an option that is repeatable."""
+    """Parse ``NAME=NUMBER`` values of a repeatable option.
+
+    Raises:
+        BadParameter: A value has another form, or a number that is not finite.
+    """
     found = {}
     for value in values:
         name, _, text = value.rpartition("=")

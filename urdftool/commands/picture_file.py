@@ -1,4 +1,4 @@
-"""Pictures as files: refused before the work is done, written whole."""
+"""Check and write picture files."""
 
 from __future__ import annotations
 
@@ -12,11 +12,17 @@ if TYPE_CHECKING:
 
 
 def checked_picture(picture: str | None, option: str = "--picture") -> None:
-    """Refuse a picture that cannot be written before the work is done."""
+    """Refuse a picture that cannot be written, before anything is computed.
+
+    Raises:
+        UsageError: The name does not end in ``.png``.
+        MissingDependency: Pillow is not installed.
+        OutputError: A part of the path is a file, or the folder is read-only.
+    """
     if picture is None:
         return
     if not picture.lower().endswith(".png"):
-        raise click.UsageError(f"{option} wants a name that ends in .png, not {picture}")
+        raise click.UsageError(f"{option} requires a file that ends in .png, not {picture}")
     from ..extras import require
     from ..output import check_folder
 
@@ -25,10 +31,10 @@ def checked_picture(picture: str | None, option: str = "--picture") -> None:
 
 
 def check_picture(picture: str | None, robot: Robot) -> None:
-    """Refuse a picture that would take the place of what a robot was read from.
+    """Refuse a picture that would overwrite a source file of a robot.
 
     Raises:
-        OutputError: It would.
+        OutputError: The picture has the path of a source file.
     """
     if picture is None:
         return
@@ -39,10 +45,10 @@ def check_picture(picture: str | None, robot: Robot) -> None:
 
 
 def write_picture(data: bytes, target: str, robot: Robot) -> None:
-    """Write a picture of a robot, which must not take the place of what it was read from.
+    """Write a picture of a robot.
 
     Raises:
-        OutputError: It cannot be written, or would overwrite an input.
+        OutputError: The file cannot be written, or is a source file of the robot.
     """
     from ..model.files import sources
     from ..output import write_file

@@ -1,4 +1,4 @@
-"""A line on stderr that shows how far a long work is."""
+"""Progress line of long computations on stderr."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ import click
 from ..console import Console
 
 PATIENCE = 1.0
-"""How long a work takes before its progress is shown [s]."""
+"""Time after which progress is shown [s]."""
 
-_TICK = 0.5  # s between two lines of a work that is timed
+_TICK = 0.5  # s between two updates of the elapsed time
 _BAR, _LONGEST = 24, 60  # characters
 
 
 class Progress:
-    """Shows a work that takes a while, at a terminal; used in a ``with``, which clears the line.
+    """Progress line at a terminal; a context manager, which clears the line at its end.
 
-    The line is not one of rich's live displays: these move and hide the cursor, which
-    :mod:`urdftool.terminal` lets nobody do.
+    It is not a live display of rich, because these move and hide the cursor, and
+    :mod:`urdftool.terminal` escapes such control sequences.
     """
 
     def __init__(
         self, console: Console, what: str, *, patience: float = PATIENCE, timed: bool = False
     ) -> None:
-        """Begin to wait.
+        """Start the measurement of time.
 
         Args:
-            console: One that is quiet shows nothing.
-            what: What is counted, as ``meshes``.
-            patience: How long nothing is shown [s].
-            timed: Show the time that passes, also while nothing is reported.
+            console: Console; nothing is shown if it is quiet.
+            what: Name of the counted items, such as ``meshes``.
+            patience: Time after which progress is shown [s].
+            timed: Show the elapsed time, also between calls.
         """
         self.what = what
         self.patience = patience
@@ -54,12 +54,12 @@ class Progress:
         return self
 
     def __call__(self, done: int, count: int, running: str | Sequence[str] = "") -> None:
-        """Take the state of the work.
+        """Update the progress.
 
         Args:
-            done: How many are finished.
-            count: Of how many.
-            running: The names of those that are worked on.
+            done: Number of finished items.
+            count: Number of all items.
+            running: Names of the items in work.
         """
         names = running if isinstance(running, str) else ", ".join(running)
         self._state = done, count, names

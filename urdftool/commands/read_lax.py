@@ -1,4 +1,4 @@
-"""A robot as lax readers see it, for commands that only look at it."""
+"""Read a robot tolerantly, for commands that do not write descriptions."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ def read_lax(
     packages: Mapping[str, Path],
     package_paths: Iterable[str],
     *,
-    neighbours: Mapping[str, Path] | None = None,
+    neighbors: Mapping[str, Path] | None = None,
     shown: Callable[[str], str] = str,
     many: bool = False,
 ) -> Robot:
-    """Read a robot; XML that is wrong and that ROS reads all the same is said and passed over.
+    """Read a robot; malformed XML that ROS accepts causes a warning instead of an error.
 
     Args:
-        console: Where it is said, and the configuration that was named.
-        path: The description.
-        arguments: Values for its xacro arguments.
+        console: Output for warnings, and source of the configuration file.
+        path: Description.
+        arguments: Values of its xacro arguments by name.
         packages: Folders by package name, from the command line.
-        package_paths: Folders with packages below.
-        neighbours: Folders by package name that count as configured.
-        shown: How its path is said.
-        many: The arguments are for many robots, and need not be for this one.
+        package_paths: Folders that are searched for packages.
+        neighbors: Further folders by package name, with the priority of configured ones.
+        shown: Formats a path for messages.
+        many: The arguments are for several robots, and need not be declared by this one.
 
     Raises:
-        UrdftoolError: As ``read_description`` and ``robot_of``.
+        UrdftoolError: The robot cannot be read, as for ``read_description`` and ``robot_of``.
     """
     from ..errors import XmlError
     from ..model.load import robot_of
@@ -48,7 +48,7 @@ def read_lax(
 
     file = read_file(path)
     given = console, path, arguments, packages, package_paths
-    read = partial(read_configured, *given, neighbours=neighbours)
+    read = partial(read_configured, *given, neighbors=neighbors)
     try:
         description = read(file=file)
     except XmlError as error:
@@ -59,7 +59,7 @@ def read_lax(
             description = read(file=mended)
         except XmlError:
             raise error from None
-        console.note(f"{shown(error.where)}: warning: {error.message}; lax readers pass over it")
+        console.note(f"{shown(error.where)}: warning: {error.message}; ROS ignores this error")
     if not many:
         say_unknown(console, description, shown=shown)
     say_assumed(console, description, shown=shown)
@@ -67,12 +67,12 @@ def read_lax(
 
 
 def take_world(console: Console, robot: Robot, *, shown: Callable[[str], str] = str) -> Robot:
-    """A robot with the world that it names and does not declare, which is said.
+    """Add the link ``world`` if a joint has it as parent and it is not defined; print a warning.
 
     Args:
-        console: Where it is said.
-        robot: Any robot.
-        shown: How a path is said.
+        console: Output for the warning.
+        robot: Robot.
+        shown: Formats a path for messages.
     """
     from ..model.world import with_world
 
@@ -80,7 +80,7 @@ def take_world(console: Console, robot: Robot, *, shown: Callable[[str], str] = 
     if joint is not None and joint.parent_element is not None:
         place = shown(str(joint.parent_element.attribute_place("link")))
         console.note(
-            f"{place}: warning: parent link 'world' of joint '{joint.name}' does not exist; it is "
-            'taken for the world, to which the robot is fixed: write <link name="world"/>'
+            f"{place}: warning: parent link 'world' of joint '{joint.name}' is not defined; "
+            'assuming a fixed base. Add <link name="world"/>.'
         )
     return whole

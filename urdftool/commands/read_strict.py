@@ -1,4 +1,4 @@
-"""A description as it is written, for commands that build on it."""
+"""Read a description strictly, for commands that write descriptions or other formats."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ def read_strict(
     packages: Mapping[str, Path],
     package_paths: Iterable[str],
 ) -> Description:
-    """Read a description; what is wrong with its XML stops the command.
+    """Read a description; malformed XML is an error.
 
     Args:
-        console: The configuration that was named.
-        robot: Its path, and values for its xacro arguments.
+        console: Output for warnings, and source of the configuration file.
+        robot: Path, and values of its xacro arguments by name.
         packages: Folders by package name, from the command line.
-        package_paths: Folders with packages below.
+        package_paths: Folders that are searched for packages.
 
     Raises:
-        SourceError: It cannot be read, parsed or expanded.
+        SourceError: The file cannot be read, parsed or expanded.
     """
     path, arguments = robot
     description = read_configured(console, path, arguments, packages, package_paths)
@@ -45,22 +45,22 @@ def read_configured(
     packages: Mapping[str, Path],
     package_paths: Iterable[str],
     *,
-    neighbours: Mapping[str, Path] | None = None,
+    neighbors: Mapping[str, Path] | None = None,
     file: SourceFile | None = None,
 ) -> Description:
-    """Read a description as the command line and its configuration say.
+    """Read a description with the packages and options of the command line and configuration.
 
     Args:
-        console: The configuration that was named, and what the line says of glTF.
-        path: The description.
-        arguments: Values for its xacro arguments.
+        console: Source of the configuration file and of ``--gltf-up``.
+        path: Description.
+        arguments: Values of its xacro arguments by name.
         packages: Folders by package name, from the command line.
-        package_paths: Folders with packages below.
-        neighbours: Folders by package name that count as configured.
-        file: The file, where it has been read already.
+        package_paths: Folders that are searched for packages.
+        neighbors: Further folders by package name, with the priority of configured ones.
+        file: Content of the file; None to read it.
 
     Raises:
-        SourceError: It cannot be read, parsed or expanded.
+        SourceError: The file cannot be read, parsed or expanded.
     """
     from ..configuration import find_configuration
     from ..source.description import read_description
@@ -71,18 +71,18 @@ def read_configured(
         arguments,
         packages=packages,
         package_paths=package_paths,
-        configured={**(neighbours or {}), **configuration.packages},
+        configured={**(neighbors or {}), **configuration.packages},
         file=file,
         gltf_up=console.gltf_up or configuration.gltf_up,
     )
 
 
 def say_gltf(console: Console, robot: Robot) -> None:
-    """Say that glTF meshes are turned, which not every reader does.
+    """Print a note if the axes of glTF meshes are converted, which readers do differently.
 
     Args:
-        console: Where it is said.
-        robot: Any robot.
+        console: Output for the note.
+        robot: Robot.
     """
     from ..model.gltf_axes import gltf_note
 
@@ -93,12 +93,12 @@ def say_gltf(console: Console, robot: Robot) -> None:
 def say_unknown(
     console: Console, description: Description, *, shown: Callable[[str], str] = str
 ) -> None:
-    """Say which of the xacro arguments that were given nothing declares.
+    """Print the given xacro arguments that the description does not declare.
 
     Args:
-        console: Where it is said.
-        description: What was read with them.
-        shown: How a path is said.
+        console: Output for warnings.
+        description: Description that was read with the arguments.
+        shown: Formats a path for messages.
     """
     if not description.arguments:
         return
@@ -112,12 +112,12 @@ def say_unknown(
 def say_assumed(
     console: Console, description: Description, *, shown: Callable[[str], str] = str
 ) -> None:
-    """Say which packages are folders of their name, because they are not found.
+    """Print the packages that are not found and replaced by folders of the same name.
 
     Args:
-        console: Where it is said.
-        description: Any description.
-        shown: How a path is said.
+        console: Output for warnings.
+        description: Description.
+        shown: Formats a path for messages.
     """
     from ..errors import UrdftoolError
     from ..source.packages import shown_path
@@ -132,9 +132,9 @@ def say_assumed(
         try:
             packages.resolve(uri)
         except UrdftoolError:
-            continue  # whoever needs it says so
+            continue  # reported by the command that reads the mesh
     for name, folder in packages.assumed.items():
         console.note(
             f"{shown(description.files[0].path)}: warning: package '{name}' is not found; "
-            f"its files are read from '{shown_path(folder)}'"
+            f"using the folder '{shown_path(folder)}' instead"
         )

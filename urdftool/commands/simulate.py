@@ -1,4 +1,4 @@
-"""``urdftool simulate``: does it stand?"""
+"""``urdftool simulate``: spawn a robot on a plane in a physics engine and judge the result."""
 
 from __future__ import annotations
 
@@ -8,12 +8,21 @@ from typing import Any
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .options import gltf_option, package_options
 from .simulate_more import more_options, robots_argument
 from .simulate_options import settings_options
 
+_GROUPS = {
+    "Simulation": "engine duration timestep trials seed sweep fleet",
+    "Robot and ground": "fixed_base pose height payload self_collision friction slope",
+    "Joint control": "hold controllers strict",
+    "Output": "style plot picture video junit",
+    "Performance": "time_limit jobs",
+}
 
-@click.command("simulate")
+
+@click.command("simulate", cls=GroupedCommand, groups=_GROUPS)
 @robots_argument
 @settings_options
 @more_options
@@ -22,7 +31,9 @@ from .simulate_options import settings_options
     "style",
     type=click.Choice(["text", "json", "junit"]),
     default="text",
-    help="How the verdict is shown; json has the time series of one robot, too.",
+    show_default=True,
+    metavar="FORMAT",
+    help="Output format: text, json (with time series of a single robot), junit.",
 )
 @gltf_option
 @package_options
@@ -36,19 +47,18 @@ def command(
     package_path: tuple[str, ...],
     **values: Any,
 ) -> int:
-    """Spawn IN above a plane, let it settle, and say whether it stands.
+    """Spawn the robot IN above a plane, let it settle, and report whether it stands.
 
-    Headless, in a second or two. Where it falls, tips over, sinks in, blows up, sags or never comes
-    to rest, the links and joints are named, with the probable cause and the lint rule that tells
-    more.
+    The report names the links and joints that cause a fall, tip-over, ground penetration,
+    divergence, joint drift or lasting motion, with the probable cause and the lint rule.
 
     \b
         urdftool simulate mira.urdf
         urdftool simulate arm.urdf.xacro --limp
         urdftool simulate rover.urdf --trials 10 --seed 1 --slope 10
 
-    Exit 0 if it stands, 1 if it does not, 2 if it could not be tried; of a --fleet 2 if one could
-    not be tried, else 1 if one does not stand.
+    Exit code 0: the robot stands. 1: it does not stand. 2: it could not be simulated. With --fleet:
+    2 if a robot could not be simulated, else 1 if a robot does not stand.
     """  # noqa: D301 -- click reads the escape
     from ..extras import require
     from ..parallel import terminate_gracefully
@@ -81,7 +91,7 @@ def command(
     paths, arguments = robot
     if values["fleet"]:
         if outputs.wanted:
-            raise click.UsageError("--plot, --picture and --video are of one robot, not a --fleet")
+            raise click.UsageError("--plot, --picture and --video do not support --fleet")
         fleet = Fleet(
             console, arguments, package, package_path, settings, engines, controllers, strict,
             frozenset(paths), cache,

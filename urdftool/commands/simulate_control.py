@@ -1,4 +1,4 @@
-"""The controllers of a file, for ``urdftool simulate``."""
+"""Apply a controller file to the settings of ``urdftool simulate``."""
 
 from __future__ import annotations
 
@@ -17,25 +17,26 @@ if TYPE_CHECKING:
 def controlled(
     console: Console, settings: Settings, robot: Robot, path: str | None, *, strict: bool = False
 ) -> Settings:
-    """Settings under which the controllers of a file drive the joints.
+    """Add the controllers of a file to the settings.
 
     Args:
-        console: What is passed over in the file is said there.
-        settings: Others.
-        robot: The robot.
-        path: The file; None for none, which leaves the settings as they are.
+        console: Output for notes about ignored parts of the file.
+        settings: Settings of the simulation.
+        robot: Robot.
+        path: Controller file; None returns the settings unchanged.
         strict: Refuse controllers of an unknown type.
 
     Raises:
-        ConfigError: The file does not suit the robot.
-        SourceError: It cannot be read.
-        UsageError: The joints are to be held or limp as well.
+        ConfigError: The file does not match the robot.
+        SourceError: The file cannot be read.
+        UsageError: The options set another way to hold the joints, too.
     """
     if path is None:
         return settings
     if settings.hold != "all":
         raise click.UsageError(
-            "--controllers says what holds the joints; leave out --limp and --hold-actuated"
+            "--controllers excludes --limp and --hold-actuated, because the controllers hold the "
+            "joints"
         )
     from ..simulation.controllers import read_controllers
 

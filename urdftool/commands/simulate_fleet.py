@@ -1,4 +1,4 @@
-"""Many robots simulated and told of in one table."""
+"""Simulate several robots, and report them in one table."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Fleet:
-    """How each robot is simulated; it is sent to the process that does it.
+    """Function that simulates one robot in a worker process; pickled with its options.
 
     Attributes:
-        console: The configuration that was named.
-        arguments: Values for xacro arguments.
+        console: Source of the configuration file.
+        arguments: Values of xacro arguments by name.
         packages: Folders by package name.
-        package_paths: Folders with packages below.
-        settings: How each is spawned.
+        package_paths: Folders that are searched for packages.
+        settings: Settings of the simulation.
         engines: Names of engines.
-        controllers: A file of controllers.
-        strict: Whether controllers of an unknown type are refused.
-        named: Descriptions that were named, and not found in a folder.
-        cache: Where what is needed of meshes is kept; None keeps nothing.
+        controllers: Controller file; None for none.
+        strict: Refuse controllers of an unknown type.
+        named: Descriptions of the command line, in contrast to those found in folders.
+        cache: Folder of the hull cache; None for no cache.
     """
 
     console: Console
@@ -49,7 +49,7 @@ class Fleet:
         """Simulate and judge one robot.
 
         Raises:
-            UrdftoolError: It cannot be.
+            UrdftoolError: The robot cannot be read or simulated.
         """
         from ..simulation.fleet import Row, make_row
         from ..simulation.hull_cache import using_cache
@@ -61,7 +61,7 @@ class Fleet:
             self.console, path, self.arguments, self.packages, self.package_paths, many=True
         )
         if not robot.links and path not in self.named:
-            return Row(path, robot.name, skipped="only macros: it has no link of its own")
+            return Row(path, robot.name, skipped="the file has macros only, and no link")
         settings = controlled(
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
@@ -80,17 +80,17 @@ def simulate_fleet(
     junit: str | None,
     jobs: int | None,
 ) -> int:
-    """Simulate descriptions, and those below folders; the exit code.
+    """Simulate files and the descriptions in folders, and return the exit code.
 
     Args:
-        fleet: How.
+        fleet: Function that simulates one robot.
         paths: Files and folders.
         style: ``text``, ``json`` or ``junit``.
-        junit: A file for JUnit XML, beside what is shown.
-        jobs: Processes; None is one for each core.
+        junit: Additional JUnit XML file; None for none.
+        jobs: Number of worker processes; None for one per core.
 
     Raises:
-        OutputError: The file cannot be written.
+        OutputError: The JUnit file cannot be written.
     """
     from ..lint.discover import find_descriptions, nothing_below
     from ..output import write_file

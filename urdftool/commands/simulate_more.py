@@ -1,4 +1,4 @@
-"""The options of ``urdftool simulate`` that say what simulates, what drives, and what is drawn."""
+"""Options of ``urdftool simulate`` for the engine, controllers, pictures and fleets."""
 
 from __future__ import annotations
 
@@ -17,50 +17,48 @@ _OPTIONS = (
     click.option(
         "--engine",
         type=click.Choice([*REGISTRY, BOTH]),
-        help="What simulates; mujoco runs our own MJCF export, both compares the two.  [default: "
-        "pybullet; mujoco where PyBullet has no wheels: from Python 3.12 on, and on ARM]",
+        metavar="ENGINE",
+        help="Physics engine: pybullet, mujoco or both.  [default: first installed]",
     ),
     click.option(
         "--controllers",
         metavar="FILE.yaml",
-        help="Drive the joints as the controllers of this ros_control or ros2_control file do, "
-        "told to hold the pose.",
+        help="ros_control or ros2_control file, whose controllers hold the joints.",
     ),
     click.option(
         "--strict",
         is_flag=True,
-        help="Refuse --controllers of an unknown type. Without it their joints are not actuated.",
+        help="Refuse controllers of unknown type (default: joints unactuated).",
     ),
     click.option(
         "--plot",
         metavar="FILE.png",
-        help="Draw height, tilt, kinetic energy, joints and their efforts over time.",
+        help="Write a plot of height, tilt, kinetic energy, joints and efforts.",
     ),
-    click.option("--picture", metavar="FILE.png", help="Draw the robot where it came to rest."),
-    click.option("--video", metavar="FILE.gif", help="Draw it on its way there."),
+    click.option("--picture", metavar="FILE.png", help="Write a picture of the final state."),
+    click.option("--video", metavar="FILE.gif", help="Write an animation of the simulation."),
     click.option(
         "--fleet",
         is_flag=True,
         is_eager=True,
-        help="Simulate many: every IN, and each .urdf and .urdf.xacro below an IN that is a "
-        "folder; one line each.",
+        help="Simulate several robots (files or folders), one line of output each.",
     ),
     click.option(
-        "--junit", metavar="FILE", help="Write JUnit XML there, too, with a case for each robot."
+        "--junit", metavar="FILE", help="Also write JUnit XML with one test case per robot."
     ),
     click.option(
         "-j",
         "--jobs",
         type=click.IntRange(1),
         metavar="N",
-        help="Robots of a --fleet at once.  [default: one for each core]",
+        help="With --fleet: number of worker processes.  [default: one per core]",
     ),
     *CACHE_OPTIONS,
 )
 
 
 def robots_argument(function: F) -> F:
-    """``IN [name:=value …]``: a path, or with ``--fleet`` several, and the xacro arguments."""
+    """Add ``IN [name:=value …]``: one path, or with ``--fleet`` several, and xacro arguments."""
     return click.argument(
         "robot", nargs=-1, type=str, metavar="IN [name:=value ...]", callback=_robots
     )(function)
@@ -74,14 +72,14 @@ def _robots(
         path, arguments = one_robot(ctx, words)
         return [path], arguments
     if not paths:
-        raise click.UsageError("robots are wanted: files, or folders that have some", ctx)
+        raise click.UsageError("missing argument IN: files or folders for --fleet", ctx)
     if "-" in paths:
-        raise click.UsageError("a fleet is not read from standard input", ctx)
+        raise click.UsageError("--fleet does not read standard input ('-')", ctx)
     return paths, arguments
 
 
 def more_options(function: F) -> F:
-    """All of them."""
+    """Add the options."""
     for option in reversed(_OPTIONS):
         function = option(function)
     return function

@@ -1,4 +1,4 @@
-"""One robot simulated, judged and told of."""
+"""Simulate one robot, judge the result and report it."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 def configured_thresholds(console: Console, path: str) -> Thresholds:
-    """Read the thresholds that the configuration of a description has.
+    """Read the thresholds of the configuration that applies to a description.
 
     Raises:
-        ConfigError: It has an unknown one, or a value that is not a number above zero.
+        ConfigError: A threshold is unknown, or not a number greater than zero.
     """
     from ..configuration import find_configuration
     from ..simulation.checks.thresholds import read_thresholds
@@ -84,21 +84,21 @@ def simulate_one(
     outputs: Outputs,
     junit: str | None,
 ) -> int:
-    """Simulate a robot in one engine or two, and say how it went; the exit code.
+    """Simulate a robot in one or two engines, print the verdict and return the exit code.
 
     Args:
-        console: Where it is said.
-        robot: The robot.
-        settings: How it is spawned.
+        console: Output for messages.
+        robot: Robot.
+        settings: Settings of the simulation.
         engines: Names of engines; two are compared.
-        thresholds: Of the checks.
-        child: A process of the first engine that waits for work.
+        thresholds: Thresholds of the checks.
+        child: Idle process of the first engine.
         style: ``text``, ``json`` or ``junit``.
-        outputs: What is drawn of the first trial.
-        junit: A file for JUnit XML, beside what is shown.
+        outputs: Files to draw of the first trial.
+        junit: Additional JUnit XML file; None for none.
 
     Raises:
-        UrdftoolError: It cannot be simulated, or a file cannot be written.
+        UrdftoolError: The robot cannot be simulated, or a file cannot be written.
     """
     from ..model.files import sources
     from ..output import check_targets, write_file

@@ -1,4 +1,4 @@
-"""The options of ``urdftool simulate`` that say how a robot is spawned."""
+"""Options of ``urdftool simulate`` for spawning the robot."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _payloads(
 ) -> dict[str, float]:
     found = name_numbers(ctx, parameter, values)
     if any(mass < 0 for mass in found.values()):
-        raise click.BadParameter("a payload weighs zero or more", ctx, parameter)
+        raise click.BadParameter("the mass of a payload is negative", ctx, parameter)
     return found
 
 
@@ -53,34 +53,33 @@ _OPTIONS = (
         type=float,
         metavar="M",
         callback=_finite,
-        help="Spawn height of the root above the plane [m].  [default: the lowest collision "
-        "geometry is just above it]",
+        help="Spawn height of the root link [m].  [default: just above contact]",
     ),
     click.option(
         "--hold",
         "hold",
         flag_value="all",
         default="all",
-        help="Hold every joint within its effort limit, at zero or at its --pose (the default).",
+        help="Hold all joints at --pose or zero within effort limits (default).",
     ),
     click.option(
         "--hold-actuated",
         "hold",
         flag_value="actuated",
-        help="Hold only the joints that the file actuates.",
+        help="Hold only the joints that have an actuator in the file.",
     ),
     click.option(
         "--limp",
         "hold",
         flag_value="none",
-        help="Hold no joint.",
+        help="Leave all joints unactuated.",
     ),
     click.option(
         "--pose",
         multiple=True,
         metavar="JOINT=VALUE",
         callback=name_numbers,
-        help="Start and hold a joint at a position [rad or m]. Repeatable.",
+        help="Initial and held position of a joint [rad or m]. Repeatable.",
     ),
     click.option("--fixed-base", is_flag=True, help="Fix the root link to the world."),
     click.option(
@@ -88,14 +87,14 @@ _OPTIONS = (
         multiple=True,
         metavar="LINK=KG",
         callback=_payloads,
-        help="Add a point mass [kg] to a link, at its center of mass. Repeatable.",
+        help="Point mass at the center of mass of a link [kg]. Repeatable.",
     ),
     click.option(
         "--slope",
         type=click.FloatRange(-60, 60),
         default=0.0,
         metavar="DEG",
-        help="Slope of the plane, which falls along x [degrees].",
+        help="Slope of the plane, downward along +x [degrees].",
     ),
     click.option(
         "--friction",
@@ -103,12 +102,12 @@ _OPTIONS = (
         default=1.0,
         show_default=True,
         metavar="MU",
-        help="Friction coefficient of links for which the file gives none.",
+        help="Friction coefficient where the file has none.",
     ),
     click.option(
         "--self-collision",
         is_flag=True,
-        help="Let links of the robot push each other, except the two of a joint.",
+        help="Enable contacts between links, except parent and child of a joint.",
     ),
     click.option(
         "--trials",
@@ -116,32 +115,37 @@ _OPTIONS = (
         default=1,
         show_default=True,
         metavar="N",
-        help="Number of trials; all but the first start with a random tilt (up to 6°) and yaw.",
+        help="Number of trials, randomly tilted and turned.",
     ),
     click.option(
-        "--seed", type=int, default=0, show_default=True, help="Seed of the random tilts and yaws."
+        "--seed",
+        type=int,
+        default=0,
+        show_default=True,
+        metavar="N",
+        help="Seed of random tilts (up to 6°) and yaws after trial 1.",
     ),
-    click.option("--sweep", is_flag=True, help="Also move each joint through its limits."),
+    click.option("--sweep", is_flag=True, help="Also move each joint from limit to limit."),
     click.option(
         "--time-limit",
         type=click.FloatRange(0.1, 86400),
         default=60.0,
         show_default=True,
         metavar="S",
-        help="Wall-clock limit for the engine [s].",
+        help="Wall-clock limit of the engine [s].",
     ),
 )
 
 
 def settings_options(function: F) -> F:
-    """All of them; :func:`settings_of` takes their values."""
+    """Add the options; :func:`settings_of` makes settings of their values."""
     for option in reversed(_OPTIONS):
         function = option(function)
     return function
 
 
 def settings_of(values: dict[str, Any]) -> Settings:
-    """The settings that the options say."""
+    """Make the settings from the values of the options, by parameter name."""
     from ..simulation.settings import Settings
 
     return Settings(

@@ -1,4 +1,4 @@
-"""What ``urdftool simulate`` draws: a picture, a film and curves of a run."""
+"""Output files of ``urdftool simulate``: picture, animation and plot."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 @dataclass
 class Outputs:
-    """Files that are asked for.
+    """Requested output files.
 
     Attributes:
-        plot: Curves over time.
-        picture: The robot where it came to rest.
-        video: The run as a film.
-        shapes: What is drawn, once it is read.
+        plot: File of the plot over time; None for none.
+        picture: File of the picture of the final state; None for none.
+        video: File of the animation; None for none.
+        shapes: Geometry to draw, after :meth:`read`.
     """
 
     plot: str | None = None
@@ -38,14 +38,14 @@ class Outputs:
 
     @property
     def wanted(self) -> bool:
-        """Whether any is."""
+        """Whether a file is requested."""
         return bool(self.plot or self.picture or self.video)
 
     def check(self) -> None:
-        """Refuse files that cannot be written, before the robot is even read.
+        """Refuse files that cannot be written, before the robot is read.
 
         Raises:
-            UsageError: One has another ending, or no place to be written to.
+            UsageError: A file has the wrong suffix, is a folder or read-only, or two are the same.
             MissingDependency: --plot requires Matplotlib.
         """
         from ..extras import require
@@ -61,13 +61,13 @@ class Outputs:
                 check_output(option, path, ending)
         paths = [os.path.realpath(p) for p in (self.plot, self.picture, self.video) if p]
         if len(set(paths)) < len(paths):
-            raise click.UsageError("--plot, --picture and --video want a file each")
+            raise click.UsageError("--plot, --picture and --video require different files")
 
     def read(self, console: Console, robot: Robot) -> None:
-        """Read what is to be drawn, before anything is simulated.
+        """Read the geometry to draw, before the simulation.
 
         Raises:
-            ModelError: There is nothing.
+            ModelError: The robot has no geometry.
         """
         if not (self.picture or self.video):
             return
@@ -81,15 +81,15 @@ class Outputs:
                 console.error(problem)
             if len(self.shapes):
                 if show == "collision":
-                    console.note("the robot has no visual that could be drawn: collisions are")
+                    console.note("the robot has no visual geometry; drawing collision geometry")
                 return
-        raise ModelError("the robot has nothing that could be drawn", at=robot.place)
+        raise ModelError("the robot has no geometry to draw", at=robot.place)
 
     def write(self, console: Console, robot: Robot, runs: Sequence[Run]) -> None:
-        """Draw a trial, which was run in one engine or two, and write the files.
+        """Draw a trial, which was run in one or two engines, and write the files.
 
         Raises:
-            OutputError: One cannot be written.
+            OutputError: A file cannot be written.
         """
         if not self.wanted:
             return
@@ -116,16 +116,16 @@ def check_output(option: str, path: str, ending: str) -> None:
     """Refuse a file that cannot be written.
 
     Args:
-        option: That names it.
-        path: The file.
-        ending: Of its name.
+        option: Option of the file, for messages.
+        path: File.
+        ending: Required suffix, or "".
 
     Raises:
-        UsageError: With the reason.
-        OutputError: Its folder cannot be made.
+        UsageError: The suffix is wrong, or the path is a folder or read-only.
+        OutputError: The folder cannot be created.
     """
     if ending and not path.lower().endswith(ending):
-        raise click.UsageError(f"{option} wants a name that ends in {ending}, not {path}")
+        raise click.UsageError(f"{option} requires a file that ends in {ending}, not {path}")
     from ..extras import require
     from ..output import check_folder
 
@@ -134,7 +134,7 @@ def check_output(option: str, path: str, ending: str) -> None:
     file = Path(path)
     check_folder(file.resolve().parent, path)
     if file.is_dir():
-        raise click.UsageError(f"{path} is a folder; the name of a file is wanted")
+        raise click.UsageError(f"{path} is a folder; {option} requires a file")
     folder = file.resolve().parent
     if folder.is_dir() and not os.access(file if file.exists() else folder, os.W_OK):
-        raise click.UsageError(f"{path} may not be written")
+        raise click.UsageError(f"{path} is not writable")

@@ -1,4 +1,4 @@
-"""What ``urdftool --version`` prints; with -v, what a bug report needs."""
+"""Print the version and, with ``-v``, the environment for a bug report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``urdftool view``: the robot on a page with a slider a joint, or in a picture."""
+"""``urdftool view``: show a robot on a web page with joint sliders, or in a picture."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from .grouped_help import GroupedCommand
 from .options import gltf_option, package_options, robot_argument
 from .view_picture import picture_options
 
@@ -15,21 +16,29 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
 
 
-@click.command("view")
+_GROUPS = {
+    "Page": "opened port host unlinted",
+    "Picture": "picture contact_sheet size camera",
+    "Robot": "pose show",
+}
+
+
+@click.command("view", cls=GroupedCommand, groups=_GROUPS)
 @robot_argument
 @click.option(
     "--port",
     type=click.IntRange(1, 65535),
-    help="Serve the page on that port; without it on 8733, or the next free one.",
+    metavar="PORT",
+    help="Port of the page.  [default: 8733, or the next free port]",
 )
 @click.option(
     "--host",
     metavar="ADDRESS",
-    help="Serve it on that address of this computer. Who can reach it sees and moves the robot.  "
+    help="Network address of the page; everyone with access can move the robot.  "
     "[default: 127.0.0.1]",
 )
 @click.option("--open", "opened", is_flag=True, help="Open the page in the browser.")
-@click.option("--no-lint", "unlinted", is_flag=True, help="Do not lint the robot on the page.")
+@click.option("--no-lint", "unlinted", is_flag=True, help="Show no lint findings on the page.")
 @picture_options
 @gltf_option
 @package_options
@@ -50,11 +59,11 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Show IN, a robot or a mesh file, on a page in the browser, with a slider for each joint.
+    """Show the robot or mesh file IN on a web page, with a slider for each joint.
 
-    Prints the page's address and serves it until Ctrl-C. Files that change are read again: the
-    description, what it includes, its meshes. The page is for this computer alone, and fetches
-    nothing from the network. With --picture or --contact-sheet there is no page and no browser.
+    Prints the address of the page and serves it until Ctrl-C; reloads the description, included
+    files and meshes when they change. The page loads nothing from the network. With --picture or
+    --contact-sheet, a file is written and no page is served.
 
     \b
         urdftool view arm.urdf.xacro prefix:=left_ --open
@@ -77,7 +86,7 @@ def command(
 
         if port is not None or host is not None or opened:
             raise click.UsageError(
-                "--port, --host and --open are for the page, which a picture is not"
+                "--picture and --contact-sheet exclude --port, --host and --open"
             )
         check_pictures(picture, contact_sheet)
         return write_pictures(
@@ -91,7 +100,7 @@ def command(
             show=show,
         )
     if size is not None or camera is not None:
-        raise click.UsageError("--size and --camera are for --picture and --contact-sheet")
+        raise click.UsageError("--size and --camera require --picture or --contact-sheet")
     from .view_page import serve_page
 
     serve_page(

@@ -1,4 +1,4 @@
-"""A mesh file as a robot of one link, which the viewer shows."""
+"""Read a mesh file as a robot of one link, for the viewer."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def is_mesh(path: str) -> bool:
-    """Whether a path names a mesh file, by its suffix."""
+    """Tell whether a path has the suffix of a mesh file."""
     from ..geometry.load import READERS
 
     return Path(path).suffix.lower().removeprefix(".") in READERS
@@ -26,16 +26,16 @@ def read_mesh_robot(
     packages: Mapping[str, Path],
     package_paths: Iterable[str],
 ) -> Robot:
-    """Read a mesh file as a robot of one link that looks and collides like it [m].
+    """Read a mesh file as a robot of one link, whose visual and collision geometry is the mesh.
 
     Args:
-        console: The configuration that was named.
-        path: The mesh file.
+        console: Source of the configuration file.
+        path: Mesh file.
         packages: Folders by package name, from the command line.
-        package_paths: Folders with packages below.
+        package_paths: Folders that are searched for packages.
 
     Raises:
-        UrdftoolError: It is not found, or cannot be read.
+        UrdftoolError: The file is not found, or cannot be read.
     """
     from ..geometry.load import load_named
     from ..model.load import robot_of

@@ -1,4 +1,4 @@
-"""The page of ``urdftool view``, from its address to Ctrl-C."""
+"""Serve the page of ``urdftool view`` until Ctrl-C."""
 
 from __future__ import annotations
 
@@ -28,11 +28,21 @@ def serve_page(
     pose: Mapping[str, float],
     show: str,
 ) -> None:
-    """Serve the page until somebody stops it.
+    """Serve the page until Ctrl-C.
+
+    Args:
+        console: Output for messages.
+        read: Reads the robot; called again when a file changes.
+        port: Port; None for the default or the next free one.
+        host: Network address; None for this computer only.
+        opened: Open the page in the browser.
+        linted: Show lint findings.
+        pose: Initial joint positions by name [rad or m].
+        show: Geometry to show: ``visual``, ``collision`` or ``both``.
 
     Raises:
-        UrdftoolError: There is no robot that could be shown, no joint that was named, no such
-            address, or viser is not installed.
+        UrdftoolError: The robot has no links, a joint of the pose does not exist, the address
+            cannot be used, or viser is not installed.
     """
     from ..model.kinematics import check_positions
     from ..viewer.page import Page, worthy
@@ -43,7 +53,7 @@ def serve_page(
     host = host or LOOPBACK
     port = choose_port(host, port)
     if not is_loopback(host):
-        console.say(f"warning: whoever can reach {host} sees the robot, and may move it")
+        console.say(f"warning: everyone with network access to {host} can see and move the robot")
     pages: list[Page] = []
     server = start(host, port, lambda: pages[0].title if pages else "urdftool")
     try:
@@ -59,9 +69,9 @@ def serve_page(
         pages.append(page)
         where = address(host, port)
         write_result(f"{where}\n", None)
-        console.note("Ctrl-C ends it")
+        console.note("press Ctrl-C to stop")
         if opened and not webbrowser.open(where):
-            console.say("warning: no browser could be opened")
+            console.say("warning: the browser cannot be opened; open the address above")
         page.run()
     finally:
         server.stop()

@@ -1,4 +1,4 @@
-"""Pictures of a robot without a browser: one, or a sheet of every joint at both its limits."""
+"""Write pictures of a robot: one view, or a contact sheet of every joint at both limits."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 LARGEST = 4096
-"""Width and height of a picture in pixels, at most."""
+"""Maximum width and height of a picture [pixels]."""
 
 
-_MOST = 120_000_000
+_MAX_SHEET = 120_000_000  # pixels
 
 
 def _size(
@@ -39,7 +39,7 @@ def _size(
         size = 0, 0
     if not times or not all(8 <= side <= LARGEST for side in size):
         raise click.BadParameter(
-            f"'{value}' is not WIDTHxHEIGHT in pixels, each from 8 to {LARGEST}, such as 1280x960",
+            f"'{value}' is not WIDTHxHEIGHT in pixels (8 to {LARGEST} each), such as 1280x960",
             ctx,
             parameter,
         )
@@ -57,17 +57,17 @@ def _camera(
         numbers = ()
     if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
         raise click.BadParameter(
-            f"'{value}' is not AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres, such as 30,20",
+            f"'{value}' is not AZIMUTH,ELEVATION[,DISTANCE] in degrees and meters, such as 30,20",
             ctx,
             parameter,
         )
     if abs(numbers[1]) > 90:
         raise click.BadParameter(
-            f"an elevation of {numbers[1]:g} is not within -90 … 90 degrees", ctx, parameter
+            f"the elevation {numbers[1]:g} is not between -90 and 90 degrees", ctx, parameter
         )
     if len(numbers) == 3 and numbers[2] <= 0:
         raise click.BadParameter(
-            f"a distance of {numbers[2]:g} m is not above zero", ctx, parameter
+            f"the distance {numbers[2]:g} m is not greater than zero", ctx, parameter
         )
     return numbers
 
@@ -84,7 +84,7 @@ def _pose(
             position = math.nan
         if not equals or not name or not math.isfinite(position):
             raise click.BadParameter(
-                f"'{value}' is not JOINT=VALUE, a position in radians or metres", ctx, parameter
+                f"'{value}' is not JOINT=VALUE with a position in rad or m", ctx, parameter
             )
         if name in positions:
             raise click.BadParameter(f"joint '{name}' is given twice", ctx, parameter)
@@ -93,51 +93,51 @@ def _pose(
 
 
 _OPTIONS = (
-    click.option("--picture", metavar="FILE.png", help="Draw the robot there; no page is served."),
+    click.option("--picture", metavar="FILE.png", help="Write a picture of the robot."),
     click.option(
         "--contact-sheet",
         metavar="FILE.png",
-        help="Draw every joint at both its limits there; no page is served.",
+        help="Write a picture with every joint at both of its limits.",
     ),
     click.option(
         "--size",
         metavar="WxH",
         callback=_size,
-        help="Pixels of --picture, and of each cell of --contact-sheet.  [default: 1280x960]",
+        help="Size of the picture or of each cell [pixels].  [default: 1280x960]",
     ),
     click.option(
         "--camera",
-        metavar="AZIMUTH,ELEVATION[,DISTANCE]",
+        metavar="AZ,EL[,DIST]",
         callback=_camera,
-        help="Where the picture is taken from, in degrees and metres: 0,0 is in front of the "
-        "robot, 90,0 at its left. Without a distance all of it just fits.  [default: -40,22]",
+        help="Azimuth, elevation [degrees] and distance [m] of the camera: 0,0 is in front of the "
+        "robot, 90,0 on its left; by default the robot fits the picture.  [default: -40,22]",
     ),
     click.option(
         "--pose",
         metavar="JOINT=VALUE",
         multiple=True,
         callback=_pose,
-        help="Position of a joint [rad or m]; mimics follow, others are at zero. Repeatable.",
+        help="Position of a joint [rad or m]; mimic joints follow. Repeatable.  [default: 0]",
     ),
     click.option(
         "--show",
         type=click.Choice(["visual", "collision", "both"]),
         default="visual",
         show_default=True,
-        help="What is drawn; both shows the collisions see-through.",
+        help="Geometry to show; both draws collisions transparent.",
     ),
 )
 
 
 def picture_options(function: F) -> F:
-    """``picture``, ``contact_sheet``, ``size``, ``camera``, ``pose`` and ``show``."""
+    """Add the options."""
     for option in reversed(_OPTIONS):
         function = option(function)
     return function
 
 
 def check_pictures(picture: str | None, contact_sheet: str | None) -> None:
-    """Refuse files that cannot be written before the robot is read."""
+    """Refuse files that cannot be written, before the robot is read."""
     checked_picture(picture)
     checked_picture(contact_sheet, "--contact-sheet")
 
@@ -153,16 +153,26 @@ def write_pictures(
     pose: Mapping[str, float] | None = None,
     show: str = "visual",
 ) -> int:
-    """Write the pictures that are asked for.
+    """Write the requested pictures.
 
-    What cannot be loaded is said and left out; the rest is drawn.
+    Meshes that cannot be loaded are reported and not drawn.
+
+    Args:
+        console: Output for messages.
+        robot: Robot.
+        picture: File of the picture; None for none.
+        contact_sheet: File of the contact sheet; None for none.
+        size: Width and height of the picture or of a cell [pixels].
+        camera: Azimuth and elevation [degrees], and optionally distance [m].
+        pose: Joint positions by name [rad or m].
+        show: Geometry to show: ``visual``, ``collision`` or ``both``.
 
     Returns:
-        The exit code: 1 where something was left out.
+        The exit code: 1 if a part was not drawn.
 
     Raises:
-        ModelError: A position that was asked for, no joint can have; nothing can be drawn; or no
-            joint moves, and a contact sheet was asked for.
+        ModelError: A joint position is not possible, there is nothing to draw, or no joint moves
+            for a contact sheet.
         OutputError: A file cannot be written.
     """
     from ..drawing.picture import SIZE, draw, png
@@ -183,14 +193,17 @@ def write_pictures(
     say_gltf(console, robot)
     poses = link_poses(robot, with_mimics(robot, positions))
     if not len(shapes):
-        what = "shape" if show == "both" else show
+        what = "" if show == "both" else f"{show} "
         other = any(link.collisions if show == "visual" else link.visuals for link in robot.links)
         more = "; try --show both" if other and show != "both" else ""
-        raise ModelError(f"the robot has no {what} that could be drawn{more}", at=robot.place)
+        raise ModelError(f"the robot has no {what}geometry to draw{more}", at=robot.place)
     nowhere = [link for link in robot.links if link.name not in poses and not link.is_frame]
     for link in nowhere:
         console.error(
-            ModelError(f"link '{link.name}' hangs on no root and is not drawn", at=link.place)
+            ModelError(
+                f"link '{link.name}' is not connected to the root link and is not drawn",
+                at=link.place,
+            )
         )
     seen_from = None if camera is None else _placed(camera)
     if picture is not None:
@@ -224,13 +237,16 @@ def _write_sheet(
 
     sweeps = sweeps_of(robot, shown=shown_links(shapes))
     if not sweeps:
-        what = "moves a shape" if sweeps_of(robot) else "moves"
-        raise ModelError(f"no joint of the robot {what}; --picture draws it", at=robot.place)
+        what = "moves geometry" if sweeps_of(robot) else "is movable"
+        raise ModelError(
+            f"no joint of the robot {what}, so a contact sheet has no content; use --picture",
+            at=robot.place,
+        )
     layout = layout_of(len(sweeps), cell)
-    if layout.width * layout.height > _MOST:
+    if layout.width * layout.height > _MAX_SHEET:
         raise click.UsageError(
-            f"the contact sheet of {len(sweeps)} joints would have {layout.width} × "
-            f"{layout.height} pixels; choose a smaller --size"
+            f"the contact sheet of {len(sweeps)} joints has {layout.width} × {layout.height} "
+            f"pixels, more than {_MAX_SHEET:,}; choose a smaller --size"
         )
     with Progress(console, "joints") as progress:
         image = contact_sheet(

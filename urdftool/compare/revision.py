@@ -106,7 +106,7 @@ class Checkout:
             call.file.path = self.shown(call.file.path)
         return error
 
-    def neighbours(self) -> Mapping[str, Path]:
+    def neighbors(self) -> Mapping[str, Path]:
         """Return packages in present submodules, and next to a repository that is a package."""
         found: dict[str, Path] = {}
         above = self.top.parent

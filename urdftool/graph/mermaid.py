@@ -38,9 +38,11 @@ def to_mermaid(figure: Figure) -> str:
 def too_large(figure: Figure, text: str) -> str:
     """Explain which default limit of Mermaid a figure exceeds; return "" if none."""
     if len(figure.edges) > MAX_EDGES:
-        return f"{len(figure.edges)} edges, and Mermaid draws {MAX_EDGES} unless maxEdges is set"
+        return f"{len(figure.edges)} edges, but Mermaid's default limit (maxEdges) is {MAX_EDGES}"
     if len(text) > MAX_CHARACTERS:
-        return f"{len(text)} characters, and Mermaid reads {MAX_CHARACTERS} unless maxTextSize is"
+        return (
+            f"{len(text)} characters, but Mermaid's default limit (maxTextSize) is {MAX_CHARACTERS}"
+        )
     return ""
 
 

@@ -39,27 +39,32 @@ _LENGTH = Size("length", 1, "L", "along Z [m]")
 _RADIUS = Size("radius", 1, "R", "[m]")
 
 SHAPES = (
-    Shape("box", "a cuboid", (Size("size", 3, "X Y Z", "edges along X, Y and Z [m]"),), True),
-    Shape("cylinder", "about Z, centered", (_RADIUS, _LENGTH), True, True),
-    Shape("sphere", "centered", (_RADIUS,), True),
+    Shape(
+        "box",
+        "cuboid, centered at the origin",
+        (Size("size", 3, "X Y Z", "edges along X, Y and Z [m]"),),
+        True,
+    ),
+    Shape("cylinder", "axis along Z, centered at the origin", (_RADIUS, _LENGTH), True, True),
+    Shape("sphere", "centered at the origin", (_RADIUS,), True),
     Shape(
         "capsule",
-        "a cylinder along Z between two half spheres",
+        "axis along Z, centered at the origin, with half spheres at both ends",
         (_RADIUS, Size("length", 1, "L", "of the cylinder between the half spheres [m]")),
     ),
     Shape(
         "ellipsoid",
-        "centered",
+        "centered at the origin",
         (Size("radii", 3, "A B C", "half axes along X, Y and Z [m]"),),
     ),
     Shape(
         "cone",
-        "along Z, its tip up and its origin half way up",
+        "axis along Z, tip up, origin at half height",
         (Size("radius", 1, "R", "of the base [m]"), _LENGTH),
     ),
 )
 
-THICKNESS = Size("thickness", 1, "T", "of the wall, inwards from the outer sizes [m]")
+THICKNESS = Size("thickness", 1, "T", "of the wall, inward from the outer dimensions [m]")
 
 
 _MIN, _MAX = 1e-200, 1e200
@@ -107,7 +112,5 @@ def shape_properties(
     except ArithmeticError:
         result = None  # type: ignore[assignment]
     if result is None or not (_MIN < result.mass < _MAX and _MIN < max(result.tensor) < _MAX):
-        raise InertiaError(
-            f"{shape.title} of this size and mass is too large for floating-point numbers"
-        )
+        raise InertiaError(f"{shape.title} of this size and mass is beyond what numbers can hold")
     return result

@@ -337,7 +337,7 @@ def worthy(robot: Robot) -> Robot:
         ModelError: It has no link, or no root link because joints form a loop.
     """
     if not robot.links:
-        raise ModelError("there is no link in it, so there is nothing to view", at=robot.place)
+        raise ModelError("the robot has no links; there is nothing to view", at=robot.place)
     if not robot.tree.roots:
         raise ModelError(
             "every link is the child of another, so none is the root; the joints form a loop",
