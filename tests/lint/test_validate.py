@@ -74,3 +74,79 @@ def test_data_decides_what_a_purpose_accepts():
     loops = [("bc", "b", "c"), ("cb", "c", "b"), ("de", "d", "e"), ("ed", "e", "d")]
     assert rules_of(tree("abcde", loops)) == ["detached-cycle"]
     assert rules_of(tree("abcde", loops), "graph") == ["detached-cycle"] * 4
+
+
+BLOCK = (
+    '<robot name="r"><link name="a"/><link name="b"/>'
+    '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>{}</robot>'
+)
+
+
+@pytest.mark.parametrize(
+    ("block", "refused"),
+    [
+        ('<gazebo reference="a"><mu1>x</mu1></gazebo>', {"sdf": "link", "mjcf": "link"}),
+        ('<gazebo reference="a"><fdir1>x</fdir1></gazebo>', {"sdf": "link"}),
+        ('<gazebo reference="a"><selfCollide>x</selfCollide></gazebo>', {"sdf": "link"}),
+        ('<gazebo reference="j"><stopErp>x</stopErp></gazebo>', {"sdf": "joint", "mjcf": "joint"}),
+        ('<gazebo reference="a"><stopErp>x</stopErp></gazebo>', {}),
+        ('<gazebo reference="no"><mu1>x</mu1></gazebo>', {}),
+        ('<gazebo><light name="l"><pose>x</pose></light></gazebo>', {"sdf": "gazebo"}),
+        (
+            '<gazebo><joint name="k"><pose>x</pose></joint></gazebo>',
+            {"sdf": "gazebo", "mjcf": "gazebo"},
+        ),
+        ('<gazebo><joint name="k"><pose/></joint></gazebo>', {}),
+        (
+            '<gazebo><joint name="k"><axis><xyz>1 0</xyz></axis></joint></gazebo>',
+            {"sdf": "gazebo", "mjcf": "gazebo"},
+        ),
+        ('<gazebo><plugin name="p" filename="p"><pose>x</pose></plugin></gazebo>', {}),
+        ('<mujoco><option timestep="x"/></mujoco>', {"mjcf": "option"}),
+    ],
+)
+def test_a_value_of_an_extension_keeps_a_robot_from_the_formats_that_write_it(block, refused):
+    model = robot(BLOCK.format(block))
+    found = {
+        name: [(f.rule, f.kind) for f in validate(model, f"export:{name}")]
+        for name in ("sdf", "mjcf")
+    }
+    for name, findings in found.items():
+        expected = [("bad-extension-number", refused[name])] if name in refused else []
+        assert findings == expected
+
+
+def test_what_lint_accepts_of_a_number_is_refused_where_it_is_written():
+    model = robot(BLOCK.format('<origin xyz="0 0 x"/>'))
+    assert rules_of(model) == []
+    assert rules_of(model, "export:sdf") == ["not-a-number"]
+    assert rules_of(model, "export:mjcf") == []
+
+
+def test_every_follower_of_a_fixed_joint_is_reported_and_its_own_type_is_not():
+    follower = '<joint name="{0}" type="{1}"><parent link="b"/><child link="{0}"/>{2}</joint>'
+    mimic = '<mimic joint="j"/><limit lower="0" upper="1" effort="1" velocity="1"/>'
+    parts = "".join(f'<link name="{name}"/>' for name in "kl")
+    parts += follower.format("k", "revolute", mimic) + follower.format("l", "prismatic", mimic)
+    found = validate(robot(BLOCK.format(parts)), "export:sdf")
+    assert [(f.rule, f.name) for f in found] == [("mimic-dof-mismatch", name) for name in "kl"]
+
+
+def test_the_plugin_without_a_name_is_written_and_the_one_without_a_library_is_not():
+    text = '<gazebo><plugin name="p"/><plugin filename="p"/></gazebo>'
+    found = validate(robot(BLOCK.format(text)), "export:sdf")
+    assert [(f.rule, f.name) for f in found] == [("plugin-without-filename", "p")]
+
+
+@pytest.mark.parametrize(
+    ("number", "found"),
+    [("1e30", []), ("2e30", ["immense-number"]), ("1" * 32, ["immense-number"])],
+)
+def test_a_number_above_1e30_is_immense_and_a_limit_may_be(number, found):
+    sphere = f'<geometry><sphere radius="{number}"/></geometry>'
+    shape = f'<link name="c"><visual>{sphere}</visual></link>'
+    joint = (
+        '<joint name="k" type="revolute"><parent link="b"/><child link="c"/>'
+        '<limit lower="-1e40" upper="1e40" effort="1e300" velocity="1"/></joint>'
+    )
+    assert rules_of(robot(BLOCK.format(shape + joint))) == found

@@ -1,45 +1,27 @@
-"""What keeps a robot from leaving in any language: one finding a defect, with its place.
+"""Refusal of robots that cannot be exported: one finding for each defect, with its place.
 
-Each bears the name that the linter gives it. Those in ``FATAL`` leave no robot to write; past the
-others an exporter can go on if it is told to, and says what it did instead.
+The rules of ``lint`` find the defects of a robot (``lint.validate``). A writer adds those that only
+it can know: limits of its format, mesh files that it cannot convert, and bodies that are physically
+inconsistent after links are lumped. Those in ``FATAL`` leave no robot to write; with ``--force`` an
+export passes the others, and reports what it wrote instead.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from ..errors import ModelError
 from ..finding import Finding, Severity
 from ..lint.validate import validate
 from ..model.elements import Robot
-from ..model.read import numbers
 from ..model.world import with_world
-from ..source.document import Element
 from ..source.location import Place
-
-ENORMOUS = 1e30
-"""No mass, size or distance is larger; beyond, squares of numbers end in infinity."""
 
 FATAL = frozenset(
     ("no-links", "no-root", "multiple-roots", "multiple-parents", "duplicate-link-name",
      "duplicate-joint-name", "unknown-parent-link", "unknown-child-link", "missing-parent-or-child",
      "missing-name", "detached-cycle", "immense-number")
 )  # fmt: skip
-
-_SIZES: dict[str, dict[str, int]] = {
-    "origin": {"xyz": 3, "rpy": 3, "quat_xyzw": 4},
-    "mass": {"value": 1},
-    "inertia": dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), 1),
-    "box": {"size": 3},
-    "cylinder": {"radius": 1, "length": 1},
-    "capsule": {"radius": 1, "length": 1},
-    "sphere": {"radius": 1},
-    "mesh": {"scale": 3},
-    "color": {"rgba": 4},
-    "axis": {"xyz": 3},
-    "mimic": {"multiplier": 1, "offset": 1},
-}
-"""Numbers of masses, sizes and distances, and how many an attribute takes, by its element."""
 
 
 class Refused(ModelError):  # noqa: N818 -- reads as what happened
@@ -72,10 +54,9 @@ def refuse(findings: Iterable[Finding], *, force: bool, fatal: frozenset[str] = 
         raise Refused(forbidding)
 
 
-def defects(robot: Robot) -> Iterator[Finding]:
-    """Each defect of a robot's links, joints and numbers; meshes are looked at elsewhere."""
-    yield from validate(robot, "export")
-    yield from _immense_numbers(robot)
+def defects(robot: Robot) -> list[Finding]:
+    """Find the defects of a robot's links, joints and numbers that every export refuses."""
+    return validate(robot, "export")
 
 
 def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
@@ -107,23 +88,3 @@ def defect(
 ) -> Finding:
     """Make a finding of severity error."""
     return Finding(rule, Severity.ERROR, message, place, kind, name, hint=hint, data=data or {})
-
-
-def _immense_numbers(robot: Robot) -> Iterator[Finding]:
-    for part in (*robot.links, *robot.joints, *robot.materials):
-        for element in part.element.walk():
-            for attribute, count in _SIZES.get(element.tag, {}).items():
-                values = numbers(element.get(attribute), count) or ()
-                if any(abs(value) > ENORMOUS for value in values):
-                    yield _immense_number(element, attribute, part.element)
-
-
-def _immense_number(element: Element, attribute: str, part: Element) -> Finding:
-    return defect(
-        "immense-number",
-        f'{attribute}="{element.get(attribute)}" of <{element.tag}> in {part.tag} '
-        f"'{part.get('name') or ''}' is above {ENORMOUS:g}; write one that a robot can have",
-        element.attribute_place(attribute),
-        part.tag,
-        part.get("name") or "",
-    )

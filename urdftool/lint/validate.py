@@ -6,7 +6,7 @@ full: also what ``lint`` leaves to the finding of another rule keeps a robot fro
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -30,20 +30,21 @@ class Requirement(NamedTuple):
     most: int | None = None
 
 
-_NAMED = MappingProxyType({"has_name": frozenset((True,))})
-_DETACHED = MappingProxyType(dict.fromkeys(("is_detached", "has_root"), frozenset((True,))))
-_NO_BALL = MappingProxyType({"is_ball": frozenset((False,))})
-_WRITTEN = MappingProxyType(
-    {
-        "attribute": frozenset(
-            (
-                *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
-                *("value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-                *("lower", "upper", "effort", "velocity", "damping", "friction"),
-                *("multiplier", "offset"),
-            )
-        )
-    }
+def _where(**values: Iterable[object]) -> Mapping[str, frozenset[object]]:
+    return MappingProxyType({key: frozenset(allowed) for key, allowed in values.items()})
+
+
+_NAMED = _where(has_name=(True,))
+_DETACHED = _where(is_detached=(True,), has_root=(True,))
+_NO_BALL = _where(is_ball=(False,))
+_WRITTEN = _where(
+    part=("link", "joint", "material"),
+    attribute=(
+        *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
+        *("value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+        *("lower", "upper", "effort", "velocity", "damping", "friction"),
+        *("multiplier", "offset"),
+    ),
 )
 """Numbers that an export writes; those of ``<safety_controller>`` are not among them."""
 
@@ -68,10 +69,12 @@ STRUCTURE = (
     Requirement("lower-above-upper"),
     Requirement("mimic-unknown-joint"),
     Requirement("mimic-cycle"),
+    Requirement("immense-number"),
+    Requirement("negative-mass"),
 )
-"""The links are one tree, by names that are unique, and the numbers can be read."""
+"""The links are one tree, by names that are unique, and the numbers can be used."""
 
-_NOT_IN_DRAKE = MappingProxyType({"is_in_drake": frozenset((False,))})
+_NOT_IN_DRAKE = _where(is_in_drake=(False,))
 
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
     {
@@ -90,10 +93,19 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("empty-geometry"),
             Requirement("unsupported-shape"),
             Requirement("missing-limit"),
+            Requirement("incomplete-inertial"),
+            Requirement("mimic-dof-mismatch", _where(type=("fixed",))),
+            Requirement("not-a-number", _where(part=("robot",))),
+            Requirement("unknown-sensor-type"),
+            Requirement("plugin-without-filename", _where(has_filename=(False,))),
+            Requirement("bad-extension-number", _where(holder=("keyword", "element"))),
         ),
         "export:mjcf": (
             Requirement("empty-geometry"),
             Requirement("unsupported-shape", _NOT_IN_DRAKE),
+            Requirement("bad-extension-number", _where(kind=("number", "count"))),
+            Requirement("bad-extension-number", _where(is_loop=(True,))),
+            Requirement("bad-extension-number", _where(holder=("mujoco",))),
         ),
     }
 )

@@ -11,6 +11,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "vocabulary": ("unknown-element", "unknown-attribute", "wrong-case-keyword"),
         "shape": ("repeated-element", "several-shapes-in-geometry", "empty-geometry"),
         "numbers": ("wrong-arity", "not-a-number", "tab-or-newline-in-vector"),
+        "magnitude": ("immense-number",),
         "reference": ("padded-reference",),
         "version": (
             "unsupported-urdf-version",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ...finding import Severity
-from ..common.gazebo_blocks import is_true
+from ...rules.gazebo.keywords import is_true
 from ..written import Written
 from .drives import drive_plugins
 from .options import Base

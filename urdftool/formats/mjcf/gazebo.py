@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from ...finding import Finding, Severity
+from ...finding import Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
-from ..common.gazebo_blocks import is_false, is_true
-from ..defects import defect
+from ...rules.gazebo.block_values import is_false
+from ...rules.gazebo.keywords import is_true
 from ..written import Written
 from .digits import number_text
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
 """MuJoCo's sliding, torsional [m] and rolling [m] friction."""
-
-NUMERIC = (
-    "mu1", "mu2", "mu", "kp", "kd", "maxVel", "minDepth", "maxContacts", "laserRetro",
-    "dampingFactor", "springStiffness", "springReference", "stopCfm", "stopErp", "fudgeFactor",
-)  # fmt: skip
-"""Keywords whose value is a number."""
 
 # keyword -> why it is not exported, and the severity of the loss
 LOST: dict[str, tuple[str, Severity]] = {
@@ -98,24 +90,6 @@ def joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
         if stiffness:
             found = stiffness, number(block.value("springReference")) or 0.0
     return found
-
-
-def gazebo_defects(robot: Robot) -> Iterator[Finding]:
-    """Yield values of numeric keywords that are not finite numbers."""
-    for block in robot.gazebo:
-        for keyword in NUMERIC:
-            text = block.value(keyword)
-            if text is not None and number(text) is None:
-                child = block.element.child(keyword)
-                assert child is not None
-                yield defect(
-                    "bad-extension-number",
-                    f"<{keyword}> of <gazebo reference='{block.reference or ''}'> is '{text}', "
-                    "which is not a finite number",
-                    child.place,
-                    "gazebo",
-                    block.reference or "",
-                )
 
 
 def gazebo_losses(robot: Robot, written: Written) -> None:

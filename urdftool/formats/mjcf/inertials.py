@@ -2,7 +2,8 @@
 
 Welded links form one rigid body, so an inconsistent tensor can be repaired exactly if a neighbor in
 the same rigid body can absorb the difference. Only the remaining defects change the robot, by the
-method that the user chose.
+method that the user chose. A rule cannot find them: whether MuJoCo accepts a tensor depends on the
+links that are welded together in this export, and on whether the body moves.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from ...mechanics.tensor import (
     rotate_tensor,
     scale_tensor,
 )
-from ...model.elements import ZERO, Link
+from ...model.elements import ZERO
 from ...model.pose import IDENTITY, transpose
 from ..common.extent import box_size
 from ..common.inertia_repair import FixInertia, repair_tensor
@@ -56,7 +57,6 @@ def inertials(
     found: dict[str, LinkInertia] = {}
     wrong: list[Finding] = []
     for link in structure.robot.links:
-        wrong.extend(_negative(link))
         read = inertia_of(link)
         if read is not None:
             found[link.name] = read
@@ -88,17 +88,6 @@ def massless_leaves(structure: Structure) -> set[str]:
             if joint is not None:
                 heavy.add(structure.group[joint.parent])
     return set(structure.members) - heavy - {structure.root.name}
-
-
-def _negative(link: Link) -> Iterator[Finding]:
-    if link.mass < 0 and link.inertial is not None:
-        yield defect(
-            "negative-mass",
-            f"link '{link.name}' has a mass of {link.mass:g} kg; write one above zero",
-            link.inertial.place,
-            "link",
-            link.name,
-        )
 
 
 def _compose(

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from ...finding import Finding, Severity
-from ...model.elements import GazeboExtension, Robot, Vector
+from ...finding import Severity
+from ...model.elements import GazeboExtension, Vector
 from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..common.naming import UniqueNames
-from ..defects import defect
 from ..written import Written
 from .digits import numbers_text
 from .structure import WORLD, Structure
@@ -61,26 +60,6 @@ def loops(structure: Structure) -> Iterator[Loop]:
             found = _read(structure, block, element)
             if isinstance(found, Loop):
                 yield found
-
-
-def loop_defects(robot: Robot) -> Iterator[Finding]:
-    """Yield poses and axes that are not finite numbers."""
-    for block in robot.gazebo:
-        for joint in block.element.all("joint"):
-            axis = joint.child("axis")
-            for element, count in (
-                (joint.child("pose"), 6),
-                (axis.child("xyz") if axis is not None else None, 3),
-            ):
-                if element is not None and numbers(element.text, count) is None:
-                    yield defect(
-                        "bad-extension-number",
-                        f"<{element.tag}> of joint '{joint.get('name') or ''}' in <gazebo> is "
-                        f"'{element.text.strip()}', which is not {count} finite numbers",
-                        element.place,
-                        "gazebo",
-                        block.reference or "",
-                    )
 
 
 def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._Element]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
+from ...rules.gazebo.block_values import kind_of_value, required_keyword_value, value_of
 from ...source.document import Element
-from ..common.gazebo_blocks import read_value, value_of
+from ..common.gazebo_blocks import read_value
 from .body_sensors import is_body_sensor
 from .keywords import (
     COLLISION_KEYWORDS,
@@ -50,7 +51,7 @@ def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dic
     found: dict[str, str] = {}
     for element in block_elements(t.robot, part):
         if element.tag in table:
-            text = read_value(table[element.tag].holds, value_of(element))
+            text = read_value(kind_of_value(element.tag), value_of(element))
             if text is not None:
                 found[element.tag] = text
     return found
@@ -163,17 +164,12 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
     for element in block_elements(t.robot, part):
         if element.tag not in table:
             continue
-        text = read_value(table[element.tag].holds, value_of(element))
+        text = read_value(kind_of_value(element.tag), value_of(element))
         if text is None:
-            wanted = {
-                "number": "a finite number",
-                "count": "a whole number",
-                "flag": "true or false",
-            }
             t.report_loss(
                 "extension",
                 f"<{element.tag}> of '{part.name}' is '{value_of(element)}', not "
-                f"{wanted.get(table[element.tag].holds, 'three numbers')}; it is not exported",
+                f"{required_keyword_value(element)}; it is not exported",
                 element,
                 part,
             )

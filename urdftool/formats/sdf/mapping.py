@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...model.gazebo_plugins import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
+from ...rules.gazebo.block_values import kind_of_value
 from .body_sensors import BODY_SENSORS
 from .colors import COLORS
 from .joints import SDF_TYPES
@@ -120,7 +121,10 @@ def _below(where: str, keywords: dict[str, Keyword]) -> dict[str, Keyword]:
 def _keywords(keywords: dict[str, Keyword]) -> str:
     return _table(
         ("tag", "holds", "SDF", ""),
-        ((f"`{tag}`", word.holds, f"`{word.path}`", word.note) for tag, word in keywords.items()),
+        (
+            (f"`{tag}`", kind_of_value(tag), f"`{word.path}`", word.note)
+            for tag, word in keywords.items()
+        ),
     )
 
 

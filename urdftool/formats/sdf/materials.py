@@ -5,8 +5,8 @@ from __future__ import annotations
 from decimal import Decimal
 
 from ...model.elements import Link, Material, Robot, Visual
+from ...rules.gazebo.block_values import value_of
 from ...source.document import Element
-from ..common.gazebo_blocks import value_of
 from ..common.numbers import number_text, numbers_text
 from .colors import COLORS, PICTURED, Color
 from .extensions import block_elements

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
+from ...rules.gazebo.block_values import is_flag, value_of
+from ...rules.gazebo.keywords import is_true
 from ...source.document import Element
-from ..common.gazebo_blocks import is_flag, is_true, value_of
 from ..common.naming import first_free, numbered
 from .body_sensors import body_sensors, is_body_sensor
 from .control import control

@@ -15,7 +15,7 @@ from ...mechanics.tensor import consistency, noise_of
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
-from ..common.gazebo_blocks import is_true
+from ...rules.gazebo.keywords import is_true
 from ..common.lumping import LumpingPlan, plan_lumping
 
 EXACT = 1e-9

@@ -5,9 +5,9 @@ from __future__ import annotations
 from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_of_rpy
 from ...model.read import numbers
+from ...rules.gazebo.block_values import required_value
 from ...source.document import Element
 from ..common.naming import free_name
-from .block_numbers import wanted
 from .imu import is_old_noise
 from .pose import set_pose
 from .translation import Translation
@@ -52,8 +52,8 @@ def copy_raw_element(
         text = f"<{element.tag}> of a <gazebo> block has no name; it is not exported"
         t.report_loss("element", text, element, about)
         return None
-    if wanted(element):
-        text = f"<{element.tag}> is '{element.text.strip()}', not {wanted(element)}"
+    if required_value(element):
+        text = f"<{element.tag}> is '{element.text.strip()}', not {required_value(element)}"
         t.report_loss("extension", f"{text}; it is not exported", element, about)
         return None
     made = copied(node, element)
@@ -97,11 +97,9 @@ def remove_invalid(
     for child, source in zip(list(made), element.children, strict=True):
         if is_old_noise(source):
             made.remove(child)
-        elif wanted(source):
+        elif required := required_value(source):
             made.remove(child)
-            text = (
-                f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {wanted(source)}"
-            )
+            text = f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {required}"
             t.report_loss("extension", f"{text}; it is not exported", source, about)
         elif _is_known(element.tag, source):
             remove_invalid(child, t, source, about)

@@ -46,7 +46,6 @@ TO_CLASSIC = {
     "air_speed": SensorType(""),
     "boundingbox_camera": SensorType(""),
     "custom": SensorType(""),
-    "dvl": SensorType(""),
     "segmentation_camera": SensorType(""),
     "thermal_camera": SensorType(""),
 }
@@ -64,7 +63,6 @@ SYSTEMS = {
     "air_speed": ("air-speed", "AirSpeed"),
     "altimeter": ("altimeter", "Altimeter"),
     "contact": ("contact", "Contact"),
-    "dvl": ("dvl", "DopplerVelocityLogSystem"),
     "force_torque": ("forcetorque", "ForceTorque"),
     "imu": ("imu", "Imu"),
     "logical_camera": ("logical-camera", "LogicalCamera"),
@@ -72,8 +70,3 @@ SYSTEMS = {
     "navsat": ("navsat", "NavSat"),
 }  # fmt: skip
 """The gz system for each sensor type: the word in its library's name, and its class."""
-
-KNOWN = frozenset(
-    (*TO_GZ, *TO_CLASSIC, *SYSTEMS, "rgbd", "thermal", "segmentation", "wideangle_camera")
-)
-"""Types that a Gazebo version supports; readers reject files with other types."""

@@ -6,6 +6,7 @@ from copy import deepcopy
 
 from ...finding import Severity
 from ...model.elements import Joint, Link
+from ...rules.gazebo.sensors import TYPES
 from ...source.document import Element
 from ..common.naming import free_name
 from .extensions import block_elements
@@ -13,7 +14,7 @@ from .imu import imu_noise
 from .plugins import plugin
 from .raw_sdf import copy_raw_element, move_to_owner, rename_frames
 from .sensor_plugins import sensor_plugin
-from .sensor_types import KNOWN, TO_CLASSIC, TO_GZ
+from .sensor_types import TO_CLASSIC, TO_GZ
 from .shape_names import shape_names
 from .translation import Translation
 from .xml import Node
@@ -46,11 +47,9 @@ def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
 def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:
     """Convert a sensor to the types of the target; a multicamera becomes several sensors."""
     kind = (element.get("type") or "").strip()
-    if kind not in KNOWN:
-        text = (
-            f"sensor '{element.get('name')}' has a type that Gazebo does not have; it is not "
-            "exported"
-        )
+    if kind not in TYPES:
+        text = (f"sensor '{element.get('name')}' has a type that Gazebo does not have; it is not "
+               "exported")
         t.report_loss("sensor", text, element, part)
         return []
     types = TO_CLASSIC if t.options.classic else TO_GZ

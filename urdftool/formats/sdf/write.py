@@ -7,6 +7,7 @@ from pathlib import PurePath
 
 from lxml import etree
 
+from ...lint.validate import validate
 from ...model.elements import Robot
 from ..common.directory import mark
 from ..common.force_fallbacks import (
@@ -20,7 +21,7 @@ from ..defects import FATAL as STRUCTURAL
 from ..defects import refuse
 from ..written import Written
 from .config import config
-from .defects import inertia_defects, mesh_defects, written_defects
+from .defects import inertia_defects, mesh_defects
 from .joint_settings import joint_settings
 from .mesh_files import find_meshes
 from .model import model
@@ -48,7 +49,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     """
     options = options or Options()
     left = drop_invalid_parts(robot)
-    found = [*tree_defects(robot, left, options.force), *written_defects(robot)]
+    found = [*tree_defects(robot, left, options.force), *validate(robot, "export:sdf")]
     if options.force:
         robot = left
     meshes = find_meshes(robot, options)

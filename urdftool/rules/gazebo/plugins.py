@@ -48,7 +48,9 @@ def plugin_without_filename(robot: Robot) -> Iterator[Problem]:
         missing = [word for word in ("filename", "name") if not plugin.element.get(word)]
         if missing:
             yield Problem(
-                plugin.element, f"the plugin has no {' and no '.join(missing)}; it is not loaded"
+                plugin.element,
+                f"the plugin has no {' and no '.join(missing)}; it is not loaded",
+                data={"has_filename": "filename" not in missing},
             )
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...finding import Severity
-from ...model.elements import GazeboExtension, Robot
+from ...model.elements import GazeboExtension, Joint, Robot
 from ...model.read import number
 from ...source.document import Element
 from ..fix import (
@@ -21,7 +21,15 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..simulation.mujoco_values import required_attribute_value, setting_elements
 from ..unexpanded import is_unexpanded
+from .block_values import (
+    OF_JOINT,
+    kind_of_value,
+    required_keyword_value,
+    required_value,
+    value_of,
+)
 from .contact import contact_role
 from .keywords import NUMBERS
 
@@ -71,6 +79,65 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
                     severity=WARNING,
                     data={"write": number[0]},
                 )
+
+
+@bad_extension_number.full
+def every_bad_extension_value(robot: Robot) -> Iterator[Problem]:
+    """Report each value of an extension that the reader of the extension rejects.
+
+    Its data has the ``holder``: a ``keyword`` of a link or joint, with the ``kind`` of its value;
+    an SDF ``element``, of which ``is_loop`` tells whether it places a joint that closes a loop; or
+    ``mujoco``, an attribute in that element.
+    """
+    for block in robot.gazebo:
+        name = block.reference or ""
+        parts = [part for part in (robot.link.get(name), robot.joint.get(name)) if part is not None]
+        for element in block.element.children:
+            of_joint = element.tag in OF_JOINT
+            required = required_keyword_value(element)
+            for part in parts if required else ():
+                if isinstance(part, Joint) == of_joint:
+                    text = f"<{element.tag}> of '{name}' is '{value_of(element)}', not {required}"
+                    kind = kind_of_value(element.tag)
+                    yield Problem(part, text, at=element, data={"holder": "keyword", "kind": kind})
+        for element in _sdf_elements(block.element):
+            if required := required_value(element):
+                above = element.parent.tag if element.parent is not None else block.element.tag
+                yield Problem(
+                    parts[0] if parts else block.element,
+                    f"<{element.tag}> of <{above}> is '{element.text.strip()}', not {required}",
+                    at=element,
+                    data={"holder": "element", "is_loop": _places_loop(block.element, element)},
+                )
+    for element in setting_elements(robot):
+        for attribute, value in element.attributes.items():
+            if required := required_attribute_value(element, attribute):
+                yield Problem(
+                    element,
+                    f'{attribute}="{value}" of <{element.tag}> in <mujoco> is not {required}',
+                    at=element.attribute_place(attribute),
+                    data={"holder": "mujoco"},
+                )
+
+
+def _sdf_elements(block: Element) -> Iterator[Element]:
+    """List the elements of a block that are not in plugins, in document order."""
+    todo = [*reversed(block.children)]
+    while todo:
+        element = todo.pop()
+        if element.tag != "plugin":
+            yield element
+            todo.extend(reversed(element.children))
+
+
+def _places_loop(block: Element, element: Element) -> bool:
+    """Tell whether an element is the pose or the axis of a joint of a block."""
+    above = element.parent
+    if element.tag == "xyz" and above is not None and above.tag == "axis":
+        above = above.parent
+    elif element.tag != "pose":
+        return False
+    return above is not None and above.tag == "joint" and above.parent is block
 
 
 @bad_extension_number.fix(SAFE)

@@ -60,6 +60,19 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
             )
 
 
+@incomplete_inertial.full
+def every_inertial_without_element(robot: Robot) -> Iterator[Problem]:
+    """Report each inertial without ``<mass>`` or ``<inertia>``, also where one is misspelt."""
+    for link in robot.links:
+        if link.inertial is None:
+            continue
+        present = {child.tag for child in link.inertial.element.children}
+        missing = [f"<{tag}>" for tag in ("mass", "inertia") if tag not in present]
+        if missing:
+            text = f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it"
+            yield Problem(link, text, at=link.inertial, data={"missing": missing})
+
+
 def _effects_of(inertial: Inertial) -> set[str]:
     mass, inertia = inertial.element.child("mass"), inertial.element.child("inertia")
     has_mass = mass is not None and "value" in mass.attributes

@@ -310,6 +310,21 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
         )
 
 
+@mimic_dof_mismatch.full
+def every_mimic_of_fixed_joint(robot: Robot) -> Iterator[Problem]:
+    """Report each mimic joint whose leader is fixed, and has no position to follow."""
+    for joint, mimic in _mimics(robot):
+        leader = robot.joint.get(mimic.joint)
+        if leader is not None and leader.is_fixed:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' follows '{leader.name}', which is fixed; only a joint with "
+                "one axis can be followed",
+                at=mimic.element.attribute_place("joint"),
+                data={"type": leader.type, "joints": [joint.name]},
+            )
+
+
 _VARIABLES = {"fixed": 0, "planar": 3, "floating": 7}
 """Numbers that state a joint's position in MoveIt; of every other type one."""
 

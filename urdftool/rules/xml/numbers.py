@@ -199,20 +199,23 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
 def every_unreadable_number(robot: Robot) -> Iterator[Problem]:
     """Report each attribute without as many finite numbers as it takes, on its link or joint.
 
-    A blank behind a number is left out: it can be read.
+    A blank behind a number is left out: it can be read. The pose of the robot itself is reported on
+    the robot; only Gazebo reads it.
     """
-    for part in (*robot.links, *robot.joints, *robot.materials):
-        for element in part.element.walk():
-            kind = VOCABULARY.get(element.tag)
-            for name, count in kind.numbers.items() if kind is not None else ():
-                text = element.get(name)
-                if text is not None and numbers(text, count) is None:
-                    yield Problem(
-                        part.element,
-                        _unusable(element, name, text, count),
-                        at=element.attribute_place(name),
-                        data={"element": element.tag, "attribute": name},
-                    )
+    parts = (*robot.links, *robot.joints, *robot.materials)
+    walked = [(part.element, element) for part in parts for element in part.element.walk()]
+    origin = robot.element.child("origin")
+    for holder, element in walked if origin is None else [*walked, (robot.element, origin)]:
+        kind = VOCABULARY.get(element.tag)
+        for name, count in kind.numbers.items() if kind is not None else ():
+            text = element.get(name)
+            if text is not None and numbers(text, count) is None:
+                yield Problem(
+                    holder,
+                    _unusable(element, name, text, count),
+                    at=element.attribute_place(name),
+                    data={"part": holder.tag, "element": element.tag, "attribute": name},
+                )
 
 
 def _unusable(element: Element, name: str, text: str, count: int) -> str:

@@ -1,0 +1,118 @@
+"""Values in the ``<mujoco>`` element of a URDF, as MuJoCo's XML reader requires them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...model.read import numbers
+from ...source.document import Element
+
+READER_SETTINGS = frozenset(
+    ("angle", "meshdir", "texturedir", "assetdir", "strippath", "discardvisual", "fusestatic",
+     "balanceinertia", "inertiafromgeom", "inertiagrouprange", "eulerseq", "coordinate",
+     "autolimits", "boundmass", "boundinertia", "settotalmass", "convexhull")
+)  # fmt: skip
+"""Attributes of ``<compiler>`` that control the reading of URDF, or that would change the robot."""
+
+SECTIONS = ("option", "size", "visual", "statistic")
+"""Elements of it that hold settings of the model, besides ``<compiler>``."""
+
+BOOLEAN = ("true", "false")
+
+WHOLE = 0
+"""Marks a single integer."""
+
+# tag -> attribute -> count of numbers (-n for at most n), or allowed words; other attributes
+# are copied unchecked
+VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
+    "compiler": {
+        **dict.fromkeys(("alignfree", "fitaabb", "usethread", "saveinertial"), BOOLEAN),
+    },
+    "option": {
+        **dict.fromkeys(
+            ("timestep", "impratio", "tolerance", "ls_tolerance", "noslip_tolerance",
+             "ccd_tolerance", "sleep_tolerance", "density", "viscosity", "o_margin"),
+            1,
+        ),
+        **dict.fromkeys(
+            ("iterations", "ls_iterations", "noslip_iterations", "ccd_iterations",
+             "sdf_iterations", "sdf_initpoints"),
+            WHOLE,
+        ),
+        **dict.fromkeys(("gravity", "wind", "magnetic"), 3),
+        "o_solref": -2,
+        **dict.fromkeys(("o_solimp", "o_friction"), -5),
+        "integrator": ("Euler", "RK4", "implicit", "implicitfast"),
+        "cone": ("pyramidal", "elliptic"),
+        "jacobian": ("dense", "sparse", "auto"),
+        "solver": ("PGS", "CG", "Newton"),
+    },
+    "flag": dict.fromkeys(
+        ("constraint", "equality", "frictionloss", "limit", "contact", "passive", "spring",
+         "damper", "gravity", "clampctrl", "warmstart", "filterparent", "actuation", "refsafe",
+         "sensor", "midphase", "eulerdamp", "autoreset", "nativeccd", "island", "override",
+         "energy", "fwdinv", "invdiscrete", "multiccd", "sleep"),
+        ("enable", "disable"),
+    ),
+    "size": dict.fromkeys(
+        ("njmax", "nconmax", "nstack", "nuserdata", "nkey", "nuser_body", "nuser_jnt",
+         "nuser_geom", "nuser_site", "nuser_cam", "nuser_tendon", "nuser_actuator",
+         "nuser_sensor"),
+        WHOLE,
+    ),
+    "statistic": {
+        **dict.fromkeys(("meaninertia", "meanmass", "meansize", "extent"), 1),
+        "center": 3,
+    },
+    "global": dict.fromkeys(
+        ("fovy", "ipd", "azimuth", "elevation", "linewidth", "glow", "offwidth", "offheight",
+         "realtime"),
+        1,
+    ),
+    "quality": dict.fromkeys(
+        ("shadowsize", "offsamples", "numslices", "numstacks", "numquads"), 1
+    ),
+    "headlight": {**dict.fromkeys(("ambient", "diffuse", "specular"), 3), "active": 1},
+    "map": dict.fromkeys(
+        ("stiffness", "stiffnessrot", "force", "torque", "alpha", "fogstart", "fogend", "znear",
+         "zfar", "haze", "shadowclip", "shadowscale", "actuatortendon"),
+        1,
+    ),
+    "rgba": dict.fromkeys(("fog", "haze"), 4),
+}  # fmt: skip
+
+
+def setting_elements(robot: Robot) -> Iterator[Element]:
+    """Yield the elements in ``<mujoco>`` that hold settings of the model."""
+    for extension in robot.element.all("mujoco"):
+        for part in extension.children:
+            if part.tag == "compiler" or part.tag in SECTIONS:
+                yield from part.walk()
+
+
+def required_attribute_value(element: Element, name: str) -> str:
+    """Describe the value that an attribute requires.
+
+    Args:
+        element: An element in ``<mujoco>``.
+        name: One of its attributes.
+
+    Returns:
+        "" if the value is valid, or the attribute is not in ``VALUES``.
+    """
+    required = VALUES.get(element.tag, {}).get(name)
+    value = element.get(name) or ""
+    if required is None or (element.tag == "compiler" and name in READER_SETTINGS):
+        return ""
+    if isinstance(required, tuple):
+        return "" if value in required else "one of " + ", ".join(required)
+    if required == WHOLE:
+        digits = value.strip().removeprefix("-").removeprefix("+")
+        return "" if digits.isascii() and digits.isdigit() else "a whole number"
+    count = len(value.split()) if required < 0 else required
+    if 0 < count <= abs(required) and numbers(value, count) is not None:
+        return ""
+    if required == 1:
+        return "a finite number"
+    return f"{'at most ' if required < 0 else ''}{abs(required)} finite numbers"
