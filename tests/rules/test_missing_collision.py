@@ -163,3 +163,27 @@ def test_what_cannot_be_seen_needs_none(tmp_path, opacity, count):
     named = text.replace(motor, motor + '<material name="glass"/>')
     assert len(_lines(tmp_path, named.replace("</robot>", color + "</robot>"))) == count
     assert _lines(tmp_path, text.replace('"motor"', '"virtual_motor"')) == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "place", "ghosts"),
+    [
+        ("prismatic", "0 0 0", ["rail"]),
+        ("prismatic", "0 0 0.5", ["rail", "cart"]),
+        ("continuous", "0 0 0", ["rail", "cart"]),
+    ],
+)
+def test_a_cart_that_its_rail_goes_through_cannot_collide_with_it(write, kind, place, ghosts):
+    box = '<visual><geometry><box size="{}"/></geometry></visual>'
+    body = '<inertial><mass value="1"/></inertial>'
+    joint = '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{0}"/>{3}</joint>'
+    parts = (
+        '<link name="world"/>',
+        f'<link name="rail">{body}{box.format("30 0.05 0.05")}</link>',
+        f'<link name="cart">{body}{box.format("0.5 0.5 0.2")}</link>',
+        joint.format("rail", "fixed", "world", ""),
+        joint.format("cart", kind, "rail", f'<origin xyz="{place}"/><axis xyz="1 0 0"/>'),
+    )
+    path = write("r.urdf", f'<robot name="r">{"".join(parts)}</robot>')
+    rules = ["missing-collision", "odd-link-without-collision"]
+    assert sorted(f.name for f in check(path, select=rules)) == sorted(ghosts)

@@ -111,6 +111,19 @@ def test_dense_visual_meshes_that_collide_are_one_finding_that_names_the_links(w
     assert "so do 'l1', 'l2', 'l3', 'l4' with theirs" in finding.message
 
 
+def test_a_link_of_a_dense_mesh_is_not_named_again_for_another_mesh(write):
+    write("dense.stl", block(6000))
+    write("plain.stl", block(600))
+    both = "".join(
+        f'<{kind}><geometry><mesh filename="{name}.stl"/></geometry></{kind}>'
+        for kind in ("visual", "collision")
+        for name in ("dense", "plain")
+    )
+    path = write("r.urdf", f'<robot name="r"><link name="a">{both}</link></robot>')
+    (finding,) = check(path, select=("visual-mesh-as-collision",))
+    assert finding.severity.label == "warning"
+
+
 @pytest.mark.parametrize(("count", "findings"), [(8, 1), (4, 4)])
 def test_many_odd_densities_are_one_remark(write, count, findings):
     write("arm.stl", block(0))

@@ -73,8 +73,8 @@ def visual_mesh_as_collision(
     times faster with simpler shapes. Where the mesh is known to have more than ``dense`` triangles
     it is a warning; one of an STL or OBJ of fewer than ``least`` is as simple as a shape made for
     contact, and is not reported. One finding for the robot names the links with such meshes, and
-    one counts the others; a ``<collision>`` with the attribute ``concave``, of which PyBullet keeps
-    the triangles, is reported apart.
+    one counts the other links; a ``<collision>`` with the attribute ``concave``, of which PyBullet
+    keeps the triangles, is reported apart.
     """
     seen: dict[str, set[str]] = {}
     plain, heavy = [], []
@@ -89,6 +89,8 @@ def visual_mesh_as_collision(
             heavy.append((use, faces))
         elif faces > dense / 10 or (faces == 0 and not _is_small(use, least)):
             plain.append(use)
+    named = {use.link.name for use, _ in heavy}
+    plain = [use for use in plain if use.link.name not in named]
     for concave in (False, True):
         yield from _as_collision(
             [one for one in heavy if is_concave(one[0]) is concave],

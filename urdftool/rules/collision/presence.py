@@ -50,7 +50,9 @@ def missing_collision(
     best; a copy of the visual mesh is better than nothing. A link that is meant to be so (a
     sticker, a cable) says it with a comment,
     ``urdftool-ignore[missing-collision]``. One that the collision of a link fixed to it covers is
-    not reported, nor one that turns inside the collision of the body it is mounted on.
+    not reported, nor one that turns inside the collision of the body it is mounted on, nor one that
+    slides along a rail that goes through it: the two would collide where the rail is fixed to the
+    world.
 
     Links of at most ``smallest`` [m], markers of frames, links that are called virtual or dummy,
     and those all of whose visuals are fully transparent are left out. Those smaller than ``small``
@@ -66,7 +68,7 @@ def missing_collision(
             continue
         if sizes[link.name] <= smallest or _has_misspelt_collision(link):
             continue
-        if _is_covered(robot, link) or _turns_inside(robot, link):
+        if _is_covered(robot, link) or _turns_inside(robot, link) or _slides_through(robot, link):
             continue
         is_minor = sizes[link.name] < small or _is_enveloped(robot, link)
         yield Problem(
@@ -272,6 +274,28 @@ def _turns_inside(robot: Robot, link: Link) -> bool:
         if box is not None and _holds(box, ball):
             return True
     return False
+
+
+def _slides_through(robot: Robot, link: Link) -> bool:
+    """Tell whether a rail, to which a slide moves a link, goes through the visuals of the link."""
+    reach = reaches(robot)
+    joint = robot.tree.parent_joint(link.name)
+    rail = robot.link.get(joint.parent) if joint is not None else None
+    if joint is None or rail is None or joint.type != "prismatic":
+        return False
+    seen, along = reach.shapes(link.visuals), reach.shapes(rail.visuals)
+    if seen is None or along is None:
+        return False
+    pose = pose_of(joint.origin)
+    x, y, z = pose.translation
+    turned = seen.rotated(pose.rotation)
+    low, high = turned.low, turned.high
+    placed = Bounds((low[0] + x, low[1] + y, low[2] + z), (high[0] + x, high[1] + y, high[2] + z))
+    crossed = [
+        a <= c and d <= b
+        for a, b, c, d in zip(placed.low, placed.high, along.low, along.high, strict=True)
+    ]
+    return crossed.count(True) >= 2 and placed.meets(along)
 
 
 def _holds(box: Bounds, other: Bounds) -> bool:
