@@ -77,7 +77,7 @@ def test_export_sdf_refuses():
 def test_an_export_takes_no_place_of_its_robot(bad):
     before = bad.read_text()
     path = bad.rename(bad.with_suffix(".xml"))
-    with pytest.raises(OutputError, match="is read as an input"):
+    with pytest.raises(OutputError, match="is an input of the export"):
         api.export_mjcf(api.load(path), path, force=True, overwrite=True)
     assert path.read_text() == before
 

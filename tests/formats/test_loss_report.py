@@ -30,7 +30,7 @@ def test_a_package_that_is_not_found_is_one_message_with_the_option(urdftool, tm
     first, last = result.err.splitlines()
     assert "mesh 'package://gone/meshes/a.stl' of link 'a' is not found (and 1 more)" in first
     assert "--package gone=DIR" in first
-    assert last == "urdftool: nothing is written: 1 error"
+    assert last == "urdftool: no file was written: 1 error"
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

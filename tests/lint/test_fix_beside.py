@@ -93,7 +93,7 @@ def test_a_mesh_of_another_package_is_left(cart, urdftool):
         "lint", cart[0], "--select", "inverted-mesh", "-p", "mesh_store=mesh_store", *FIX
     )
     assert Path("mesh_store/hull.stl").read_bytes() == before
-    assert "1 fix is not made in mesh_store/hull.stl, outside of cart" in result.err
+    assert "1 fix was not applied to mesh_store/hull.stl, outside of cart" in result.err
 
 
 def test_a_mesh_that_another_robot_names_is_not_turned(write, urdftool):
@@ -194,7 +194,7 @@ def test_a_mesh_that_cannot_be_read_is_said(write, urdftool):
     write("arm.stl", b"solid arm\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\nendsolid arm\n")
     path = write("r.urdf", ROBOT.format("arm.stl"))
     result = urdftool("lint", path, "--select", "ascii-stl", *FIX)
-    assert "is not fixed [ascii-stl]" in result.err
+    assert "not fixed [ascii-stl]" in result.err
     assert "arm.stl cannot be made binary STL" in result.err
     assert "bug" not in result.err
 

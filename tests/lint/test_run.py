@@ -91,7 +91,7 @@ def test_a_rule_that_breaks_is_our_bug_and_the_others_run(write, urdftool, monke
     path = write("r.urdf", '<robot><link name="a"/></robot>')
     result = urdftool("lint", path)
     assert result.code == 3
-    assert "the rule zero-axis broke, which is a bug" in result.err
+    assert "rule zero-axis failed because of a bug" in result.err
     assert "[missing-name]" in result.out
     for style in ("json", "sarif", "github", "junit", "html"):
         again = urdftool("lint", path, "--format", style)

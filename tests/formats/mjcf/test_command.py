@@ -80,7 +80,7 @@ def test_defects_one_line_each(urdftool, write, tmp_path):
     lines = result.err.splitlines()
     assert [line.rpartition("[")[2] for line in lines[:2]] == ["zero-axis]", "mesh-not-found]"]
     assert lines[0].startswith("r.urdf:5:")
-    assert lines[2] == "urdftool: nothing is written: 2 errors"
+    assert lines[2] == "urdftool: no file was written: 2 errors"
     assert not (tmp_path / "out").exists()
     assert urdftool("export", "mjcf", path, "-o", tmp_path / "out", "--force").code == 0
 

@@ -48,8 +48,10 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     """Convert a sensor to the types of the target; a multicamera becomes several sensors."""
     kind = (element.get("type") or "").strip()
     if kind not in TYPES:
-        text = (f"sensor '{element.get('name')}' has a type that Gazebo does not have; it is not "
-               "exported")
+        text = (
+            f"sensor '{element.get('name')}' has a type that Gazebo does not have; it is not "
+            "exported"
+        )
         t.report_loss("sensor", text, element, part)
         return []
     types = TO_CLASSIC if t.options.classic else TO_GZ
