@@ -15,6 +15,8 @@ PROOFS = [
     if path.stem.startswith("verify") or path.parent.name == "verify" or path.stem == "mechanics"
 ]
 
+READERS = [path for path in MODULES if path.stem == "read" or path.stem.startswith("read_")]
+
 # What a proof may import of the exporter: it repeats an export to see that it is the same, reads
 # what was chosen and what was declared, and compiles a copy.
 OPEN = (
@@ -48,8 +50,16 @@ def test_a_proof_shares_nothing_with_the_writers(path):
         assert name.startswith(OPEN), f"{shown(path)} imports {name}"
 
 
+@pytest.mark.parametrize("path", READERS, ids=shown)
+def test_a_reader_shares_nothing_with_the_writers(path):
+    allowed = ("reading", f"{path.parent.name}.read")
+    for name in imports(path):
+        assert name.startswith(allowed), f"{shown(path)} imports {name}"
+
+
 def test_the_proofs_are_found():
     assert len(PROOFS) > 25
+    assert len(READERS) > 6
 
 
 @pytest.mark.parametrize("path", MODULES, ids=shown)

@@ -40,10 +40,25 @@ def test_names_are_those_of_folders():
         format_named("collada")
 
 
+FILES = {
+    "urdf": EVERYTHING,
+    "sdf": FIXTURES / "formats" / "sdf" / "gripper_arm.gz.sdf",
+    "mjcf": FIXTURES / "formats" / "mjcf" / "arm.xml",
+}
+
+
 @pytest.mark.parametrize("target", readable_formats(), ids=by_name)
 def test_a_reader_gives_a_robot(target):
-    assert target.has_suffix(EVERYTHING)
-    assert target.read(EVERYTHING, gltf_up="z").name == urdftool.load(EVERYTHING).name
+    file = FILES[target.name]
+    assert target.has_suffix(file)
+    reading = target.read(file)
+    assert reading.robot.place.path == str(file)
+    assert reading.robot.links
+
+
+def test_the_reader_of_urdf_takes_the_options_of_load():
+    robot = format_named("urdf").read(EVERYTHING, gltf_up="z").robot
+    assert robot.name == urdftool.load(EVERYTHING).name
 
 
 @pytest.mark.parametrize("target", WRITABLE, ids=by_name)

@@ -2,7 +2,7 @@
 
 A format is a folder of this package and an entry in ``FORMATS``. The folder has
 
-- ``read.py`` with ``read(path, **options) -> Robot``, if the format can be read;
+- ``read.py`` with ``read(path, **options) -> Reading``, if the format can be read;
 - ``write.py`` with ``write(robot, options) -> Written`` and ``options.py`` with ``Options``, if it
   can be written;
 - ``checks.py`` with ``NOT_COMPARED``, ``check_unwritten`` and ``check_output``, which compare an
@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from ..model.elements import Robot
     from .check import Check
+    from .reading import Reading
     from .written import Written
 
 
@@ -61,15 +62,15 @@ class Format:
         """Tell whether a path has a suffix of the format's files."""
         return Path(path).suffix.lower() in self.suffixes
 
-    def read(self, path: str | Path, **options: Any) -> Robot:
-        """Read a robot.
+    def read(self, path: str | Path, **options: Any) -> Reading:
+        """Read a robot, and what the model does not hold of its source.
 
         Raises:
             SourceError: The file cannot be read.
             ModelError: It is not a robot description.
         """
-        robot: Robot = self._module("read").read(path, **options)
-        return robot
+        reading: Reading = self._module("read").read(path, **options)
+        return reading
 
     def write(self, robot: Robot, options: ExportOptions) -> Written:
         """Convert a robot to files of the format, in memory.
@@ -138,6 +139,7 @@ FORMATS = (
         "mjcf",
         "MJCF, for MuJoCo",
         (".xml", ".mjcf"),
+        can_read=True,
         can_write=True,
         cannot_express=(
             "lossy-calibration",

@@ -59,7 +59,9 @@ def pose_of(origin: Origin | None) -> Pose:
 
 def origin_at(pose: Pose, provenance: Provenance | None = None) -> Origin:
     """Return the ``Origin`` of a pose."""
-    return Origin(provenance, pose.translation, rpy_of_rotation(pose.rotation))
+    roll, pitch, yaw = rpy_of_rotation(pose.rotation)
+    x, y, z = pose.translation  # a zero without its sign
+    return Origin(provenance, (x + 0.0, y + 0.0, z + 0.0), (roll + 0.0, pitch + 0.0, yaw + 0.0))
 
 
 def rotation_of_rpy(rpy: Vector) -> Rotation:

@@ -2,6 +2,18 @@
 
 from __future__ import annotations
 
-from ...model.load import load as read
+from pathlib import Path
+from typing import Any
 
-__all__ = ("read",)
+from ...model.load import load
+from ..reading import Reading
+
+
+def read(path: str | Path, **options: Any) -> Reading:
+    """Read a robot; the options are those of :func:`urdftool.load`.
+
+    Raises:
+        SourceError: The file cannot be read, parsed or expanded.
+        ModelError: It is not a robot description.
+    """
+    return Reading(load(path, **options))

@@ -1,0 +1,102 @@
+"""Read a robot from MJCF.
+
+MuJoCo resolves defaults, classes and settings, and infers what is not written: inertia from
+geoms, sizes from ``fromto``, frames of meshes. It runs in a process of its own, because some files
+crash it. Everything else is computed here from the specification of the format.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from ...errors import ModelError
+from ...extras import is_installed, missing
+from ...finding import Severity
+from ...isolated import IsolatedProcess, ProcessDied, ProcessTimeout
+from ...model.elements import Robot
+from ...model.provenance import Written
+from ...source.description import Description
+from ...source.document import STDIN, Document, read_file
+from ...source.location import SourceFile
+from ...source.packages import Packages
+from ...workspace import Workspace
+from ..reading import Losses, Reading
+from .read_compile import TIME_LIMIT, Compiled
+from .read_context import Context
+from .read_extras import add_extras
+from .read_shapes import add_shapes
+from .read_text import Expanded, expand
+from .read_tree import add_tree
+
+
+def read(
+    path: str | Path,
+    *,
+    file: SourceFile | None = None,
+    packages: Packages | None = None,
+    workspace: Workspace | None = None,
+    **_: Any,
+) -> Reading:
+    """Read a robot.
+
+    Args:
+        path: An MJCF file, or ``-`` for standard input.
+        file: The file, if it has been read.
+        packages: Finder of mesh files; None creates one.
+        workspace: Access to files; None creates a new one.
+
+    Raises:
+        MissingDependency: MuJoCo is not installed.
+        SourceError: A file cannot be read, or includes itself.
+        ModelError: MuJoCo does not compile the model.
+    """
+    if not is_installed("mujoco"):
+        raise missing("mujoco", "an MJCF file")
+    workspace = workspace or Workspace()
+    file = file or read_file(path, workspace)
+    expanded = expand(file, workspace)
+    compiled = _compile(expanded)
+    losses = Losses()
+    context = Context(expanded, compiled, losses)
+    written = Written(expanded.root.place)
+    robot = Robot(written, expanded.root.get("model") or compiled.name)
+    finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
+    document = Document(file, expanded.root, [])
+    robot.source = Description(str(path), document, expanded.files, finder)
+    add_tree(context, robot)
+    add_shapes(context, robot)
+    add_extras(context, robot)
+    for warning in compiled.warnings:
+        losses.add("warning", f"MuJoCo warns: {warning}", "", written.place, Severity.INFO)
+    return Reading(robot, losses.findings())
+
+
+def _compile(expanded: Expanded) -> Compiled:
+    """Compile a model in another process.
+
+    Raises:
+        ModelError: MuJoCo does not compile it, crashes or takes too long.
+    """
+    path = expanded.files[0].path
+    folder = os.path.dirname(os.path.abspath(path)) if path != STDIN else os.getcwd()
+    place = expanded.root.place
+    try:
+        with IsolatedProcess("mujoco") as process:
+            compiled: Compiled = process.call(
+                "urdftool.formats.mjcf.read_compile",
+                "compile_text",
+                expanded.text,
+                expanded.models,
+                folder,
+                time_limit=TIME_LIMIT,
+            )
+    except ProcessTimeout as error:
+        raise ModelError(f"compiling the model with MuJoCo {error.message}", at=place) from None
+    except ProcessDied as error:
+        raise ModelError("MuJoCo crashes on the model", at=place, notes=error.notes) from None
+    if compiled.error:
+        at = expanded.at(compiled.error_line).place
+        raise ModelError(f"MuJoCo does not compile the model: {compiled.error}", at=at)
+    return compiled

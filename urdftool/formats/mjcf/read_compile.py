@@ -1,0 +1,288 @@
+"""Compilation of an MJCF model in a process of its own, and its values as plain data.
+
+Names, files and lines are those of ``MjSpec``, which is the text with defaults resolved; numbers
+are those of the compiled model. Angles are in radians, quaternions are ``(w, x, y, z)``.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+Row = dict[str, Any]
+
+TIME_LIMIT = 300.0
+"""Time after which a compilation is given up [s]."""
+
+_LINE = re.compile(r"line\D{0,3}(\d+)", re.IGNORECASE)
+
+
+@dataclass
+class Compiled:
+    """Values of a compiled model: a list of rows by kind, each with ``name`` and ``line``.
+
+    Attributes:
+        name: Name of the model.
+        rows: Rows of values by kind; their order is that of the compiled model.
+        keys: Name and generalized positions of each keyframe.
+        warnings: Warnings of the compiler.
+        error: Reason why it does not compile; empty if it does.
+        error_line: Line of the error; 0 if unknown.
+    """
+
+    name: str
+    rows: dict[str, list[Row]]
+    keys: list[tuple[str, list[float]]]
+    warnings: list[str]
+    error: str = ""
+    error_line: int = 0
+
+
+def compile_text(text: str, models: Mapping[str, bytes], folder: str) -> Compiled:
+    """Compile a model.
+
+    Args:
+        text: XML without includes.
+        models: Text of attached models by path as written.
+        folder: Folder to which the paths of assets are relative.
+    """
+    import warnings
+
+    import mujoco  # type: ignore[import-untyped,unused-ignore]
+
+    said: list[str] = []
+    spec = None
+    mujoco.set_mju_user_warning(said.append)  # else MuJoCo writes a log file
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            options = {"include": dict(models)} if models else {}
+            spec = mujoco.MjSpec.from_string(text, **options)
+            spec.modelfiledir = folder
+            _keep_all(spec)
+            model = spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        line = _LINE.search(str(error))
+        reason = " ".join(_LINE.sub("", str(error)).split()).strip(" ,")
+        at = int(line[1]) if line else _missing_asset(spec, folder)
+        return Compiled("", {}, [], said, reason, at)
+    said += [str(warning.message) for warning in caught]
+    rows = {kind: read(spec, model, mujoco) for kind, read in _READERS.items()}
+    names = [key.name for key in spec.keys]
+    keys = [(names[i], model.key_qpos[i].tolist()) for i in range(model.nkey)]
+    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(said)))
+
+
+def _missing_asset(spec: Any, folder: str) -> int:
+    """Return the line of the first asset whose file is missing, of which MuJoCo gives no line."""
+    for kind, place in (("meshes", "meshdir"), ("hfields", "meshdir"), ("textures", "texturedir")):
+        for asset in getattr(spec, kind, ()):
+            path = _asset(asset.file, _folder(spec, asset, place), spec.strippath)
+            if path and not os.path.exists(os.path.join(folder, path)):
+                return _line(asset)
+    return 0
+
+
+def _keep_all(spec: Any) -> None:
+    """Keep bodies, geoms and frames that the compiler's settings remove or move."""
+    spec.compiler.fusestatic = False
+    spec.compiler.discardvisual = False
+    spec.compiler.alignfree = False
+    for joint in spec.joints:
+        joint.align = 0
+
+
+def _line(element: Any) -> int:
+    found = _LINE.search(element.info or "")
+    return int(found[1]) if found else 0
+
+
+def _base(element: Any) -> Row:
+    return {"name": element.name, "line": _line(element)}
+
+
+def _in_order(elements: Iterable[Any]) -> list[Any]:
+    """Return elements by their id in the compiled model."""
+    return sorted(elements, key=lambda element: element.id)
+
+
+def _values(model: Any, prefix: str, index: int, names: Iterable[str]) -> Row:
+    found = {}
+    for name in names:
+        value = getattr(model, f"{prefix}_{name}")[index]
+        found[name] = value.tolist() if hasattr(value, "tolist") else value
+    return found
+
+
+def _bodies(spec: Any, model: Any, _: Any) -> list[Row]:
+    names = ("parentid", "pos", "quat", "mass", "inertia", "ipos", "iquat", "gravcomp", "mocapid")
+    return [
+        {**_base(body), **_values(model, "body", i, names)}
+        for i, body in enumerate(_in_order(spec.bodies))
+    ]
+
+
+def _joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+    names = (
+        *("bodyid", "pos", "axis", "range", "limited", "stiffness", "qposadr", "dofadr"),
+        *("actfrclimited", "actfrcrange"),
+    )
+    rows = []
+    for i, joint in enumerate(_in_order(spec.joints)):
+        row = {**_base(joint), **_values(model, "jnt", i, names)}
+        row["type"] = _enum(mujoco.mjtJoint(model.jnt_type[i]), "mjJNT_")
+        row |= _values(model, "dof", row["dofadr"], ("damping", "frictionloss", "armature"))
+        row["ref"] = float(model.qpos0[row["qposadr"]])
+        row["springref"] = float(model.qpos_spring[row["qposadr"]])
+        poly = getattr(model, "dof_dampingpoly", None)
+        row["poly"] = bool(poly is not None and poly[row["dofadr"]].any())
+        rows.append(row)
+    return rows
+
+
+def _geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+    names = (
+        *("bodyid", "pos", "quat", "size", "dataid", "contype", "conaffinity", "group"),
+        *("rgba", "matid", "friction"),
+    )
+    paired = {int(i) for pair in (model.pair_geom1, model.pair_geom2) for i in pair}
+    rows = []
+    for i, geom in enumerate(_in_order(spec.geoms)):
+        row = {**_base(geom), **_values(model, "geom", i, names)}
+        row["type"] = _enum(mujoco.mjtGeom(model.geom_type[i]), "mjGEOM_")
+        row["paired"] = i in paired
+        rows.append(row)
+    return rows
+
+
+def _meshes(spec: Any, model: Any, _: Any) -> list[Row]:
+    rows = []
+    for i, mesh in enumerate(_in_order(spec.meshes)):
+        row = {**_base(mesh), **_values(model, "mesh", i, ("pos", "quat"))}
+        row["file"] = _asset(mesh.file, _folder(spec, mesh, "meshdir"), spec.strippath)
+        row |= {name: getattr(mesh, name).tolist() for name in ("scale", "refpos", "refquat")}
+        rows.append(row)
+    return rows
+
+
+def _folder(spec: Any, element: Any, name: str) -> str:
+    """Return the folder of an asset; an attached model has its own."""
+    own = getattr(element, "compiler", None)
+    return str(getattr(own, name, "") or getattr(spec, name))
+
+
+def _asset(file: str, folder: str, strip: bool) -> str:
+    """Return the path of an asset as MuJoCo forms it; empty if it has no file."""
+    if not file:
+        return ""
+    return os.path.join(folder, os.path.basename(file) if strip else file)
+
+
+def _materials(spec: Any, model: Any, _: Any) -> list[Row]:
+    files = {
+        texture.name: _asset(texture.file, _folder(spec, texture, "texturedir"), spec.strippath)
+        for texture in spec.textures
+    }
+    rows = []
+    for i, material in enumerate(_in_order(spec.materials)):
+        row = {**_base(material), "rgba": model.mat_rgba[i].tolist()}
+        named = [name for name in material.textures if name]
+        row["texture"] = next((files[name] for name in named if files.get(name)), "")
+        rows.append(row)
+    return rows
+
+
+def _sites(spec: Any, model: Any, _: Any) -> list[Row]:
+    return [
+        {**_base(site), **_values(model, "site", i, ("bodyid", "pos", "quat"))}
+        for i, site in enumerate(_in_order(spec.sites))
+    ]
+
+
+def _cameras(spec: Any, model: Any, _: Any) -> list[Row]:
+    names = ("bodyid", "pos", "quat", "fovy", "resolution", "mode")
+    return [
+        {**_base(camera), **_values(model, "cam", i, names)}
+        for i, camera in enumerate(_in_order(spec.cameras))
+    ]
+
+
+def _actuators(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+    names = (
+        *("gear", "gainprm", "biasprm", "ctrlrange", "ctrllimited", "forcerange", "forcelimited"),
+        "trnid",
+    )
+    rows = []
+    for i, actuator in enumerate(_in_order(spec.actuators)):
+        row = {**_base(actuator), **_values(model, "actuator", i, names)}
+        for name, enum, prefix in (
+            ("trntype", mujoco.mjtTrn, "mjTRN_"),
+            ("gaintype", mujoco.mjtGain, "mjGAIN_"),
+            ("biastype", mujoco.mjtBias, "mjBIAS_"),
+            ("dyntype", mujoco.mjtDyn, "mjDYN_"),
+        ):
+            row[name] = _enum(enum(getattr(model, f"actuator_{name}")[i]), prefix)
+        rows.append(row)
+    return rows
+
+
+def _equalities(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+    rows = []
+    for i, equality in enumerate(_in_order(spec.equalities)):
+        row = {
+            **_base(equality),
+            **_values(model, "eq", i, ("obj1id", "obj2id", "data", "active0")),
+        }
+        row["type"] = _enum(mujoco.mjtEq(model.eq_type[i]), "mjEQ_")
+        row["objtype"] = _enum(mujoco.mjtObj(model.eq_objtype[i]), "mjOBJ_")
+        rows.append(row)
+    return rows
+
+
+def _sensors(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+    rows = []
+    for i, sensor in enumerate(_in_order(spec.sensors)):
+        row = {**_base(sensor), "objid": int(model.sensor_objid[i])}
+        row["type"] = _enum(mujoco.mjtSensor(model.sensor_type[i]), "mjSENS_")
+        row["objtype"] = _enum(mujoco.mjtObj(model.sensor_objtype[i]), "mjOBJ_")
+        rows.append(row)
+    return rows
+
+
+def _excludes(spec: Any, *_: Any) -> list[Row]:
+    return [{**_base(e), "body1": e.bodyname1, "body2": e.bodyname2} for e in spec.excludes]
+
+
+def _named(attribute: str) -> Callable[..., list[Row]]:
+    def read(spec: Any, *_: Any) -> list[Row]:
+        return [_base(element) for element in getattr(spec, attribute, ())]
+
+    return read
+
+
+def _enum(value: Any, prefix: str) -> str:
+    return str(value.name).removeprefix(prefix).lower()
+
+
+_READERS: dict[str, Callable[..., list[Row]]] = {
+    "body": _bodies,
+    "joint": _joints,
+    "geom": _geoms,
+    "mesh": _meshes,
+    "material": _materials,
+    "site": _sites,
+    "camera": _cameras,
+    "actuator": _actuators,
+    "equality": _equalities,
+    "sensor": _sensors,
+    "exclude": _excludes,
+    "tendon": _named("tendons"),
+    "light": _named("lights"),
+    "flex": _named("flexes"),
+    "skin": _named("skins"),
+    "plugin": _named("plugins"),
+}
+"""Reader of each kind."""

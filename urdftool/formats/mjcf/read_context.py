@@ -1,0 +1,99 @@
+"""What the parts of the MJCF reader share: rows, names of links and joints, places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ...model.pose import IDENTITY, Pose, rotation_of_quaternion
+from ...model.provenance import Written
+from ...model.world import WORLD
+from ...source.document import Element
+from ..reading import Losses
+from .read_compile import Compiled, Row
+from .read_text import Expanded
+
+
+@dataclass
+class Context:
+    """State of reading one model.
+
+    Attributes:
+        expanded: The text, with the element of each line.
+        compiled: The values.
+        losses: What the robot does not hold.
+        links: Name of the link of each body by id; empty for a world that is not a link.
+        shifts: Pose of the frame of each body in the frame of its link.
+        joints: Name of each joint by id.
+    """
+
+    expanded: Expanded
+    compiled: Compiled
+    losses: Losses
+    links: list[str] = field(default_factory=list)
+    shifts: list[Pose] = field(default_factory=list)
+    joints: list[str] = field(default_factory=list)
+
+    def rows(self, kind: str) -> list[Row]:
+        """Return the rows of a kind."""
+        return self.compiled.rows[kind]
+
+    def element(self, row: Row) -> Element:
+        """Return the element of a row; the root if its line is unknown."""
+        return self.expanded.at(row["line"])
+
+    def written(self, row: Row) -> Written:
+        """Return the place of a row."""
+        return Written(self.element(row).place)
+
+    def in_link(self, row: Row) -> Pose:
+        """Return the pose of a part of a body in the frame of its link."""
+        return self.shifts[row["bodyid"]] @ pose(row)
+
+    def has_link(self, row: Row) -> bool:
+        """Tell whether the body of a row is a link."""
+        return bool(self.links[row["bodyid"]])
+
+
+def pose(row: Row, position: str = "pos", quaternion: str = "quat") -> Pose:
+    """Return the pose in a row."""
+    w, x, y, z = row[quaternion]
+    turned = rotation_of_quaternion((w, x, y, z))
+    return Pose(IDENTITY.rotation if w == 1.0 else turned, tuple(row[position]))
+
+
+def unique(wanted: str, taken: set[str]) -> str:
+    """Return a name that is not taken, and take it."""
+    name, count = wanted, 1
+    while name in taken:
+        count += 1
+        name = f"{wanted}_{count}"
+    taken.add(name)
+    return name
+
+
+def name_bodies(context: Context, world: bool) -> None:
+    """Name the link of each body; unnamed bodies are named for their parent.
+
+    Args:
+        context: The context, whose ``links`` are set.
+        world: Whether the world is a link.
+    """
+    rows = context.rows("body")
+    taken = {row["name"] for row in rows if row["name"]} | {WORLD}
+    context.links = [WORLD if world else ""]
+    counts: dict[int, int] = {}
+    for row in rows[1:]:
+        parent = row["parentid"]
+        counts[parent] = number = counts.get(parent, 0) + 1
+        invented = f"{context.links[parent] or WORLD}_body{number}"
+        context.links.append(row["name"] or unique(invented, taken))
+
+
+def name_joints(context: Context) -> set[str]:
+    """Name each joint; unnamed joints are named for their body. Return all names."""
+    rows = context.rows("joint")
+    taken = {row["name"] for row in rows if row["name"]}
+    for row in rows:
+        invented = f"{context.links[row['bodyid']]}_joint"
+        context.joints.append(row["name"] or unique(invented, taken))
+    return taken

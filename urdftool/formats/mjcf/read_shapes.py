@@ -1,0 +1,129 @@
+"""Geoms of MJCF as visuals and collisions."""
+
+from __future__ import annotations
+
+from ...finding import Severity
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Material,
+    Mesh,
+    Plane,
+    Robot,
+    Sphere,
+    UnknownShape,
+    Visual,
+)
+from ...model.pose import IDENTITY, Pose, origin_at, rotate, rotation_of_quaternion
+from ...model.provenance import Written
+from .read_compile import Row
+from .read_context import Context, pose
+
+_PLAIN = [0.5, 0.5, 0.5, 1.0]
+"""Color of a geom that has none; in 32-bit floats these are exact."""
+
+_HIDDEN_FROM = 3
+"""MuJoCo's viewer does not show geoms of this group and above."""
+
+_FRICTION = [1.0, 0.005, 0.0001]
+
+
+def add_shapes(context: Context, robot: Robot) -> None:
+    """Add visuals and collisions to the links of a robot."""
+    for row in context.rows("geom"):
+        written = context.written(row)
+        if not context.has_link(row):
+            text = "geoms of the world are scenery"
+            context.losses.add("scenery", text, row["name"], written.place, Severity.INFO)
+            continue
+        link = robot.link[context.links[row["bodyid"]]]
+        geometry, frame = _geometry(context, row, written)
+        origin = origin_at(context.shifts[row["bodyid"]] @ frame, written)
+        name = row["name"] or None
+        collides = row["contype"] or row["conaffinity"] or row["paired"]
+        material, alpha = _material(context, row, written)
+        visible = row["group"] < _HIDDEN_FROM and alpha > 0
+        if visible:
+            link.visuals.append(Visual(written, name, origin, geometry, material))
+        if collides:
+            link.collisions.append(Collision(written, name, origin, geometry))
+            _report_contact(context, row, written)
+        if not visible and not collides:
+            text = "geoms that are neither seen nor touched count in the mass only"
+            context.losses.add("hidden-geom", text, row["name"], written.place, Severity.INFO)
+
+
+def _report_contact(context: Context, row: Row, written: Written) -> None:
+    if (row["contype"], row["conaffinity"]) != (1, 1) and not row["paired"]:
+        text = "bits that choose which geoms touch (contype, conaffinity) are not read"
+        context.losses.add("contact-bits", text, row["name"], written.place)
+    if row["paired"]:
+        text = "pairs of geoms that touch are not read"
+        context.losses.add("contact-pair", text, row["name"], written.place)
+    if any(abs(a - b) > 1e-9 for a, b in zip(row["friction"], _FRICTION, strict=True)):
+        text = "friction of geoms is not read"
+        context.losses.add("friction", text, row["name"], written.place)
+
+
+def _geometry(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
+    """Return the geometry of a geom and its pose in the frame of the body."""
+    kind, (a, b, c), at = row["type"], row["size"], pose(row)
+    if kind == "mesh":
+        return _mesh(context, row, written)
+    if kind == "sphere":
+        return Sphere(written, a), at
+    if kind == "capsule":
+        return Capsule(written, a, 2 * b), at
+    if kind == "cylinder":
+        return Cylinder(written, a, 2 * b), at
+    if kind == "box":
+        return Box(written, (2 * a, 2 * b, 2 * c)), at
+    if kind == "ellipsoid":
+        return Ellipsoid(written, (a, b, c)), at
+    if kind == "plane":
+        return Plane(written, (2 * a, 2 * b) if a and b else None), at
+    context.losses.add(kind, f"geoms of type {kind} are not read", row["name"], written.place)
+    return UnknownShape(written, kind), at
+
+
+def _mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
+    """Return a mesh and the pose of its file in the frame of the body.
+
+    MuJoCo moves the points of a mesh to its center of mass and principal axes, after it has
+    subtracted ``refpos``, turned by the inverse of ``refquat``, and scaled.
+    """
+    mesh = context.rows("mesh")[row["dataid"]]
+    at = pose(row) @ pose(mesh).inverse()
+    if not mesh["file"]:
+        text = "meshes without a file are not read"
+        context.losses.add("mesh", text, mesh["name"], context.written(mesh).place)
+        return UnknownShape(written, "mesh"), at
+    x, y, z = mesh["scale"]
+    w, *ijk = mesh["refquat"]
+    turned = IDENTITY
+    if any(ijk):
+        turned = Pose(rotation_of_quaternion((w, ijk[0], ijk[1], ijk[2]))).inverse()
+        if not x == y == z:
+            text = "meshes with refquat and unequal scales are not read"
+            context.losses.add("mesh-scale", text, mesh["name"], context.written(mesh).place)
+            return UnknownShape(written, "mesh"), at
+    p, q, r = rotate(turned.rotation, tuple(mesh["refpos"]))
+    moved = Pose(turned.rotation, (-x * p, -y * q, -z * r))
+    return Mesh(context.written(mesh), mesh["file"], (x, y, z)), at @ moved
+
+
+def _material(context: Context, row: Row, written: Written) -> tuple[Material, float]:
+    """Return the material of a geom, and how opaque it is."""
+    rgba = row["rgba"]
+    if row["matid"] < 0:
+        return Material(written, "", tuple(rgba)), rgba[3]
+    material = context.rows("material")[row["matid"]]
+    color = material["rgba"] if rgba == _PLAIN else rgba
+    texture = material["texture"] or None
+    name = material["name"] if color == material["rgba"] else ""
+    named = Material(context.written(material), name, tuple(color), texture)
+    return named, color[3]

@@ -1,0 +1,214 @@
+"""Bodies and joints of MJCF as links and joints.
+
+A body of MJCF may turn about any point and have several joints. Here the frame of a link is at its
+last joint, as in URDF, so it may be shifted from that of the body; a link without mass stands
+between two joints of a body.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ...finding import Severity
+from ...model.elements import (
+    Axis,
+    Dynamics,
+    Inertia,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Robot,
+    Vector,
+)
+from ...model.kinematics import motion_of
+from ...model.mechanism import Base, Frame
+from ...model.part import ZERO
+from ...model.pose import IDENTITY, Pose, origin_at
+from ...model.provenance import Written
+from ...model.world import WORLD
+from .read_compile import Row
+from .read_context import Context, name_bodies, name_joints, pose, unique
+
+UNLIMITED = 1e9
+"""Range beyond which a joint counts as unlimited."""
+
+
+def add_tree(context: Context, robot: Robot) -> None:
+    """Add links and joints.
+
+    The root is the only body in the world, or a link ``world`` if there are several or if a joint
+    other than a free one connects it to the world.
+    """
+    bodies = context.rows("body")
+    joints: dict[int, list[int]] = {}
+    for index, row in enumerate(context.rows("joint")):
+        joints.setdefault(row["bodyid"], []).append(index)
+    name_bodies(context, _needs_world(context, joints))
+    taken = name_joints(context)
+    if context.links[0]:
+        robot.links.append(Link(Written(context.expanded.root.place), WORLD))
+    context.shifts = [IDENTITY]
+    for index, row in enumerate(bodies[1:], 1):
+        own = joints.get(index, [])
+        parent = context.links[row["parentid"]]
+        anchor = _anchor(context.rows("joint")[own[-1]]) if own else ZERO
+        shift = Pose(translation=_negated(anchor))
+        context.shifts.append(shift)
+        link = Link(context.written(row), context.links[index], _inertial(context, row, shift))
+        if parent:
+            made = list(_joints(context, row, index, own, taken))
+            robot.joints += made
+            robot.links += [
+                Link(joint.provenance, joint.child, is_virtual=True) for joint in made[:-1]
+            ]
+        else:
+            base = origin_at(pose(row), context.written(row))
+            robot.base = Base(context.written(row), bool(own), base)
+            for joint in (context.rows("joint")[number] for number in own):
+                if any(joint[name] for name in ("damping", "frictionloss", "armature")):
+                    text = "damping, friction and armature of a free base are not read"
+                    place = _place(context, joint).place
+                    context.losses.add("base-dynamics", text, joint["name"], place)
+        robot.links.append(link)
+        if any(anchor):
+            origin = origin_at(shift, context.written(row))
+            robot.frames.append(Frame(context.written(row), link.name, link.name, "body", origin))
+        if row["mocapid"] >= 0:
+            text = "bodies that the program moves are fixed"
+            context.losses.add("mocap", text, row["name"], link.place, Severity.INFO)
+        if row["gravcomp"]:
+            text = "gravity compensation is not read"
+            context.losses.add("gravcomp", text, row["name"], link.place)
+
+
+def _needs_world(context: Context, joints: dict[int, list[int]]) -> bool:
+    """Tell whether the world is a link of the robot."""
+    top = [i for i, row in enumerate(context.rows("body")) if i and row["parentid"] == 0]
+    kinds = [context.rows("joint")[i]["type"] for body in top for i in joints.get(body, [])]
+    closes = any(
+        0 in (row["obj1id"], row["obj2id"])
+        for row in context.rows("equality")
+        if row["type"] in ("connect", "weld") and row["objtype"] == "body"
+    )
+    return len(top) != 1 or kinds not in ([], ["free"]) or closes
+
+
+def _inertial(context: Context, row: Row, shift: Pose) -> Inertial | None:
+    if not row["mass"]:
+        return None
+    written = context.element(row).child("inertial")
+    at = context.written(row) if written is None else Written(written.place)
+    a, b, c = row["inertia"]
+    tensor = Inertia(at, a, 0.0, 0.0, b, 0.0, c)
+    return Inertial(at, origin_at(shift @ pose(row, "ipos", "iquat"), at), row["mass"], tensor)
+
+
+def _anchor(row: Row) -> Vector:
+    """Return the point about which a joint turns, in the frame of its body [m]."""
+    x, y, z = row["pos"] if row["type"] in ("hinge", "ball") else ZERO
+    return x, y, z
+
+
+def _negated(point: Vector) -> Vector:
+    x, y, z = point
+    return -x, -y, -z
+
+
+def _joints(
+    context: Context, body: Row, index: int, own: list[int], taken: set[str]
+) -> Iterator[Joint]:
+    """Yield the joints between a body and its parent, the first of them first."""
+    name, parent = context.links[index], context.links[body["parentid"]]
+    at = context.shifts[body["parentid"]] @ pose(body)
+    if not own:
+        written = context.written(body)
+        fixed = unique(f"{name}_fixed", taken)
+        origin = origin_at(at @ context.shifts[index].inverse(), written)
+        yield Joint(written, fixed, "fixed", parent, name, origin=origin)
+        return
+    before = ZERO
+    links = set(context.links)
+    for count, number in enumerate(own, 1):
+        row = context.rows("joint")[number]
+        child = name if count == len(own) else unique(f"{name}~{count}", links)
+        anchor = _anchor(row)
+        step = Pose(translation=tuple(a - b for a, b in zip(anchor, before, strict=True)))  # type: ignore[arg-type]
+        joint = _joint(context, row, number, parent, child)
+        if row["ref"] and joint.type not in ("ball", "floating"):
+            step = step @ motion_of(replace(joint, limit=None), -row["ref"])
+        yield replace(joint, origin=origin_at(at @ step, joint.provenance))
+        at, before, parent = IDENTITY, anchor, child
+
+
+def _joint(context: Context, row: Row, number: int, parent: str, child: str) -> Joint:
+    """Return a joint without its origin."""
+    written = _place(context, row)
+    lower, upper = row["range"]
+    limited = bool(row["limited"]) and max(-lower, upper) < UNLIMITED
+    kind = {"hinge": "revolute", "slide": "prismatic", "ball": "ball", "free": "floating"}[
+        row["type"]
+    ]
+    joint = Joint(written, context.joints[number], kind, parent, child)
+    if kind in ("revolute", "prismatic"):
+        x, y, z = row["axis"]
+        joint.axis = Axis(written, (x, y, z))
+        joint.type = "continuous" if kind == "revolute" and not limited else kind
+    joint.dynamics = _dynamics(context, row, written)
+    effort = _effort(context, row, number)
+    if limited:
+        joint.limit = Limit(written, lower, upper, effort)
+    elif effort is not None:
+        bound = math.inf if kind == "prismatic" else None
+        joint.limit = Limit(written, None if bound is None else -bound, bound, effort)
+    return joint
+
+
+def _place(context: Context, row: Row) -> Written:
+    """Return the place of a joint; MuJoCo gives no line of a ``<freejoint>``."""
+    if row["line"]:
+        return context.written(row)
+    body = context.element(context.rows("body")[row["bodyid"]])
+    element = body.child("freejoint")
+    return Written((body if element is None else element).place)
+
+
+def _dynamics(context: Context, row: Row, written: Written) -> Dynamics | None:
+    if row["poly"]:
+        text = "damping that is not proportional to velocity is not read"
+        context.losses.add("damping", text, row["name"], written.place)
+    names = ("damping", "frictionloss", "armature", "stiffness")
+    damping, friction, armature, stiffness = (row[name] or None for name in names)
+    if not any((damping, friction, armature, stiffness)):
+        return None
+    reference = (
+        row["springref"] or None if stiffness and row["type"] in ("hinge", "slide") else None
+    )
+    return Dynamics(written, damping, friction, armature, stiffness, reference)
+
+
+def _effort(context: Context, row: Row, number: int) -> float | None:
+    """Return the largest force of the actuators of a joint [N or N·m]; None if not bounded."""
+    bounds: list[float] = []
+    for actuator in context.rows("actuator"):
+        if actuator["trntype"] in ("joint", "jointinparent") and actuator["trnid"][0] == number:
+            bounds.append(_bound(actuator))
+    total = math.fsum(bounds) if bounds else math.inf
+    if row["actfrclimited"] and row["type"] in ("hinge", "slide"):
+        total = min(total, *(abs(value) for value in row["actfrcrange"]))
+    return total if total < UNLIMITED else None
+
+
+def _bound(actuator: Row) -> float:
+    """Return the largest force of an actuator at its joint [N or N·m]."""
+    bound = math.inf
+    gear = abs(actuator["gear"][0])
+    if actuator["forcelimited"]:
+        bound = gear * max(map(abs, actuator["forcerange"]))
+    is_motor = actuator["gaintype"] == "fixed" and actuator["biastype"] == "none"
+    if actuator["ctrllimited"] and is_motor:
+        control = max(map(abs, actuator["ctrlrange"]))
+        bound = min(bound, gear * abs(actuator["gainprm"][0]) * control)
+    return bound
