@@ -127,6 +127,7 @@ FORMATS = (
         "sdf",
         "SDF, for Gazebo",
         (".sdf", ".xml", ".world"),
+        can_read=True,
         can_write=True,
         cannot_express=(
             "lossy-calibration",

@@ -1,0 +1,123 @@
+"""Read a robot from SDF, by the specifications of versions 1.4 to 1.12."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ...errors import ModelError
+from ...model.elements import Link, Robot
+from ...model.mechanism import Base
+from ...model.pose import IDENTITY, origin_at
+from ...model.provenance import Written
+from ...model.world import WORLD
+from ...source.description import Description
+from ...source.document import STDIN, Document, read_file
+from ...source.location import SourceFile
+from ...source.packages import Packages
+from ...workspace import Workspace
+from ..reading import Losses, Reading
+from .read_joints import (
+    add_closure,
+    add_frames,
+    add_joint,
+    add_world,
+    find_joints,
+    order,
+    set_shifts,
+)
+from .read_links import Context, read_link
+from .read_models import Models
+from .read_scope import Scope, own_pose
+
+
+def read(
+    path: str | Path,
+    *,
+    file: SourceFile | None = None,
+    packages: Packages | None = None,
+    workspace: Workspace | None = None,
+    **_: Any,
+) -> Reading:
+    """Read a robot: the model of the file, or the one with most joints.
+
+    Args:
+        path: An SDF file, or ``-`` for standard input.
+        file: The file, if it has been read.
+        packages: Finder of mesh files and models; None creates one.
+        workspace: Access to files; None creates a new one.
+
+    Raises:
+        SourceError: A file cannot be read, or includes itself.
+        ModelError: The file has no model or two worlds, or a name or value in it is invalid.
+    """
+    workspace = workspace or Workspace()
+    file = file or read_file(path, workspace)
+    finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
+    losses = Losses()
+    models = Models(finder, workspace, losses)
+    root = models.root(file)
+    top = _choose(models.top_models(root), losses)
+    if top is None:
+        raise ModelError("the file has no model with a link", at=root.place)
+    robot = Robot(Written(top.element.place), top.name)
+    robot.source = Description(str(path), Document(file, root, []), models.files, finder)
+    _fill(Context(robot, losses, file.path), top)
+    return Reading(robot, losses.findings())
+
+
+def _choose(found: list[Scope], losses: Losses) -> Scope | None:
+    """Return the model with most joints, then most links; report the others."""
+    sizes = {
+        id(model): tuple(
+            sum(len(part) for part in parts)
+            for parts in zip(
+                *((scope.joints, scope.links) for _, scope in model.everything()), strict=True
+            )
+        )
+        for model in found
+    }
+    top = max(found, key=lambda model: sizes[id(model)], default=None)
+    for model in found:
+        if model is not top:
+            text = f"of {len(found)} models, one is read"
+            losses.add("model", text, model.name, model.posed.place)
+    return top if top is not None and sizes[id(top)][1] else None
+
+
+def _fill(context: Context, top: Scope) -> None:
+    """Add links, joints and frames to a robot."""
+    robot = context.robot
+    links = []
+    for prefix, scope in top.everything():
+        path = prefix.removesuffix("::")
+        base = top.pose(path, top.element) if path else IDENTITY
+        for name, item in scope.links.items():
+            links.append((scope, prefix, item.element))
+            context.poses[prefix + name] = base @ scope.pose(name, item.element)
+    context.shifts = dict.fromkeys(context.poses, IDENTITY)
+    tree, loops = order(find_joints(top))
+    has_world = any(WORLD in (joint.parent, joint.child) for joint in (*tree, *loops))
+    children = {joint.child for joint in tree}
+    roots = [name for name in context.poses if name not in children and name != WORLD]
+    is_named = WORLD in context.poses  # a link of that name
+    if not is_named:
+        context.poses[WORLD] = own_pose(top).inverse()
+        context.shifts[WORLD] = IDENTITY
+    set_shifts(context, tree)
+    if (has_world or len(roots) > 1) and not is_named:
+        robot.links.append(Link(robot.provenance, WORLD))
+    else:
+        at = own_pose(top) @ context.poses[roots[0]] if roots else IDENTITY
+        origin = origin_at(at, robot.provenance)
+        robot.base = Base(robot.provenance, not (top.is_static or is_named), origin)
+    for scope, prefix, element in links:
+        robot.links.append(read_link(context, scope, prefix, element))
+    for joint in tree:
+        add_joint(context, joint)
+    if robot.base is None or (is_named and roots):
+        robot.base = None
+        add_world(context, robot, roots, top.is_static)
+    for joint in loops:
+        add_closure(context, joint)
+    add_frames(context, top)

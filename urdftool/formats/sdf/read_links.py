@@ -1,0 +1,255 @@
+"""Links of SDF: inertia, shapes and sensors, with the defaults of the specification."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass, field
+
+from ...errors import ModelError
+from ...finding import Severity
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Inertia,
+    Inertial,
+    Link,
+    Material,
+    Mesh,
+    Plane,
+    Robot,
+    Sphere,
+    UnknownShape,
+    Vector,
+    Visual,
+)
+from ...model.mechanism import Camera, MountedSensor
+from ...model.pose import IDENTITY, Pose, norm, origin_at
+from ...model.provenance import Written
+from ...source.document import Element
+from ..reading import Losses
+from .read_scope import Scope
+from .read_values import flag, number, numbers_of, pose_in, text_of, vector
+
+_TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
+_CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "thermal_camera", "wideanglecamera")
+_MATERIAL = Severity.INFO
+
+
+@dataclass
+class Context:
+    """State of reading one robot.
+
+    Attributes:
+        robot: The robot.
+        losses: What it does not hold.
+        main: Path of the main file.
+        shifts: Pose of the frame of each link, as SDF writes it, in the frame of the ``Link``.
+        poses: Pose of the frame of each link in the frame of the top model.
+    """
+
+    robot: Robot
+    losses: Losses
+    main: str
+    shifts: dict[str, Pose] = field(default_factory=dict)
+    poses: dict[str, Pose] = field(default_factory=dict)
+
+    def lose(
+        self, code: str, text: str, element: Element, severity: Severity = Severity.WARNING
+    ) -> None:
+        """Report an element that is not read."""
+        self.losses.add(code, text, element.get("name") or "", element.place, severity)
+
+
+def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> Link:
+    """Return a link whose parts are in its shifted frame, and add its sensors to the robot."""
+    name = prefix + (element.get("name") or "")
+    link = Link(Written(element.place), name, _inertial(context, scope, prefix, element))
+    for child in element.children:
+        if child.tag == "visual":
+            link.visuals += _visual(context, scope, prefix, element, child)
+        elif child.tag == "collision":
+            link.collisions += _collision(context, scope, prefix, element, child)
+        elif child.tag == "sensor":
+            _add_sensor(context, scope, prefix, element, child)
+        elif child.tag in ("light", "projector", "particle_emitter", "battery", "audio_source"):
+            context.lose(child.tag, f"elements <{child.tag}> are not read", child, Severity.INFO)
+    if not flag(element, "gravity", True):
+        context.lose("gravity", "links without gravity are read as others", element)
+    if flag(element, "kinematic"):
+        context.lose("kinematic", "kinematic links are read as others", element)
+    return link
+
+
+def _pose(context: Context, scope: Scope, prefix: str, link: Element, part: Element) -> Pose:
+    """Return the pose of a part in the shifted frame of its link."""
+    name = link.get("name") or ""
+    pose, frame = pose_in(part)
+    if frame and frame != name:
+        pose = scope.pose(name, part).inverse() @ scope.pose(frame, part) @ pose
+    return context.shifts[prefix + name] @ pose
+
+
+def _inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Inertial | None:
+    """Return the inertia: 1 kg and 1 kg·m² where none is written."""
+    element = link.child("inertial")
+    holder = link if element is None else element
+    written = Written(holder.place)
+    if element is None:
+        origin = origin_at(context.shifts[prefix + (link.get("name") or "")], written)
+        return Inertial(written, origin, 1.0, Inertia(written, **_TENSOR))
+    if (element.get("auto") or "").lower() in ("true", "1"):
+        context.lose("auto-inertia", "inertia from shapes (auto) is not computed", link)
+        return None
+    if element.child("fluid_added_mass") is not None:
+        context.lose("added-mass", "added mass of a fluid is not read", link)
+    origin = origin_at(_pose(context, scope, prefix, link, element), written)
+    tensor = element.child("inertia")
+    values = {name: number(tensor, name, value) for name, value in _TENSOR.items()}
+    at = written if tensor is None else Written(tensor.place)
+    return Inertial(written, origin, number(element, "mass", 1.0), Inertia(at, **values))
+
+
+def _visual(
+    context: Context, scope: Scope, prefix: str, link: Element, element: Element
+) -> list[Visual]:
+    geometry, turn = _geometry(context, element)
+    if geometry is None:
+        return []
+    written = Written(element.place)
+    origin = origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
+    material = _material(context, element)
+    return [Visual(written, element.get("name"), origin, geometry, material)]
+
+
+def _collision(
+    context: Context, scope: Scope, prefix: str, link: Element, element: Element
+) -> list[Collision]:
+    geometry, turn = _geometry(context, element)
+    if geometry is None:
+        return []
+    surface = element.child("surface")
+    if surface is not None and surface.children:
+        context.lose("surface", "friction and contact of collisions are not read", element)
+    written = Written(element.place)
+    origin = origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
+    return [Collision(written, element.get("name"), origin, geometry)]
+
+
+def _geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]:
+    """Return the shape of a visual or collision, and its pose in the frame of that."""
+    outer = holder.child("geometry")
+    shapes = [] if outer is None else [child for child in outer.children if ":" not in child.tag]
+    if not shapes or shapes[0].tag == "empty":
+        return None, IDENTITY
+    element, written = shapes[0], Written(shapes[0].place)
+    tag = element.tag
+    if tag == "plane":
+        return _plane(element, written)
+    if tag == "mesh":
+        return _mesh(context, element, written), IDENTITY
+    if tag == "box":
+        return Box(written, vector(element, "size", (1.0, 1.0, 1.0))), IDENTITY
+    if tag == "ellipsoid":
+        return Ellipsoid(written, vector(element, "radii", (1.0, 1.0, 1.0))), IDENTITY
+    if tag == "sphere":
+        return Sphere(written, number(element, "radius", 1.0)), IDENTITY
+    if tag == "capsule":
+        radius, length = number(element, "radius", 0.5), number(element, "length", 1.0)
+        return Capsule(written, radius, length), IDENTITY
+    if tag in ("cylinder", "cone"):
+        radius, length = number(element, "radius", 1.0), number(element, "length", 1.0)
+        made = Cone if tag == "cone" else Cylinder
+        return made(written, radius, length), IDENTITY
+    context.lose(f"shape-{tag}", f"geometry <{tag}> is not read", holder)
+    return UnknownShape(written, tag), IDENTITY
+
+
+def _plane(element: Element, written: Written) -> tuple[Plane, Pose]:
+    normal = vector(element, "normal", (0.0, 0.0, 1.0))
+    size = element.child("size")
+    extent = None if size is None else numbers_of(size, 2)
+    plane = Plane(written, None if extent is None else (extent[0], extent[1]))
+    return plane, Pose(_rotation_to(normal, element))
+
+
+def _rotation_to(normal: Vector, element: Element) -> tuple[Vector, Vector, Vector]:
+    """Return the least rotation that turns z to a direction."""
+    length = norm(normal)
+    if not length:
+        raise ModelError("the normal of the plane is zero", at=element.place)
+    x, y, z = (part / length for part in normal)
+    if z < -1 + 1e-12:
+        return (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)
+    k = 1 / (1 + z)
+    return (1 - k * x * x, -k * x * y, x), (-k * x * y, 1 - k * y * y, y), (-x, -y, z)
+
+
+def _mesh(context: Context, element: Element, written: Written) -> Geometry:
+    uri = text_of(element, "uri") or text_of(element, "filename")
+    if element.child("submesh") is not None:
+        context.lose("submesh", "parts of mesh files (submesh) are not read", element)
+        return UnknownShape(written, "submesh")
+    if "://" not in uri and element.file.path != context.main:
+        uri = os.path.join(os.path.dirname(os.path.abspath(element.file.path)), uri)
+    return Mesh(written, uri, vector(element, "scale", (1.0, 1.0, 1.0)))
+
+
+def _material(context: Context, holder: Element) -> Material | None:
+    element = holder.child("material")
+    if element is None:
+        return None
+    diffuse = element.child("diffuse") or element.child("ambient")
+    color = None
+    if diffuse is not None:
+        values = [*map(float, diffuse.text.split()), 1.0][:4]
+        r, g, b, a = values if len(values) == 4 else numbers_of(diffuse, 4)
+        color = r, g, b, a
+    script = element.child("script")
+    if script is not None:
+        context.lose("material-script", "scripts of materials are not read", holder, _MATERIAL)
+    pbr = element.child("pbr")
+    maps = [] if pbr is None else [e.text.strip() for e in pbr.walk() if e.tag == "albedo_map"]
+    if color is None and not maps:
+        return None
+    return Material(Written(element.place), "", color, maps[0] if maps else None)
+
+
+def _add_sensor(
+    context: Context, scope: Scope, prefix: str, link: Element, element: Element
+) -> None:
+    written, kind = Written(element.place), element.get("type") or ""
+    pose = _pose(context, scope, prefix, link, element)
+    name, owner = element.get("name") or "", prefix + (link.get("name") or "")
+    camera = element.child("camera")
+    if kind in _CAMERAS and camera is not None:
+        inner, _ = pose_in(camera)
+        width, height = (number(camera.child("image"), tag, 0.0) for tag in ("width", "height"))
+        across = number(camera, "horizontal_fov", 1.047)
+        vertical = None
+        if width and height and across < math.pi:
+            vertical = 2 * math.atan(math.tan(across / 2) * height / width)
+        size = (int(width), int(height)) if width and height else None
+        origin = origin_at(pose @ inner, written)
+        context.robot.cameras.append(Camera(written, name, owner, origin, vertical, size))
+        return
+    sensor = MountedSensor(written, name, kind, owner, "", origin_at(pose, written))
+    context.robot.mounted_sensors.append(sensor)
+
+
+def direction(element: Element, vector: Vector) -> Vector:
+    """Return a unit vector.
+
+    Raises:
+        ModelError: It is zero.
+    """
+    length = norm(vector)
+    if not length:
+        raise ModelError("the axis is zero", at=element.place)
+    x, y, z = vector
+    return x / length, y / length, z / length

@@ -1,0 +1,277 @@
+"""Models of an SDF file, with included and nested models."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...errors import ModelError, SourceError
+from ...finding import Severity
+from ...source.document import Element, parse, read_file
+from ...source.location import SourceFile
+from ...source.packages import Packages
+from ...workspace import Workspace
+from ..reading import Losses
+from .read_scope import MODEL, Item, Scope, own_pose
+from .read_values import Version, flag, text_of, version_of
+
+NEWEST: Version = (1, 12)
+MAX_DEPTH = 30
+MAX_ELEMENTS = 200_000
+
+_PATHS = ("SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH")
+
+
+class Models:
+    """Reader of models and includes.
+
+    Attributes:
+        files: Files that were read.
+        losses: What the robot does not hold.
+    """
+
+    def __init__(self, packages: Packages, workspace: Workspace, losses: Losses) -> None:
+        """Store the access to files."""
+        self._packages = packages
+        self._workspace = workspace
+        self.files: list[SourceFile] = []
+        self.losses = losses
+        self._above: list[str] = []
+
+    def root(self, file: SourceFile) -> Element:
+        """Parse a file.
+
+        Raises:
+            SourceError: It is not well-formed.
+            ModelError: The root is not ``<sdf>``, or it has too many elements.
+        """
+        self.files.append(file)
+        root = parse(file).root
+        if root.tag != "sdf":
+            raise ModelError(f"the root element is <{root.tag}>, not <sdf>", at=root.place)
+        for count, element in enumerate(root.walk(), 1):
+            if count > MAX_ELEMENTS:
+                text = f"the file has more than {MAX_ELEMENTS} elements; it is not read"
+                raise ModelError(text, at=element.place)
+        version = version_of(root)
+        if version > NEWEST:
+            text = f"rules of SDF 1.{NEWEST[1]} are used for a later version"
+            self.losses.add("version", text, root.get("version") or "", root.place)
+        return root
+
+    def top_models(self, root: Element) -> list[Scope]:
+        """Return the models of a file, those of its world included.
+
+        Raises:
+            ModelError: It has two worlds.
+        """
+        worlds = list(root.all("world"))
+        if len(worlds) > 1:
+            raise ModelError("the file has two worlds; name a file of one", at=worlds[1].place)
+        version = version_of(root)
+        self._above.append(os.path.realpath(root.file.path))
+        found = []
+        for holder in (root, *worlds):
+            for child in holder.children:
+                if child.tag == "model":
+                    found.append(self._model(child, version))
+                elif child.tag == "include":
+                    found += [one for one in (self._included(child),) if one is not None]
+                elif child.tag in ("actor", "light", "road", "population"):
+                    text = "what else is in the world is not read"
+                    self.losses.add(
+                        "scenery", text, child.get("name") or "", child.place, Severity.INFO
+                    )
+        return found
+
+    def _model(self, element: Element, version: Version, parent: Scope | None = None) -> Scope:
+        name = element.get("name") or ""
+        if not name:
+            raise ModelError("a model has no name", at=element.place)
+        scope = Scope(element, name, version, element, parent=parent)
+        scope.placement = element.get("placement_frame") or ""
+        scope.is_static = flag(element, "static")
+        scope.canonical = element.get("canonical_link") or ""
+        self._fill(scope, element, version, MODEL)
+        return scope
+
+    def _fill(self, scope: Scope, element: Element, version: Version, home: str) -> None:
+        """Add the contents of a model to a scope."""
+        if len(self._depth(scope)) > MAX_DEPTH:
+            text = f"models are nested more than {MAX_DEPTH} deep"
+            raise ModelError(text, at=element.place)
+        for child in element.children:
+            if child.tag in ("link", "joint", "frame"):
+                kinds = {"link": scope.links, "joint": scope.joints, "frame": scope.frames}
+                self._add(scope, kinds[child.tag], Item(child, home))
+            elif child.tag == "model":
+                nested = self._model(child, version, scope)
+                nested.home = home
+                self._nest(scope, nested)
+            elif child.tag == "include":
+                self._include(scope, child, home)
+            elif child.tag == "plugin":
+                text = "plugins are not read"
+                name = child.get("filename") or ""
+                self.losses.add("plugin", text, name, child.place, Severity.INFO)
+            elif child.tag == "gripper":
+                text = "grippers are not read"
+                self.losses.add("gripper", text, child.get("name") or "", child.place)
+
+    def _depth(self, scope: Scope | None) -> list[Scope]:
+        above = []
+        while scope is not None:
+            above.append(scope)
+            scope = scope.parent
+        return above
+
+    def _add(self, scope: Scope, kind: dict[str, Item], item: Item) -> None:
+        tag = item.element.tag
+        if not item.name:
+            raise ModelError(f"a {tag} has no name", at=item.element.place)
+        if item.name in kind:
+            text = f"the model has two {tag}s named '{item.name}'"
+            raise ModelError(text, at=item.element.place)
+        kind[item.name] = item
+
+    def _nest(self, scope: Scope, model: Scope) -> None:
+        if model.name in scope.models:
+            text = f"the model has two models named '{model.name}'"
+            raise ModelError(text, at=model.posed.place)
+        scope.models[model.name] = model
+
+    def _include(self, scope: Scope, element: Element, home: str) -> None:
+        """Add an included model as a nested one, or merge it."""
+        model = self._included(element, scope)
+        if model is None:
+            return
+        model.home = home
+        if not flag_of(element, "merge"):
+            self._nest(scope, model)
+            return
+        frame = f"_merged__{model.name}__model__"
+        scope.models[frame] = _only_frame(model, frame)
+        for items, own in (
+            (model.links, scope.links),
+            (model.joints, scope.joints),
+            (model.frames, scope.frames),
+        ):
+            for item in items.values():
+                merged = frame if item.home == MODEL else item.home
+                self._add(scope, own, Item(item.element, merged))
+        for nested in model.models.values():
+            nested.parent = scope
+            nested.home = frame if nested.home == MODEL else nested.home
+            self._nest(scope, nested)
+
+    def _included(self, element: Element, parent: Scope | None = None) -> Scope | None:
+        """Read the model of an ``<include>``; its name, pose and ``static`` replace the model's.
+
+        Raises:
+            SourceError: The file does not exist, or includes itself.
+            ModelError: It has no model, or several.
+        """
+        path = self._path(element)
+        key = os.path.realpath(path)
+        if key in self._above:
+            raise SourceError(f"file '{path}' includes itself", at=element.place)
+        try:
+            file = read_file(str(path), self._workspace)
+        except SourceError as error:
+            raise SourceError(f"file '{path}' {error.message}", at=element.place) from None
+        root = self.root(file)
+        self._above.append(key)
+        models = list(root.all("model"))
+        if len(models) != 1:
+            text = f"file '{path}' has {len(models)} models; an included file has one"
+            if not models and (root.child("light") or root.child("actor")) is not None:
+                text = "included lights and actors are not read"
+                self.losses.add("scenery", text, "", element.place, Severity.INFO)
+                self._above.pop()
+                return None
+            raise ModelError(text, at=element.place)
+        model = self._model(models[0], version_of(root), parent)
+        self._above.pop()
+        model.name = text_of(element, "name") or model.name
+        if element.child("pose") is not None:
+            model.posed = element
+            model.placement = ""
+        model.placement = text_of(element, "placement_frame") or model.placement
+        model.is_static = flag(element, "static", model.is_static)
+        for child in element.all("plugin"):
+            name = child.get("filename") or ""
+            self.losses.add("plugin", "plugins are not read", name, child.place, Severity.INFO)
+        return model
+
+    def _path(self, element: Element) -> Path:
+        """Return the SDF file of an ``<include>``."""
+        uri = text_of(element, "uri")
+        if not uri:
+            raise SourceError("<include> has no <uri>", at=element.place)
+        for path in self._places(uri, element):
+            if self._workspace.is_folder(path):
+                return self._main_file(path, element)
+            if self._workspace.is_file(path):
+                return path
+        raise SourceError(f"model '{uri}' is not found", at=element.place)
+
+    def _places(self, uri: str, element: Element) -> Iterator[Path]:
+        """Yield the paths that a URI may mean."""
+        scheme, separator, rest = uri.partition("://")
+        folder = Path(element.file.path).resolve().parent
+        if separator and scheme in ("http", "https"):
+            text = f"model '{uri}' is on the network; download it and name its folder"
+            raise SourceError(text, at=element.place)
+        if separator and scheme == "file":
+            yield Path(rest)
+            yield folder / rest
+            return
+        name = rest if separator else uri
+        yield from (folder / name, folder.parent / name, folder.parent.parent / name)
+        for variable in _PATHS:
+            for entry in filter(None, (self._workspace.variable(variable) or "").split(os.pathsep)):
+                yield Path(entry) / name
+        for path in self._packages.paths:
+            yield Path(path) / name
+
+    def _main_file(self, folder: Path, element: Element) -> Path:
+        """Return the newest file that ``model.config`` of a folder names."""
+        for name in ("model.config", "manifest.xml"):
+            if not self._workspace.is_file(folder / name):
+                continue
+            root = parse(read_file(str(folder / name), self._workspace)).root
+            files = [(_config_version(child), child.text.strip()) for child in root.all("sdf")]
+            known = [(version, text) for version, text in files if version <= NEWEST]
+            if known:
+                return folder / max(known)[1]
+        if self._workspace.is_file(folder / "model.sdf"):
+            return folder / "model.sdf"
+        text = f"folder '{folder}' has no model.config that names an SDF file"
+        raise SourceError(text, at=element.place)
+
+
+def flag_of(element: Element, name: str) -> bool:
+    """Return whether an attribute is ``true`` or ``1``."""
+    return (element.get(name) or "").lower() in ("true", "1")
+
+
+def _config_version(element: Element) -> Version:
+    try:
+        return version_of(element)
+    except ModelError:
+        return 1, 0
+
+
+def _only_frame(model: Scope, name: str) -> Scope:
+    """Return the pose of a merged model as a model without contents."""
+    return Scope(
+        model.element,
+        name,
+        model.version,
+        model.posed,
+        canonical=model.canonical or next(iter(model.links), MODEL),
+        parent=model.parent,
+        home=model.home,
+        merged=own_pose(model),
+    )

@@ -1,0 +1,93 @@
+"""Values of SDF elements: numbers, poses and names, with the defaults of the specification."""
+
+from __future__ import annotations
+
+import math
+
+from ...errors import ModelError
+from ...model.elements import Vector
+from ...model.pose import IDENTITY, Pose, rotation_of_quaternion, rotation_of_rpy
+from ...source.document import Element
+
+Version = tuple[int, int]
+
+
+def text_of(element: Element, tag: str, default: str = "") -> str:
+    """Return the text of a child; the default if there is none."""
+    child = element.child(tag)
+    return default if child is None else child.text.strip()
+
+
+def numbers_of(element: Element, count: int) -> tuple[float, ...]:
+    """Return the numbers in the text of an element.
+
+    Raises:
+        ModelError: There are not ``count`` of them, or one is not a number.
+    """
+    words = element.text.split()
+    try:
+        values = tuple(map(float, words))
+    except ValueError:
+        values = ()
+    if len(values) != count or any(map(math.isnan, values)):
+        wanted = "a number" if count == 1 else f"{count} numbers"
+        raise ModelError(
+            f"<{element.tag}> is '{' '.join(words)}'; {wanted} required", at=element.place
+        )
+    return values
+
+
+def number(element: Element | None, tag: str, default: float) -> float:
+    """Return the number in a child; the default without it."""
+    child = None if element is None else element.child(tag)
+    return default if child is None else numbers_of(child, 1)[0]
+
+
+def vector(element: Element, tag: str, default: Vector) -> Vector:
+    """Return three numbers of a child; the default without it."""
+    child = element.child(tag)
+    if child is None:
+        return default
+    x, y, z = numbers_of(child, 3)
+    return x, y, z
+
+
+def flag(element: Element, tag: str, default: bool = False) -> bool:
+    """Return whether the text of a child is ``true`` or ``1``."""
+    child = element.child(tag)
+    return default if child is None else child.text.strip().lower() in ("true", "1")
+
+
+def pose_in(element: Element) -> tuple[Pose, str]:
+    """Return the ``<pose>`` of an element, and the frame that it names; empty if none."""
+    child = element.child("pose")
+    if child is None:
+        return IDENTITY, ""
+    frame = child.get("relative_to") or child.get("frame") or ""
+    if not child.text.strip():
+        return IDENTITY, frame
+    if child.get("rotation_format") == "quat_xyzw":
+        x, y, z, a, b, c, d = numbers_of(child, 7)
+        if not any((a, b, c, d)):
+            raise ModelError("<pose> has a quaternion of zeros", at=child.place)
+        return Pose(rotation_of_quaternion((d, a, b, c)), (x, y, z)), frame
+    x, y, z, roll, pitch, yaw = numbers_of(child, 6)
+    if (child.get("degrees") or "").lower() in ("true", "1"):
+        roll, pitch, yaw = map(math.radians, (roll, pitch, yaw))
+    return Pose(rotation_of_rpy((roll, pitch, yaw)), (x, y, z)), frame
+
+
+def version_of(root: Element) -> Version:
+    """Return the version of an ``<sdf>`` element.
+
+    Raises:
+        ModelError: It has none.
+    """
+    text = root.get("version") or ""
+    try:
+        major, minor = (int(word) for word in text.split(".")[:2])
+    except ValueError:
+        raise ModelError(
+            f"version '{text}' of <sdf> is not of the form 1.9", at=root.attribute_place("version")
+        ) from None
+    return major, minor
