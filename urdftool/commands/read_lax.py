@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import Console
-from .read_strict import read_configured, say_assumed, say_unknown
+from .read_strict import finder_of, read_configured, say_assumed, say_unknown
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -29,7 +29,7 @@ def read_lax(
 
     Args:
         console: Output for warnings, and source of the configuration file.
-        path: Description.
+        path: Description, in any format that can be read.
         arguments: Values of its xacro arguments by name.
         packages: Folders by package name, from the command line.
         package_paths: Folders that are searched for packages.
@@ -38,15 +38,22 @@ def read_lax(
         many: The arguments are for several robots, and need not be declared by this one.
 
     Raises:
-        UrdftoolError: The robot cannot be read, as for ``read_description`` and ``robot_of``.
+        UrdftoolError: The robot cannot be read, as for ``read_description`` and ``robot_of``, or
+            the reader of its format.
     """
     from ..errors import XmlError
+    from ..formats.detect import format_of
     from ..model.load import robot_of
     from ..source.description import is_xacro
     from ..source.document import read_file
     from ..source.well_formed import mend
 
     file = read_file(path)
+    if (found := format_of(file)).name != "urdf":
+        from .read_other import read_other
+
+        finder = finder_of(console, file, packages, package_paths, neighbors=neighbors)
+        return read_other(console, found, file, arguments, finder, shown=shown)
     given = console, path, arguments, packages, package_paths
     read = partial(read_configured, *given, neighbors=neighbors)
     try:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..source.description import Description
     from ..source.location import SourceFile
+    from ..source.packages import Packages
 
 
 def read_strict(
@@ -74,6 +75,36 @@ def read_configured(
         configured={**(neighbors or {}), **configuration.packages},
         file=file,
         gltf_up=console.gltf_up or configuration.gltf_up,
+    )
+
+
+def finder_of(
+    console: Console,
+    file: SourceFile,
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+    *,
+    neighbors: Mapping[str, Path] | None = None,
+) -> Packages:
+    """Return the finder of the files of a description, as the command line and configuration say.
+
+    Args:
+        console: The configuration that was named.
+        file: The description.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders with packages below.
+        neighbors: Folders by package name that count as configured.
+    """
+    from ..configuration import find_configuration
+    from ..source.document import STDIN
+    from ..source.packages import Packages
+
+    configuration = find_configuration(file.path, console.config)
+    return Packages(
+        None if file.path == STDIN else file.path,
+        named=packages,
+        paths=package_paths,
+        configured={**(neighbors or {}), **configuration.packages},
     )
 
 

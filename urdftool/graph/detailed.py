@@ -49,6 +49,9 @@ def detailed_figure(robot: Robot) -> Figure:
     for joint in found.joints:
         if joint.mimic is not None and joint.mimic.joint in joints:
             figure.edges.append(Edge(joints[joint.mimic.joint], joints[joint.name], "mimic"))
+    for closure in robot.closures:
+        text = f"{visible(closure.type)} to {visible(closure.parent)}, closing a loop"
+        figure.nodes[keys[closure.child]].lines.append(text)
     add_attached(figure, robot, keys, joints)
     return figure
 
@@ -75,7 +78,7 @@ def _transmissions(robot: Robot) -> dict[str, list[Transmission]]:
 
 
 def _link(link: Link) -> Node:
-    node = Node(f"link:{link.name}", "link", link.name, elements=[link.element])
+    node = Node(f"link:{link.name}", "link", link.name, elements=link.sources)
     node.facts = {
         "mass": link.inertial.mass if link.inertial is not None else None,
         "visuals": [_shape_facts(shape) for shape in link.visuals],
@@ -120,7 +123,7 @@ def _shape_facts(shape: Visual | Collision) -> dict[str, Any]:
 
 
 def _joint(joint: Joint, transmissions: list[Transmission]) -> Node:
-    node = Node(f"joint:{joint.name}", "joint", joint.name, elements=[joint.element])
+    node = Node(f"joint:{joint.name}", "joint", joint.name, elements=joint.sources)
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     limit, mimic = joint.limit, joint.mimic
     node.facts = {
@@ -146,7 +149,7 @@ def _joint(joint: Joint, transmissions: list[Transmission]) -> Node:
         offset = f" {mimic.offset:+.4g}" if mimic.offset else ""
         node.lines.append(f"mimics {number(mimic.multiplier)} × {visible(mimic.joint)}{offset}")
     for transmission in transmissions:
-        node.elements.append(transmission.element)
+        node.elements += transmission.sources
         interfaces = [name for member in transmission.joints for name in member.hardware_interfaces]
         for actuator in transmission.actuators:
             interfaces += actuator.hardware_interfaces

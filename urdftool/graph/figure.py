@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..finding import Finding, Severity
-from ..source.document import Element
 from ..source.location import Place
+
+if TYPE_CHECKING:
+    from ..model.provenance import Provenance
 
 
 @dataclass(slots=True)
@@ -22,7 +24,7 @@ class Node:
         name: Name in the description.
         lines: Lines of text in a detailed figure.
         facts: The same information as data, in meters, radians and kilograms.
-        elements: XML elements that the node represents, its own element first.
+        elements: Sources of what the node represents, its own first: XML elements of URDF.
         members: Names of the links that were folded into this one.
         faults: Short descriptions of the defects of the tree at this node.
         findings: Lint findings at this node.
@@ -33,7 +35,7 @@ class Node:
     name: str
     lines: list[str] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
-    elements: list[Element] = field(default_factory=list)
+    elements: list[Provenance] = field(default_factory=list)
     members: list[str] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)

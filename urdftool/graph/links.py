@@ -30,7 +30,7 @@ def ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, str]:
                 f"missing:{name}",
                 "missing",
                 name,
-                elements=[joint.element if element is None else element],
+                elements=joint.sources if element is None else [element],
                 faults=[mark],
             )
         )

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from operator import itemgetter
 
 from ..finding import Finding
+from ..source.document import Element
 from ..source.location import Call, Place
 from .faults import Fault
 from .figure import Figure, Node
@@ -18,7 +19,7 @@ def mark_faults(figure: Figure, faults: Iterable[Fault]) -> None:
     nodes = sorted(figure.nodes.values(), key=lambda node: node.kind != "missing")
     by_element = {id(element): node for node in nodes for element in node.elements[:1]}
     for fault in faults:
-        node = by_element.get(id(fault.part.element))
+        node = by_element.get(id(fault.part.provenance))
         if node is not None and fault.mark not in node.faults:
             node.faults.append(fault.mark)
 
@@ -54,7 +55,7 @@ class _Owners:
     def __init__(self, figure: Figure) -> None:
         self._starts: dict[tuple[str, tuple[Call, ...]], list[tuple[int, Node]]] = {}
         for node in figure.nodes.values():
-            for element in node.elements:
+            for element in (e for e in node.elements if isinstance(e, Element)):
                 for inner in element.walk():
                     key = inner.file.path, inner.calls
                     self._starts.setdefault(key, []).append((inner.start, node))

@@ -21,9 +21,7 @@ def ros_figure(robot: Robot) -> Figure:
     found = walk(robot, by_name)
     keys: dict[str, str] = {}
     for link in found.links:
-        keys[link.name] = figure.add(
-            Node(link.name, "link", link.name, elements=[link.element])
-        ).key
+        keys[link.name] = figure.add(Node(link.name, "link", link.name, elements=link.sources)).key
     joints = {joint.name for joint in found.joints}
     clash = joints & keys.keys()  # urdfdom's graph has one node for both
     for joint in found.joints:
@@ -31,7 +29,7 @@ def ros_figure(robot: Robot) -> Figure:
             clash.discard(joint.name)
             node = figure.nodes[keys[joint.name]]
         else:
-            node = figure.add(Node(joint.name, "joint", joint.name, elements=[joint.element]))
+            node = figure.add(Node(joint.name, "joint", joint.name, elements=joint.sources))
         _edges(figure, robot, joint, node, keys)
     return figure
 

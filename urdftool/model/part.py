@@ -39,6 +39,11 @@ class Part:
         raise TypeError(f"this {type(self).__name__} was not read from URDF")
 
     @property
+    def sources(self) -> list[Provenance]:
+        """Return the source in a list; an empty one for a generated part."""
+        return [] if self.provenance is None else [self.provenance]
+
+    @property
     def place(self) -> Place:
         """Return the span of the start tag in the source; ``NOWHERE`` for a generated part."""
         return NOWHERE if self.provenance is None else self.provenance.place

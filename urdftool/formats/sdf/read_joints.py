@@ -23,6 +23,8 @@ from .read_values import flag, number, vector
 UNLIMITED = 1e16
 """Limit of a joint that has none, before SDF 1.10."""
 
+_NOISE = 1e-15
+
 _TURNING = ("revolute", "continuous", "ball", "universal", "revolute2", "screw", "gearbox")
 _TYPES = (*_TURNING, "prismatic", "fixed")
 
@@ -183,7 +185,7 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
     frame = _axis_frame(context, found, element)
     written = Written(holder.place)
     along = rotate(turn.rotation, rotate(frame.rotation, direction(holder, xyz)))
-    joint.axis = Axis(written, along)
+    joint.axis = Axis(written, _without_noise(along))
     joint.limit = _limit(element, joint.type, written)
     if joint.type == "revolute" and _is_unlimited(joint.limit) and found.type != "gearbox":
         joint.type = "continuous"
@@ -203,6 +205,12 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
         if mimic.get("axis") == "axis2":
             leader += "~2"
         joint.mimic = Mimic(Written(mimic.place), leader, multiplier, offset)
+
+
+def _without_noise(axis: Vector) -> Vector:
+    """Return a unit vector without the rounding errors of rotations."""
+    x, y, z = (float(round(part)) if abs(part - round(part)) < _NOISE else part for part in axis)
+    return x, y, z
 
 
 def _axis_frame(context: Context, found: Found, element: Element | None) -> Pose:

@@ -1,0 +1,23 @@
+"""The format of a file, by its root element."""
+
+from __future__ import annotations
+
+import re
+
+from ..source.location import SourceFile
+from .registry import Format, format_named
+
+_PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
+_TAG = re.compile(rb"<([\w:.-]+)")
+
+_FORMAT_OF = {b"sdf": "sdf", b"mujoco": "mjcf", b"mujocoinclude": "mjcf"}
+
+
+def format_of(file: SourceFile) -> Format:
+    """Return the format of a file; URDF if the root element belongs to no format."""
+    data = file.data.removeprefix(b"\xef\xbb\xbf")
+    at = 0
+    while skipped := _PROLOG.match(data, at):
+        at = skipped.end()
+    tag = _TAG.match(data, at)
+    return format_named(_FORMAT_OF.get(tag[1] if tag else b"", "urdf"))
