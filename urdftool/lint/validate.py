@@ -74,6 +74,17 @@ STRUCTURE = (
 )
 """The links are one tree, by names that are unique, and the numbers can be used."""
 
+_PHYSICS = tuple(
+    map(
+        Requirement,
+        (
+            *("zero-inertia", "inertia-not-positive-definite", "inertia-triangle-inequality"),
+            *("inertia-component-slip", "inertia-off-by-power-of-ten"),
+        ),
+    )
+)
+"""Rigid bodies can have the inertia that is written."""
+
 _NOT_IN_DRAKE = _where(is_in_drake=(False,))
 
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
@@ -89,6 +100,23 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
         ),
         "join": ENDS,
         "export": STRUCTURE,
+        "simulate": (
+            Requirement("missing-collision"),
+            Requirement("non-positive-dimension", _where(collides=(True,))),
+            Requirement("zero-mass"),
+            Requirement("missing-inertial"),
+            Requirement("massless-root-body"),
+            Requirement("massless-moving-body"),
+            *_PHYSICS,
+            Requirement("placeholder-inertia"),
+            Requirement("inertia-exceeds-geometry"),
+            Requirement("radius-of-gyration"),
+            Requirement("implausible-density", _where(is_too_large=(True,))),
+            Requirement("implausible-mass", _where(is_too_large=(True,))),
+            Requirement("mass-out-of-line"),
+            Requirement("mesh-in-millimetres"),
+            Requirement("shape-in-millimetres"),
+        ),
         "export:sdf": (
             Requirement("empty-geometry"),
             Requirement("unsupported-shape"),

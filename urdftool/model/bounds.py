@@ -13,6 +13,7 @@ from .elements import (
     Cylinder,
     Ellipsoid,
     Geometry,
+    Mesh,
     Sphere,
     Vector,
     Visual,
@@ -132,3 +133,18 @@ def _bounds_of_cone(radius: float, half: float, pose: Pose) -> Bounds:
         low.append(shift + min(tip, base - around))
         high.append(shift + max(tip, base + around))
     return Bounds((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+
+
+def has_extent(geometry: Geometry) -> bool:
+    """Tell whether all dimensions of a shape are positive, and no scale factor is zero."""
+    if isinstance(geometry, Box):
+        return all(size > 0 for size in geometry.size)
+    if isinstance(geometry, Cylinder | Capsule | Cone):
+        return geometry.radius > 0 and geometry.length > 0
+    if isinstance(geometry, Sphere):
+        return geometry.radius > 0
+    if isinstance(geometry, Ellipsoid):
+        return all(radius > 0 for radius in geometry.radii)
+    if isinstance(geometry, Mesh):
+        return all(geometry.scale)
+    return False

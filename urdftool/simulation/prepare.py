@@ -31,7 +31,7 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
             it does not have.
         UrdftoolError: A mesh is not found or cannot be read.
     """
-    refuse([*defects(robot), *_unable(robot)], force=True, fatal=_FATAL)
+    refuse([*defects(robot), *_unsupported_joints(robot)], force=True, fatal=_FATAL)
     check_settings(robot, settings)
     return make_rigid_bodies(robot, settings)
 
@@ -49,7 +49,11 @@ def check_settings(robot: Robot, settings: Settings) -> None:
             raise ModelError(f"--payload: the robot has no link '{name}'{hint}")
 
 
-def _unable(robot: Robot) -> Iterator[Finding]:
+def _unsupported_joints(robot: Robot) -> Iterator[Finding]:
+    """Report joints that no engine here simulates; other readers take them, so it is not a rule.
+
+    A root link without a shape that floats is how some files say that the base is free.
+    """
     root = robot.tree.root
     for joint in robot.joints:
         if joint.type not in ("planar", "floating", *BALL_TYPES):
@@ -71,13 +75,3 @@ def _unable(robot: Robot) -> Iterator[Finding]:
             "joint",
             joint.name,
         )
-    for link in robot.links:
-        if link.mass < 0:
-            assert link.inertial is not None
-            yield defect(
-                "negative-mass",
-                f"link '{link.name}' weighs {link.mass:g} kg; a mass is above zero",
-                link.inertial.place,
-                "link",
-                link.name,
-            )

@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import ModelError, UrdftoolError
-from ..formats.sdf.shapes import has_extent
 from ..geometry.hull import convex_hull, hull_surface
 from ..geometry.mesh import Faces
 from ..geometry.mesh import Mesh as Triangles
 from ..geometry.tessellate import tessellate
+from ..model.bounds import has_extent
 from ..model.elements import (
     Box,
     Capsule,

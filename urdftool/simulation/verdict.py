@@ -14,8 +14,7 @@ from .checks.joints import check_joints
 from .checks.settling import check_final_state
 from .checks.support import check_support
 from .fault import Fault
-from .lint_words import in_lint_words
-from .model_checks.bodies import check_bodies
+from .model_checks.description import check_description
 from .run import Run
 
 
@@ -70,7 +69,7 @@ def _caused(run: Run, fault: Fault) -> Fault:
 
 
 def _faults(robot: Robot, run: Run, rest: FinalState) -> Iterator[Fault]:
-    yield from in_lint_words(robot, check_bodies(robot, run))
+    yield from check_description(robot, run)
     yield from check_final_state(robot, run, rest)
     yield from check_support(robot, run, rest)
     yield from check_contacts(robot, run, rest)

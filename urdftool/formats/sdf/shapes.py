@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ...model.bounds import has_extent
 from ...model.elements import (
     Box,
     Capsule,
@@ -91,19 +92,6 @@ def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
             link,
             hint=f"convert it, for instance to {known[0]}",
         )
-
-
-def has_extent(geometry: Geometry) -> bool:
-    """Tell whether all dimensions of a shape are positive, and no scale factor is zero."""
-    if isinstance(geometry, Box):
-        return all(size > 0 for size in geometry.size)
-    if isinstance(geometry, Cylinder | Capsule):
-        return geometry.radius > 0 and geometry.length > 0
-    if isinstance(geometry, Sphere):
-        return geometry.radius > 0
-    if isinstance(geometry, Mesh):
-        return all(geometry.scale)
-    return False
 
 
 def geometry(node: Node, t: Translation, shape: Geometry) -> None:

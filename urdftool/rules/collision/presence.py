@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from statistics import median
 
 from ...model.attached import attached_links
-from ...model.bounds import Bounds, size_of
+from ...model.bounds import Bounds, has_extent, size_of
 from ...model.elements import Box, Cylinder, Link, Mesh, Robot, Sphere
 from ...model.pose import pose_of
 from ..fix import FixContext, Proposal, unsafe
@@ -79,6 +79,18 @@ def missing_collision(
             severity=INFO if is_minor else None,
             group="{count} links have a visual and no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
+        )
+
+
+@missing_collision.full
+def robot_without_collision(robot: Robot) -> Iterator[Problem]:
+    """Report a robot of which nothing can touch: no link has a collision with an extent."""
+    shapes = [shape.geometry for link in robot.links for shape in link.collisions]
+    if not any(shape is not None and has_extent(shape) for shape in shapes):
+        yield Problem(
+            robot.element,
+            "no link has a <collision>: nothing of the robot can touch the ground; give each link "
+            "a <collision>",
         )
 
 

@@ -68,7 +68,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
                 "every length must be above 0",
                 at=element.attribute_place(name),
-                data={"attribute": name, "value": text},
+                data={"attribute": name, "value": text, "collides": kind == "collision"},
                 severity=ERROR if rejected else WARNING,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )

@@ -197,6 +197,18 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         )
 
 
+@zero_mass.full
+def every_zero_mass(robot: Robot) -> Iterator[Problem]:
+    """Report each link with a mass of 0, also where it is a part of a body with a mass."""
+    for link, value, element in _masses(robot):
+        if value == 0.0 and link.name != "world":
+            yield Problem(
+                link,
+                f"mass of link '{link.name}' is 0; write its mass",
+                at=element.attribute_place("value"),
+            )
+
+
 def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     for parent, link in massless_pairs(robot):
         if link.inertial is None:
@@ -272,7 +284,7 @@ def implausible_mass(
             link,
             f"mass of link '{link.name}' is {what}",
             at=element.attribute_place("value"),
-            data={"mass": mass},
+            data={"mass": mass, "is_too_large": mass > heaviest},
         )
 
 
@@ -310,27 +322,8 @@ def implausible_density(
     them counts: one that is all of steel has ``most_of_box``, and one lighter than air is hollow
     beyond belief. More than ``together`` remarks are one, which names some of the links.
     """
-    reach = reaches(robot)
-    found: list[_Density] = []
-    for link, mass, element in _masses(robot):
-        density, in_box = _density(reach.link(link), link, mass)
-        if any(shapes_in_millimeters(link)) or _is_incomplete(link):
-            continue
-        if density is None or least <= density <= (most_of_box if in_box else most):
-            continue
-        if in_box and least_possible <= density < least:
-            continue
-        if _is_right_for_body(reach, link, density, least, most_of_box):
-            continue
-        if density > most and _is_mark(reach, link, mass, small):
-            continue
-        impossible = density > most_possible or density < least_possible
-        box = reach.link(link)
-        if box is None or max(box.size) < small:
-            impossible = False
-        if density < least and mass <= dummy and _is_fixed(robot, link):
-            impossible = False
-        found.append(_Density(link, element, density, in_box, impossible))
+    bounds = _DensityBounds(least, most, least_possible, most_possible, small, dummy, most_of_box)
+    found = list(_find_densities(robot, bounds))
     yield from (_of_density(one) for one in found if one.impossible)
     remarks = [one for one in found if not one.impossible]
     also = ""
@@ -339,6 +332,24 @@ def implausible_density(
         also = f"; densities are as odd of {some_of(names, 'links')}"
         del remarks[1:]
     yield from (_of_density(one, also) for one in remarks)
+
+
+@implausible_density.full
+def every_implausible_density(robot: Robot) -> Iterator[Problem]:
+    """Report each link whose mass does not go with its size, however many there are."""
+    return map(_of_density, _find_densities(robot, _DensityBounds()))
+
+
+class _DensityBounds(NamedTuple):
+    """The thresholds of :func:`implausible_density`, but ``together``."""
+
+    least: float = implausible_density.thresholds["least"]
+    most: float = implausible_density.thresholds["most"]
+    least_possible: float = implausible_density.thresholds["least_possible"]
+    most_possible: float = implausible_density.thresholds["most_possible"]
+    small: float = implausible_density.thresholds["small"]
+    dummy: float = implausible_density.thresholds["dummy"]
+    most_of_box: float = implausible_density.thresholds["most_of_box"]
 
 
 class _Density(NamedTuple):
@@ -353,6 +364,32 @@ class _Density(NamedTuple):
     """Whether it is that in the box around the shapes."""
     impossible: bool
     """Whether no material has it."""
+    too_heavy: bool
+    """Whether the mass is too large, and not too small."""
+
+
+def _find_densities(robot: Robot, bounds: _DensityBounds) -> Iterator[_Density]:
+    reach = reaches(robot)
+    for link, mass, element in _masses(robot):
+        density, in_box = _density(reach.link(link), link, mass)
+        if any(shapes_in_millimeters(link)) or _is_incomplete(link):
+            continue
+        most = bounds.most_of_box if in_box else bounds.most
+        if density is None or bounds.least <= density <= most:
+            continue
+        if in_box and bounds.least_possible <= density < bounds.least:
+            continue
+        if _is_right_for_body(reach, link, density, bounds.least, bounds.most_of_box):
+            continue
+        if density > bounds.most and _is_mark(reach, link, mass, bounds.small):
+            continue
+        impossible = density > bounds.most_possible or density < bounds.least_possible
+        box = reach.link(link)
+        if box is None or max(box.size) < bounds.small:
+            impossible = False
+        if density < bounds.least and mass <= bounds.dummy and _is_fixed(robot, link):
+            impossible = False
+        yield _Density(link, element, density, in_box, impossible, density > most)
 
 
 def _of_density(found: _Density, also: str = "") -> Problem:
@@ -363,7 +400,7 @@ def _of_density(found: _Density, also: str = "") -> Problem:
         f"{where}; water has 1000{also}",
         at=found.element.attribute_place("value"),
         severity=WARNING if found.impossible else INFO,
-        data={"mass": link.mass, "density": found.density},
+        data={"mass": link.mass, "density": found.density, "is_too_large": found.too_heavy},
     )
 
 

@@ -107,6 +107,15 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         )
 
 
+@missing_inertial.full
+def every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
+    """Report each link with a shape and no inertial, whatever it is fixed to."""
+    for link in robot.links:
+        if link.inertial is None and not link.is_frame and link.name != "world":
+            text = f"link '{link.name}' has no <inertial> and so has no mass"
+            yield Problem(link, text, hint=_HINT)
+
+
 def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
     """Select what readers do with a link without mass; MuJoCo welds the root to the world.
 
@@ -181,13 +190,24 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
         heavy += mass_of(links) > 0
     if targets.isdisjoint(_SIMULATED) and (len(bare) > 1 or heavy < 3):
         return
-    for joint, name, link in bare:
-        yield Problem(
-            link,
-            f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
-            "give it a small <inertial>, or make the joint fixed",
-            data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
-        )
+    yield from (_of_moved_body(robot, joint, name, link) for joint, name, link in bare)
+
+
+@massless_moving_body.full
+def every_massless_moving_body(robot: Robot) -> Iterator[Problem]:
+    """Report each body that a joint moves and that has no mass, also one with shapes."""
+    for joint, name, links in moved_bodies(robot):
+        if mass_of(links) <= 0:
+            yield _of_moved_body(robot, joint, name, links[0])
+
+
+def _of_moved_body(robot: Robot, joint: Joint, name: str, link: Link) -> Problem:
+    return Problem(
+        link,
+        f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
+        "give it a small <inertial>, or make the joint fixed",
+        data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
+    )
 
 
 @massless_moving_body.fix(UNSAFE)
@@ -248,11 +268,24 @@ def massless_root_body(robot: Robot) -> Iterator[Problem]:
             continue
         if not _is_bare(links) or not _moves_something(robot, links):
             continue
-        yield Problem(
-            links[0],
-            f"root link '{name}' has no mass, nor has anything fixed to it; "
-            "give it an <inertial>, or call it world if the robot is bolted down",
-        )
+        yield _of_root(links[0])
+
+
+@massless_root_body.full
+def every_massless_root_body(robot: Robot) -> Iterator[Problem]:
+    """Report a root without mass, also one that has shapes or moves nothing."""
+    for root in robot.tree.roots:
+        links = [link for link, _ in attached_links(robot, root)]
+        if root.name != "world" and mass_of(links) <= 0:
+            yield _of_root(root)
+
+
+def _of_root(root: Link) -> Problem:
+    return Problem(
+        root,
+        f"root link '{root.name}' has no mass, nor has anything fixed to it; "
+        "give it an <inertial>, or call it world if the robot is bolted down",
+    )
 
 
 def _moves_something(robot: Robot, links: list[Link]) -> bool:

@@ -239,6 +239,21 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
         )
 
 
+@zero_inertia.full
+def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
+    """Report each link with a mass and no inertia, also where it is a part of a body with one."""
+    for link, inertial, six in tensors(robot):
+        if is_zero(six, link.mass):
+            nothing = "as good as zero" if any(six) else "zero"
+            yield Problem(
+                link,
+                f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
+                f"{solid_text(link)}",
+                at=inertial.inertia,
+                hint=recomputing_hint(robot, link),
+            )
+
+
 _SINGULAR = {
     "gz, gazebo-classic, pinocchio, drake": "accept it",
     "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",

@@ -111,14 +111,38 @@ def mesh_in_millimetres(
             if not robot.moving_joints and not use.uri.lower().endswith(".stl"):
                 continue
             told.add(use.uri)
-            length = _largest(use, whole=True) or length  # a sample is at least so large
-            right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
-            yield Problem(
-                use.link,
-                f"mesh '{use.uri}' is {length:.3g} m large, as if in millimetres{right}",
-                at=use.mesh.element.attribute_place("filename"),
-                data={"uri": use.uri, "length": length, "limit": largest},
-            )
+            yield _of_large_mesh(use, length, largest)
+
+
+@mesh_in_millimetres.full
+def every_mesh_in_millimetres(robot: Robot) -> Iterator[Problem]:
+    """Report each link with a mesh that is too large; none of a robot without a description."""
+    description = robot.source
+    largest = mesh_in_millimetres.thresholds["largest"]
+    told: set[tuple[str, str]] = set()
+    for use in mesh_uses(robot, description) if description is not None else ():
+        length = _largest(use) if (use.link.name, use.uri) not in told else None
+        if length is None or length <= largest:
+            continue
+        if robot.moving_joints or use.uri.lower().endswith(".stl"):
+            told.add((use.link.name, use.uri))
+            yield _of_large_mesh(use, length, largest)
+
+
+def _of_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
+    length = _largest(use, whole=True) or length  # a sample is at least so large
+    right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
+    return Problem(
+        use.link,
+        f"mesh '{use.uri}' is {length:.3g} m large, as if in millimetres{right}",
+        at=use.mesh.element.attribute_place("filename"),
+        data={
+            "uri": use.uri,
+            "length": length,
+            "limit": largest,
+            "scale": list(use.mesh.scale),
+        },
+    )
 
 
 @mesh_in_millimetres.fix(UNSAFE)

@@ -212,8 +212,6 @@ class Thresholds:
 
     tensor_excess: float = TENSOR_ROUNDING
     """How far a tensor may exceed the triangle inequality [1]. Source: physics; rounded files."""
-    density: float = 12_000.0
-    """The highest density of a link [kg/m³]. Source: physics; lead has 11,340."""
     gyration_reach: float = 1.2
     """Radius of gyration over the reach of the shapes, at most [1]. Source: physics; at most 1, and
     shapes leave out small parts."""
@@ -241,12 +239,6 @@ class Thresholds:
     """The same over the robot's, if the link collides [1]. Source: chosen."""
     hollow_density: float = 20.0
     """The least density of hulls that a separate inertial stands for [kg/m³]. Source: chosen."""
-    thinnest_density: float = 1.0
-    """The least density of a collision in meters [kg/m³]. Source: physics; air has 1.2."""
-    largest_part: float = 30.0
-    """A part in millimeters is larger than this [m]. Source: chosen."""
-    largest_part_ratio: float = 30.0
-    """The same, over the other parts' median, or the robot's size [1]. Source: chosen."""
 
     # --- two engines ------------------------------------------------------------------------------
 

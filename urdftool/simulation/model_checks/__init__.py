@@ -1,4 +1,5 @@
-"""Checks of the description that decide whether a run can be trusted: mass, inertia and size.
+"""Defects of the description that decide whether a run can be trusted.
 
-Lint has rules for the same facts; ``lint_words`` reports them in the words of those rules.
+Rules find them (``lint.validate``, purpose ``simulate``). ``description`` decides which matter in
+the bodies that the engine loaded, and gives them the kinds of verdicts.
 """
