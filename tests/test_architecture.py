@@ -28,7 +28,10 @@ BELOW = {
     "geometry": ("model", *BASE),
     "mechanics": ("model",),
     "drawing": ("geometry", "model", *BASE),
-    "inertia": ("mechanics", "geometry", "model", "source", *BASE),
+    "inertia": (
+        *("lint", "rules", "finding", "mechanics", "geometry", "model", "source"),
+        *BASE,
+    ),
     "collision": ("drawing", "geometry", "inertia", "model", "source", *BASE),
     "viewer": ("drawing", "mechanics", "finding", "model", "source", *BASE),
     "rules": ("finding", "mechanics", "model", "source", "geometry", *BASE),

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 from ..errors import UrdftoolError
+from ..finding import Finding
 from ..geometry.convex_points import read_convex_points
 from ..mechanics.mass_bounds import Misfit, misfit_of_com, misfit_of_spread, shapes_in_words
-from ..mechanics.spatial_inertia import SpatialInertia, combine_links, link_inertia
-from ..mechanics.tensor import COMPONENTS, consistency, noise_of, principal_moments, rotate_tensor
-from ..mechanics.typo_detection import ROUNDING, Proposal, infer_intended_tensor
-from ..model.attached import attached_links, is_fixed_to_world
+from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
+from ..mechanics.tensor import COMPONENTS, rotate_tensor
+from ..mechanics.typo_detection import Proposal, infer_intended_tensor
+from ..model.attached import attached_links
 from ..model.bounds import Bounds, bounds_at
-from ..model.elements import Inertia, Inertial, Link, Mesh, Robot
+from ..model.elements import Inertial, Mesh, Robot
 from ..model.pose import IDENTITY, UPRIGHT, Pose, pose_of, rotate, transpose
 from ..model.read import number
-from ..model.world import WORLD
-from ..source.location import Place
+from ..rules.inertia.size import is_placeholder
+from ..rules.inertia.tensors import is_positive
 from .bodies import MeshBody
 from .comparison import compare
 from .link_review import Fault, LinkReview, inertial_rotation
@@ -85,24 +86,43 @@ class Context(NamedTuple):
     meshes: Meshes
 
 
-def judge(item: LinkReview, context: Context) -> None:
-    """Compare written inertia with the geometry, and add faults and a proposed repair.
+FAULTS: Mapping[str, str] = MappingProxyType(
+    {
+        "negative-mass": "mass",
+        "zero-mass": "mass",
+        "zero-inertia": "positivity",
+        "singular-inertia": "positivity",
+        "inertia-not-positive-definite": "positivity",
+        "inertia-triangle-inequality": "triangle",
+        "inertia-component-slip": "triangle",
+        "inertia-off-by-power-of-ten": "triangle",
+        "placeholder-inertia": "placeholder",
+    }
+)
+"""Kind of fault for each rule that finds one; other findings are notes."""
 
-    The verdict agrees with ``urdftool lint``: what lint reports as information is a note here.
+
+def judge(item: LinkReview, findings: Sequence[Finding], context: Context) -> None:
+    """Add what rules find, compare written inertia with the geometry, and propose a repair.
+
+    Args:
+        item: Review of a link.
+        findings: About the link, of the purpose ``inertia``.
+        context: Data of the robot.
     """
     inertial, written = item.link.inertial, item.written
     if inertial is None or inertial.mass is None:
         return
-    _judge_mass(item, inertial, context.robot)
+    for finding in findings:
+        _add_finding(item, finding)
     if written is None or written.mass <= 0 or inertial.inertia is None:
         return
     complete = item.body is not None and item.body.complete
     if complete and item.body is not None:
         item.comparison = compare(written, item.body.unit)
-    _judge_tensor(item, written, inertial.inertia.place, context.robot)
-    if not item.faults:
-        made_up = _judge_placeholder(item, inertial.inertia, written.mass)
-        _judge_box(item, inertial, context, only_com=made_up)
+    if all(fault.kind == "placeholder" for fault in item.faults):
+        is_made_up = is_placeholder(item.link, inertial.inertia.six)
+        _judge_box(item, inertial, context, only_com=is_made_up)
     if complete:
         item.proposal = _proposal(item, inertial, written)
     if item.faults and item.proposal is not None and item.proposal.kind == "copied":
@@ -111,68 +131,16 @@ def judge(item: LinkReview, context: Context) -> None:
         item.faults = [Fault("copied", message, inertial.inertia.place)]
 
 
-def _judge_mass(item: LinkReview, inertial: Inertial, robot: Robot) -> None:
-    """Judge the mass; 0 is valid for a part of a body with mass, and for a static root."""
-    mass = inertial.element.child("mass")
-    at = mass.attribute_place("value") if mass is not None else inertial.place
-    assert inertial.mass is not None
-    if inertial.mass < 0:
-        message = f"the mass is {inertial.mass:g} kg; it must be above zero"
-        item.faults.append(Fault("mass", message, at))
-    if inertial.mass != 0 or item.link.name == WORLD:
+def _add_finding(item: LinkReview, finding: Finding) -> None:
+    """Add a finding as a fault, or as a note where it is harmless or no more than a remark."""
+    kind = FAULTS.get(finding.rule)
+    harmless = finding.data.get("is_harmless", False) or not finding.data.get("is_large", True)
+    if kind is None or harmless:
+        item.notes.append(finding.message)
         return
-    members = [link for link, _ in attached_links(robot, item.link)]
-    if sum(link.mass for link in members) > 0:
-        if inertial.inertia is not None and any(inertial.inertia.six):
-            message = "the mass is 0 kg, and the inertia is not"
-            item.faults.append(Fault("mass", message, at))
-        else:
-            item.notes.append("a mass of 0: the link adds none to what it is fixed to")
-        return
-    joints = [robot.tree.parent_joint(link.name) for link in members]
-    if any(joint is not None and not joint.is_fixed for joint in joints):
-        item.faults.append(Fault("mass", "the mass is 0 kg; a body that moves has a mass", at))
-    else:
-        item.notes.append("a mass of 0: PyBullet takes the robot as static, and Gazebo removes it")
-
-
-def _judge_tensor(item: LinkReview, written: SpatialInertia, at: Place, robot: Robot) -> None:
-    found = consistency(written.tensor)
-    moments, excess = found.moments, found.excess
-    shown = ", ".join(f"{moment:.4g}" for moment in moments)
-    nothing = max(map(abs, written.tensor)) <= noise_of(written.mass)
-    thin = nothing or moments[0] <= 0 < (item.volume or 0.0)
-    negative = not nothing and found.negativity > 1e-6
-    impossible = not nothing and excess > ROUNDING
-    if thin and not negative and not impossible and _is_added(robot, item.link):
-        item.notes.append(
-            f"principal moments {shown} kg m²: no body of its own, and harmless, since it is a "
-            "part of one that has an inertia or does not move"
-        )
-        return
-    if negative or (thin and not impossible):
-        message = f"principal moments {shown} kg·m² are not all positive"
-        item.faults.append(Fault("positivity", message, at))
-        return
-    if excess > ROUNDING:
-        message = (
-            f"principal moment {moments[2]:.4g} is larger than {moments[0]:.4g} + "
-            f"{moments[1]:.4g} kg·m², which is physically inconsistent"
-        )
-        item.faults.append(Fault("triangle", message, at))
-    elif excess > 1e-12:
-        item.notes.append(
-            f"principal moments {shown} break the triangle inequality by rounding "
-            f"({excess:.1g}), which MuJoCo rejects"
-        )
-
-
-def _is_added(robot: Robot, link: Link) -> bool:
-    """Tell whether a link is attached to a body with inertia, or fixed to the world."""
-    members = attached_links(robot, link)
-    if is_fixed_to_world(robot, link):
-        return True
-    return len(members) > 1 and not combine_links(members).is_thin
+    if kind == "triangle" and item.written is not None and not is_positive(item.written.tensor):
+        kind = "positivity"
+    item.faults.append(Fault(kind, finding.message, finding.place))
 
 
 def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_com: bool) -> None:
@@ -280,29 +248,6 @@ def _box_of_mesh(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
 
 LARGEST, SMALLEST = 10.0, 0.001
 """Range of the extent of a mesh [m]; outside it, its unit is probably wrong."""
-
-
-def _judge_placeholder(item: LinkReview, inertia: Inertia, mass: float) -> bool:
-    """Tell whether a tensor is the same power of ten about every axis: a placeholder.
-
-    A large one is added as a fault, a small one as a note, as in lint.
-    """
-    xx, xy, xz, yy, yz, zz = inertia.six
-    if not (xx == yy == zz > 0 and xy == xz == yz == 0):
-        return False
-    power = math.log10(xx)
-    if abs(power - round(power)) > 1e-9:
-        return False
-    shapes = item.link.collisions or item.link.visuals
-    if item.implied is not None and len(shapes) == 1 and not isinstance(shapes[0].geometry, Mesh):
-        if all(0.5 * xx <= moment <= 2 * xx for moment in principal_moments(item.implied.tensor)):
-            return False
-    message = f"the inertia is a placeholder, {xx:g} about every axis"
-    if xx == 1.0 or xx > mass:
-        item.faults.append(Fault("placeholder", message, inertia.place))
-    else:
-        item.notes.append(message)
-    return True
 
 
 def _proposal(item: LinkReview, inertial: Inertial, written: SpatialInertia) -> Proposal | None:

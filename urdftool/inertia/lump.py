@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ..lint.validate import validate
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..model.elements import Robot
 from ..model.kinematics import check_positions, limits_of, link_poses, with_mimics
@@ -63,9 +64,8 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
         InertiaError: The robot does not have exactly one root link, or the pose contains an unknown
             or immovable joint.
     """
-    if len(robot.tree.roots) != 1:
-        names = ", ".join(link.name for link in robot.tree.roots) or "none"
-        raise InertiaError(f"the robot must have one root link; it has {names}")
+    for finding in validate(robot, "inertia:lump"):
+        raise InertiaError(finding.message, at=finding.place)
     root = robot.tree.roots[0].name
     check_positions(robot, pose)
     positions = with_mimics(robot, pose)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..finding import Finding
+from ..lint.validate import validate
 from ..model.elements import Link, Robot
 from .bodies import weighed
 from .judgement import Context, judge, read_written
@@ -47,11 +49,14 @@ def review(
         {item.link.name: item.volume for item in found},
         [item.link.name for item in found if item.body is not None and not item.body.complete],
     )
+    by_link: dict[str, list[Finding]] = {}
+    for finding in validate(robot, "inertia"):
+        by_link.setdefault(finding.name, []).append(finding)
     for item in found:
         item.mass = plan[item.link.name]
         if item.mass and item.body is not None and item.body.complete:
             item.implied = weighed(item.body.unit, "link", mass=item.mass)
-        judge(item, Context(robot, meshes))
+        judge(item, by_link.get(item.link.name, ()), Context(robot, meshes))
     return [item for item in found if not only or item.link.name in only]
 
 

@@ -90,11 +90,11 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
     said: dict[tuple[str, str], list[str]] = {}
     for item in reviews:
         for fault in item.faults:
-            said.setdefault((str(fault.place), fault.message), []).append(clean(item.link.name))
+            said.setdefault((str(fault.place), fault.kind), []).append(clean(item.link.name))
     for item in reviews:
         name = clean(item.link.name)
         for fault in item.faults:
-            names = said.pop((str(fault.place), fault.message), [])
+            names = said.pop((str(fault.place), fault.kind), [])
             if names:
                 who = f"link '{names[0]}'" + f" and {len(names) - 1} more" * (len(names) > 1)
                 yield f"{fault.place}: {who}: {paint('cannot be', 'red')}: {fault.message}"

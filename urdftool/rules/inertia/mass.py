@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ...model.attached import attached_links
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.millimeters import shapes_in_millimeters
@@ -61,16 +62,20 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
 
 
 @incomplete_inertial.full
-def every_inertial_without_element(robot: Robot) -> Iterator[Problem]:
-    """Report each inertial without ``<mass>`` or ``<inertia>``, also where one is misspelt."""
+def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
+    """Report each inertial that lacks an element or a number, also where one is misspelt."""
     for link in robot.links:
         if link.inertial is None:
             continue
-        present = {child.tag for child in link.inertial.element.children}
-        missing = [f"<{tag}>" for tag in ("mass", "inertia") if tag not in present]
+        found = {child.tag: child for child in link.inertial.element.children}
+        missing = [f"<{tag}>" for tag in ("mass", "inertia") if tag not in found]
+        lacks_element = bool(missing)
+        if "inertia" in found:
+            missing += [name for name in SIX if name not in found["inertia"].attributes]
         if missing:
             text = f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it"
-            yield Problem(link, text, at=link.inertial, data={"missing": missing})
+            data = {"missing": missing, "lacks_element": lacks_element}
+            yield Problem(link, text, at=link.inertial, data=data)
 
 
 def _effects_of(inertial: Inertial) -> set[str]:
@@ -199,14 +204,31 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 
 @zero_mass.full
 def every_zero_mass(robot: Robot) -> Iterator[Problem]:
-    """Report each link with a mass of 0, also where it is a part of a body with a mass."""
+    """Report each link with a mass of 0, also where it is a part of a body with a mass.
+
+    A part without an inertia is harmless, and so is a body that no joint moves.
+    """
     for link, value, element in _masses(robot):
-        if value == 0.0 and link.name != "world":
-            yield Problem(
-                link,
-                f"mass of link '{link.name}' is 0; write its mass",
-                at=element.attribute_place("value"),
-            )
+        if value != 0.0 or link.name == "world" or link.inertial is None:
+            continue
+        members = [one for one, _ in attached_links(robot, link)]
+        tensor, what = link.inertial.inertia, "; write its mass"
+        if mass_of(members) > 0:
+            is_harmless = tensor is None or not any(tensor.six)
+            what = "; it adds none to the links that it is fixed to"
+            if not is_harmless:
+                what = " and its inertia is not; write its mass, or an inertia of zeros"
+        else:
+            joints = [robot.tree.parent_joint(one.name) for one in members]
+            is_harmless = all(joint is None or joint.is_fixed for joint in joints)
+            if is_harmless:
+                what = "; PyBullet fixes it to the world, and Gazebo removes it"
+        yield Problem(
+            link,
+            f"mass of link '{link.name}' is 0{what}",
+            at=element.attribute_place("value"),
+            data={"is_harmless": is_harmless},
+        )
 
 
 def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
@@ -284,7 +306,7 @@ def implausible_mass(
             link,
             f"mass of link '{link.name}' is {what}",
             at=element.attribute_place("value"),
-            data={"mass": mass, "is_too_large": mass > heaviest},
+            data={"mass": mass},
         )
 
 
@@ -336,8 +358,8 @@ def implausible_density(
 
 @implausible_density.full
 def every_implausible_density(robot: Robot) -> Iterator[Problem]:
-    """Report each link whose mass does not go with its size, however many there are."""
-    return map(_of_density, _find_densities(robot, _DensityBounds()))
+    """Report each link whose mass does not go with its own size, whatever it is fixed to."""
+    return map(_of_density, _find_densities(robot, _DensityBounds(), of_body=False))
 
 
 class _DensityBounds(NamedTuple):
@@ -368,7 +390,16 @@ class _Density(NamedTuple):
     """Whether the mass is too large, and not too small."""
 
 
-def _find_densities(robot: Robot, bounds: _DensityBounds) -> Iterator[_Density]:
+def _find_densities(
+    robot: Robot, bounds: _DensityBounds, *, of_body: bool = True
+) -> Iterator[_Density]:
+    """Find links whose mass does not go with their size.
+
+    Args:
+        robot: The robot.
+        bounds: The thresholds.
+        of_body: Whether a mass that is right for the rigid body of its link is ignored.
+    """
     reach = reaches(robot)
     for link, mass, element in _masses(robot):
         density, in_box = _density(reach.link(link), link, mass)
@@ -379,7 +410,7 @@ def _find_densities(robot: Robot, bounds: _DensityBounds) -> Iterator[_Density]:
             continue
         if in_box and bounds.least_possible <= density < bounds.least:
             continue
-        if _is_right_for_body(reach, link, density, bounds.least, bounds.most_of_box):
+        if of_body and _is_right_for_body(reach, link, density, bounds.least, bounds.most_of_box):
             continue
         if density > bounds.most and _is_mark(reach, link, mass, bounds.small):
             continue

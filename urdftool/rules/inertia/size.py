@@ -77,7 +77,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
             hint="" if dummy else recomputing_hint(robot, link),
             group="inertia of {count} links is a placeholder, the same power of ten about every "
             "axis: {names}",
-            data={"moment": moment},
+            data={"moment": moment, "is_large": large},
         )
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ...mechanics.tensor import SymmetricTensor, principal_moments
-from ...model.attached import is_fixed_to_world
+from ...model.attached import attached_links, is_fixed_to_world
 from ...model.elements import Inertial, Link, Robot, Vector
 from ...model.kinematics import MOVABLE, limits_of, link_poses
 from ...model.pose import Pose
@@ -241,16 +241,27 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
 
 @zero_inertia.full
 def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
-    """Report each link with a mass and no inertia, also where it is a part of a body with one."""
+    """Report each link with a mass and no inertia, also where that is harmless.
+
+    It is where the link is fixed to the world, or to others with which it has an inertia.
+    """
     for link, inertial, six in tensors(robot):
         if is_zero(six, link.mass):
             nothing = "as good as zero" if any(six) else "zero"
+            members = [one for one, _ in attached_links(robot, link)]
+            is_part = len(members) > 1 and not body_inertia(robot, members).is_thin
+            is_held = is_fixed_to_world(robot, link)
+            why = f", though it weighs {link.mass:g} kg{solid_text(link)}"
+            if is_part:
+                why = "; the links that it is fixed to have one"
+            elif is_held:
+                why = "; it is fixed to the world and never turns"
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
-                f"{solid_text(link)}",
+                f"inertia of link '{link.name}' is {nothing}{why}",
                 at=inertial.inertia,
-                hint=recomputing_hint(robot, link),
+                hint="" if is_part or is_held else recomputing_hint(robot, link),
+                data={"is_harmless": is_part or is_held},
             )
 
 
@@ -277,29 +288,53 @@ def singular_inertia(
     does one that is fixed to the world, and neither is reported, except for MuJoCo: it rejects the
     file for any link with a moment below 1e-14 kg·m².
     """
-    whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
-        moments = low, middle, high = principal_moments(six)
-        if is_zero(six, link.mass) or high <= 0 or low > smallest * high or not is_positive(six):
+        if not _is_singular(six, link.mass, smallest):
             continue
-        if low + middle < high * 0.99:
-            continue
-        if whole is None:
-            whole = {one.name: links for links in bodies(robot).values() for one in links}
-        harmless = _is_fixed_to_more(robot, whole.get(link.name, [link]), smallest)
-        harmless = harmless or is_fixed_to_world(robot, link)
         rejected = is_rejected_by_mujoco(six)
-        if harmless and not (rejected and "mujoco" in targets):
+        if _is_harmless(robot, link, smallest) and not (rejected and "mujoco" in targets):
             continue
         yield Problem(
             link,
-            f"inertia of link '{link.name}' is zero about one axis ({_shown(moments)})"
-            f"{solid_text(link)}",
+            _of_singular(link, six),
             at=inertial.inertia,
             severity=None if rejected else WARNING,
             effects=[key for key in _SINGULAR if key != "mujoco" or rejected],
-            data={"moments": list(moments)},
+            data={"moments": list(principal_moments(six))},
         )
+
+
+@singular_inertia.full
+def every_singular_inertia(robot: Robot) -> Iterator[Problem]:
+    """Report each link whose inertia is zero about one axis, also where that is harmless."""
+    smallest = singular_inertia.thresholds["smallest"]
+    for link, inertial, six in tensors(robot):
+        if _is_singular(six, link.mass, smallest):
+            yield Problem(
+                link,
+                _of_singular(link, six),
+                at=inertial.inertia,
+                data={"is_harmless": _is_harmless(robot, link, smallest)},
+            )
+
+
+def _is_singular(six: SymmetricTensor, mass: float, smallest: float) -> bool:
+    """Tell whether a possible tensor has next to nothing about one axis."""
+    low, middle, high = principal_moments(six)
+    if is_zero(six, mass) or high <= 0 or low > smallest * high or not is_positive(six):
+        return False
+    return low + middle >= high * 0.99
+
+
+def _is_harmless(robot: Robot, link: Link, smallest: float) -> bool:
+    """Tell whether a link never turns by itself: it is held, or a part of a body with inertia."""
+    body = next((links for links in bodies(robot).values() if link in links), [link])
+    return _is_fixed_to_more(robot, body, smallest) or is_fixed_to_world(robot, link)
+
+
+def _of_singular(link: Link, six: SymmetricTensor) -> str:
+    shown = _shown(principal_moments(six))
+    return f"inertia of link '{link.name}' is zero about one axis ({shown}){solid_text(link)}"
 
 
 def _is_fixed_to_more(robot: Robot, links: list[Link], smallest: float) -> bool:

@@ -35,13 +35,13 @@ KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         ),
         "impossible-inertia": (
             *("zero-inertia", "inertia-not-positive-definite", "inertia-triangle-inequality"),
-            *("inertia-component-slip", "inertia-off-by-power-of-ten"),
+            *("inertia-component-slip", "inertia-off-by-power-of-ten", "incomplete-inertial"),
         ),
         "inertia-too-large": (
             *("placeholder-inertia", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
             "radius-of-gyration",
         ),
-        "too-dense": ("implausible-density", "implausible-mass"),
+        "too-dense": ("implausible-density",),
         "mass-out-of-line": ("mass-out-of-line",),
         "too-large": ("mesh-in-millimetres", "shape-in-millimetres"),
     }
