@@ -415,7 +415,7 @@ MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
     ("name", "text", "right"),
     [
         ("macros.xacro", MACROS, "name a file that calls its macros"),
-        ("empty.urdf", "<robot name='r'/>", "write at least one"),
+        ("empty.urdf", "<robot name='r'/>", 'write <link name="…"/>'),
     ],
 )
 @pytest.mark.parametrize("command", ["inertia robot", "collision"])
@@ -424,7 +424,8 @@ def test_a_robot_without_links_is_refused(urdftool, write, tmp_path, command, na
     options = ("--write", "--density", "1000") if command == "inertia robot" else ()
     done = urdftool(*command.split(), path, *options, "-o", out)
     assert (done.code, done.out) == (2, "")
-    assert done.err == f"{path}:1:1: the robot has no link; {right}\n"
+    assert done.err.startswith(f"{path}:1:1: ")
+    assert done.err.endswith(f" has no link; {right}\n")
     assert not out.exists()
 
 

@@ -17,7 +17,8 @@ from ..collision.robot import SUFFIXES, Place, check_place, tasks_of, write_robo
 from ..configuration import find_configuration
 from ..console import Console
 from ..errors import UrdftoolError
-from ..model.load import require_links, robot_of
+from ..lint.validate import require
+from ..model.load import robot_of
 from ..report import collision as report
 from .collision_options import cache_of, given_names, settings_of
 from .picture_file import check_picture, write_picture
@@ -59,7 +60,7 @@ def one(
     Raises:
         UrdftoolError: The robot cannot be read, or a mesh cannot be simplified.
     """
-    robot = require_links(_read(console, path, arguments, values))
+    robot = require(_read(console, path, arguments, values), "links")
     check_picture(values["picture"], robot)
     wishes = _wishes(ctx, console, path, values)
     if values["check"]:

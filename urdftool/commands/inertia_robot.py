@@ -149,7 +149,8 @@ def command(
     from ..inertia.mass_file import read_masses
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
-    from ..model.load import require_links, robot_of
+    from ..lint.validate import require
+    from ..model.load import robot_of
     from .read_lax import take_world
 
     path = robot[0]
@@ -157,7 +158,7 @@ def command(
         raise click.UsageError("standard input cannot be edited in place; add -o OUT to --write")
     by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
     description = read_strict(console, robot, package, package_path)
-    model = take_world(console, require_links(robot_of(description)))
+    model = take_world(console, require(robot_of(description), "links"))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
     wanted = Masses(by_link, density, total, all_links)

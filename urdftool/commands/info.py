@@ -45,15 +45,15 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..info.counts import count
     from ..info.size import measure
-    from ..model.load import without_links
+    from ..lint.validate import validate
     from ..output import write_result
     from ..report import info as report
     from .read_lax import read_lax
 
     path, arguments = robot
     model = read_lax(console, path, arguments, package, package_path)
-    if wrong := without_links(model):
-        console.note(f"{model.place}: {wrong}")
+    for finding in validate(model, "links"):
+        console.note(f"{finding.place}: {finding.message}")
     with Progress(console, "meshes") as progress:
         measured = measure(model, progress)
     counts = count(model)

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from ..errors import ModelError
 from ..finding import Finding, Severity
 from ..model.elements import Joint, Link, Robot
 from ..rules import get_rule
@@ -89,6 +90,7 @@ _NOT_IN_DRAKE = _where(is_in_drake=(False,))
 
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
     {
+        "links": (Requirement("no-links"),),
         "graph": (
             Requirement("multiple-roots"),
             Requirement("detached-cycle"),
@@ -159,6 +161,22 @@ def validate(robot: Robot, purpose: str) -> list[Finding]:
         purpose: A key of ``PURPOSES``.
     """
     return [as_error(rule, problem) for rule, problem in find_problems(robot, purpose)]
+
+
+def require(robot: Robot, purpose: str) -> Robot:
+    """Return a robot that can be used for a purpose.
+
+    Args:
+        robot: Any robot.
+        purpose: A key of ``PURPOSES``.
+
+    Raises:
+        ModelError: It cannot; the message is that of the first problem, the notes are the others.
+    """
+    first, *others = validate(robot, purpose) or (None,)
+    if first is not None:
+        raise ModelError(first.message, at=first.place, notes=[str(other) for other in others])
+    return robot
 
 
 def find_problems(robot: Robot, purpose: str) -> Iterator[tuple[str, Problem]]:

@@ -33,26 +33,6 @@ def read_again(robot: Robot) -> Robot:
     return robot if robot.source is None else robot_of(robot.source)
 
 
-def without_links(robot: Robot) -> str:
-    """Return the message for a robot without links, such as a file of macros; empty otherwise."""
-    if robot.links:
-        return ""
-    macros = robot.source is not None and robot.source.expansion is not None
-    what = "name a file that calls its macros" if macros else "write at least one"
-    return f"the robot has no link; {what}"
-
-
-def require_links(robot: Robot) -> Robot:
-    """Return the robot if it has a link.
-
-    Raises:
-        ModelError: It has no link.
-    """
-    if wrong := without_links(robot):
-        raise ModelError(wrong, at=robot.place)
-    return robot
-
-
 def load(
     path: str | Path,
     *,

@@ -60,7 +60,8 @@ def every_missing_link(robot: Robot) -> Iterator[Problem]:
 def _no_link(robot: Robot) -> Problem:
     macros = robot.source is not None and robot.source.expansion is not None
     what = "name a file that calls its macros" if macros else 'write <link name="…"/>'
-    return Problem(robot, f"robot '{robot.name}' has no link; {what}")
+    who = f"robot '{robot.name}'" if robot.name else "the robot"
+    return Problem(robot, f"{who} has no link; {what}")
 
 
 @rule(
