@@ -2,7 +2,9 @@ import pytest
 
 from tests.conftest import FIXTURES
 from tests.graph.robots import robot, tree
-from urdftool.lint.validate import PURPOSES, validate
+from urdftool.errors import ModelError
+from urdftool.inertia.judgement import FAULTS
+from urdftool.lint.validate import PURPOSES, require, validate
 from urdftool.model.load import load
 from urdftool.rules import FAMILY_OF, get_rule
 
@@ -150,3 +152,20 @@ def test_a_number_above_1e30_is_immense_and_a_limit_may_be(number, found):
         '<limit lower="-1e40" upper="1e40" effort="1e300" velocity="1"/></joint>'
     )
     assert rules_of(robot(BLOCK.format(shape + joint))) == found
+
+
+def test_every_fault_of_an_inertia_is_asked_for():
+    asked = {requirement.rule for requirement in PURPOSES["inertia"]}
+    assert asked - set(FAULTS) == {"inertia-triangle-inequality-rounding"}
+    assert set(FAULTS) <= asked
+
+
+def test_a_robot_that_cannot_be_used_is_refused_with_all_that_is_wrong():
+    with pytest.raises(ModelError, match="has no link") as caught:
+        require(robot('<robot name="r"/>'), "links")
+    assert caught.value.line == 1
+    with pytest.raises(ModelError) as caught:
+        require(tree("abc", [("j", "a", "x"), ("k", "b", "y")]), "join")
+    assert len(caught.value.notes) == 1
+    whole = tree("ab", [("j", "a", "b")])
+    assert require(whole, "export") is whole
