@@ -202,6 +202,7 @@ def test_interrupted_it_stops_and_leaves_nothing(tmp_path):
     assert not list(tmp_path.glob("urdftool-*"))
 
 
+@pytest.mark.program("ps")
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals")
 @pytest.mark.slow
 @pytest.mark.parametrize("how", ["KILL", "TERM", "HUP"])
