@@ -22,7 +22,7 @@ from generator.man import man_pages
 from generator.python_page import with_names
 
 from urdftool import cli
-from urdftool.finding import Severity
+from urdftool.diagnostic import Severity
 from urdftool.report.file_diff import file_diff
 from urdftool.report.rule_pages import facts
 from urdftool.rules import all_rules, get_rule

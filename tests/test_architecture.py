@@ -11,7 +11,7 @@ TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
 
 BASE = (
     *("errors", "extras", "suggestions", "parallel", "isolated", "storage"),
-    *("dependencies", "workspace"),
+    *("dependencies", "workspace", "diagnostic"),
 )
 """Modules that know nothing of robots, each of which may import those before it."""
 
@@ -20,7 +20,7 @@ BELOW = {
     **{name: BASE[:index] for index, name in enumerate(BASE)},
     "source": BASE,
     "model": ("source", *BASE),
-    "finding": ("source",),
+    "finding": ("source", "diagnostic"),
     "output": BASE,
     "terminal": (),
     "console": ("terminal", *BASE),
@@ -373,3 +373,87 @@ def test_the_laws_see_what_they_forbid():
     assert cycles({Path("a"): {Path("b")}, Path("b"): {Path("a")}, Path("c"): {Path("a")}}) == {
         frozenset("ab")
     }
+
+
+TEXTS = frozenset(("message", "sentence", "hint", "note", "notes", "note_texts"))
+"""Attributes and variables that hold text of urdftool for people."""
+
+QUESTIONS = frozenset(
+    (
+        *("startswith", "endswith", "removeprefix", "removesuffix", "partition", "rpartition"),
+        *("split", "find", "index", "count", "setdefault", "get"),
+        *("search", "match", "fullmatch", "findall", "finditer", "sub"),
+    )
+)
+"""Methods that a program decides with, on a text or with one as an argument."""
+
+READ_TEXTS = {
+    ("formats/mjcf/meshes.py", "_report_notes"): "reports equal records of a file once",
+    ("lint/group.py", "_combine_fixes"): "chooses between two wordings of the combined fix",
+    ("report/expansion.py", "warnings"): "removes line breaks",
+    ("report/inertia_robot.py", "remarks"): "prints equal lines once",
+    ("rules/xacro/expansion_warnings.py", "_warned"): "warnings of the library xacro",
+}
+"""Functions that compare texts: for the page only, or texts of another library."""
+
+
+def _is_text(node):
+    if isinstance(node, ast.Tuple):
+        return any(map(_is_text, node.elts))
+    name = node.attr if isinstance(node, ast.Attribute) else getattr(node, "id", "")
+    return name in TEXTS
+
+
+def _decides_by_text(node):
+    """Tell whether an expression compares or searches a text, or uses it as a key."""
+    if isinstance(node, ast.Compare):
+        sides = (node.left, *node.comparators)
+        nothing = all(isinstance(op, ast.Is | ast.IsNot) for op in node.ops)
+        return not nothing and any(map(_is_text, sides))
+    if isinstance(node, ast.Subscript):
+        return _is_text(node.slice)
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        of_text = _is_text(node.func.value) or any(map(_is_text, node.args[:1]))
+        return node.func.attr in QUESTIONS and of_text
+    return False
+
+
+def _text_decisions(tree, function="module"):
+    for child in ast.iter_child_nodes(tree):
+        if isinstance(child, ast.FunctionDef):
+            yield from _text_decisions(child, child.name)
+            continue
+        if _decides_by_text(child):
+            yield function, child.lineno
+        yield from _text_decisions(child, function)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_no_code_decides_by_the_text_of_a_message(path):
+    name = path.relative_to(PACKAGE).as_posix()
+    found = [
+        f"{name}:{line}: {function} compares a text; compare codes and data"
+        for function, line in _text_decisions(TREES[path])
+        if (name, function) not in READ_TEXTS
+    ]
+    assert not found
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "if note.startswith('CoACD'): pass",
+        "'millimetre' in piece.note",
+        "one.message == other.message",
+        "groups.setdefault((finding.code, finding.message), [])",
+        "known[finding.message]",
+        "pattern.search(error.message)",
+    ],
+)
+def test_decisions_by_text_are_seen(code):
+    assert list(_text_decisions(ast.parse(code)))
+
+
+def test_listed_readers_of_texts_exist():
+    for name, function in READ_TEXTS:
+        assert function in [found for found, _ in _text_decisions(TREES[PACKAGE / name])]

@@ -17,7 +17,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "Finding": "finding",
     "Robot": "model.elements",
-    "Severity": "finding",
+    "Severity": "diagnostic",
     "UrdftoolError": "errors",
     "check": "lint.run",
     "compute_inertia": "inertia.compute",
@@ -53,8 +53,9 @@ if TYPE_CHECKING:
     from .api.export import export_mjcf, export_sdf
     from .api.fix import fix
     from .api.simulate import simulate
+    from .diagnostic import Severity
     from .errors import UrdftoolError
-    from .finding import Finding, Severity
+    from .finding import Finding
     from .inertia.compute import compute_inertia
     from .lint.run import check
     from .model.elements import Robot

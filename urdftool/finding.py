@@ -2,30 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import IntEnum
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
+from .diagnostic import Diagnostic, deprecated_name
 from .source.location import Call, Place
-
-
-class Severity(IntEnum):
-    """Severity of a finding.
-
-    *Error*: a reader of the description rejects it, crashes, or loses part of it. *Warning*: the
-    description loads, but behaves differently from its text. *Info*: portability or convention.
-    """
-
-    INFO = 1
-    WARNING = 2
-    ERROR = 3
-
-    @property
-    def label(self) -> str:
-        """Return ``error``, ``warning`` or ``info``."""
-        return self.name.lower()
-
 
 Scope = Literal["robot", "repository"]
 """Scope within which the findings of a rule may be reported once."""
@@ -41,10 +22,12 @@ class Group(NamedTuple):
         by: Scope within which they are reported once.
         sentence: Message for several findings, with ``{count}`` and ``{names}``; if empty, the
             first message followed by the other names.
+        alike: What the findings of the group have in common besides severity and effects.
     """
 
     by: Scope
     sentence: str
+    alike: object = None
 
 
 class Cause(NamedTuple):
@@ -59,79 +42,15 @@ class Cause(NamedTuple):
     site: Site
 
 
-class Replacement(NamedTuple):
-    """Replacement of bytes in a source file.
-
-    Attributes:
-        place: Span to replace; empty for an insertion.
-        data: New bytes.
-    """
-
-    place: Place
-    data: bytes
-
-    @property
-    def text(self) -> str:
-        """Return the new bytes decoded with the encoding of the file."""
-        return self.data.decode(self.place.file.encoding, "replace")
-
-
-class FileRewrite(NamedTuple):
-    """File, such as a mesh, that a fix rewrites completely.
-
-    Attributes:
-        path: File to write; it may exist.
-        origin: File from which the content is computed; may equal ``path``.
-        how: Description of the content: ``binary STL``.
-    """
-
-    path: str
-    origin: str
-    how: str
-
-
-class Fix(NamedTuple):
-    """Change that resolves a finding.
-
-    Attributes:
-        safe: Whether readers that accepted the description get the same robot afterwards.
-        message: Short description of the change: ``write 0 0 1``.
-        replacements: Changed bytes, in the order of the source.
-        rewrites: Files that are rewritten completely.
-    """
-
-    safe: bool
-    message: str
-    replacements: tuple[Replacement, ...]
-    rewrites: tuple[FileRewrite, ...] = ()
-
-    @property
-    def applicability(self) -> str:
-        """Return ``safe`` or ``unsafe``."""
-        return "safe" if self.safe else "unsafe"
-
-    @property
-    def paths(self) -> set[str]:
-        """Return the files that the fix changes."""
-        changed = {replacement.place.path for replacement in self.replacements}
-        return changed.union(rewrite.path for rewrite in self.rewrites)
-
-    @property
-    def option(self) -> str:
-        """Return the command-line options that apply the fix."""
-        meshes = " --fix-meshes" if self.rewrites else ""
-        return ("--fix" if self.safe else "--fix --unsafe-fixes") + meshes
-
-
 @dataclass(slots=True)
-class Finding:
+class Finding(Diagnostic):
     """Defect of a robot at one location of the source.
 
     Attributes:
-        rule: Name of the rule, such as ``zero-axis``.
+        code: Name of the rule, such as ``zero-axis``.
         severity: Severity for the checked targets.
         message: One sentence: the fact and, where known, the correct value.
-        place: Location in the source.
+        location: Location in the source.
         kind: Kind of the object: ``link``, ``joint``, ``robot``, ``file``, …
         name: Name of the object.
         targets: Affected targets; empty means every reader.
@@ -141,22 +60,20 @@ class Finding:
             them.
         expansions: Number of instances.
         variants: Sets of xacro arguments with which the defect occurs; empty means all tried sets.
-        fix: Fix in the source, if known and requested.
+        fixes: Changes of the source that resolve it, if known and requested, the best one first.
         unchecked: Whether the defect prevents all other checks of the robot.
         site: Element that the finding concerns.
         group: Grouping with other findings of the rule; None if it is reported alone.
         cause: Possible cause.
         members: Findings that this one represents.
         consequences: Findings that this one explains; they are listed under it.
+        owner: Name of the object, or of the nearest named element around it.
         data: Values that the rule computed, by name, so that no caller parses the message.
         moot: Whether all readers of which it speaks reject the robot for other defects; a report
             leaves out such a remark.
     """
 
-    rule: str
-    severity: Severity
-    message: str
-    place: Place
+    location: Place
     kind: str = ""
     name: str = ""
     targets: tuple[str, ...] = ()
@@ -165,15 +82,17 @@ class Finding:
     others: list[tuple[str, tuple[Call, ...]]] = field(default_factory=list)
     expansions: int = 1
     variants: tuple[str, ...] = ()
-    fix: Fix | None = None
     unchecked: bool = False
     site: Site | None = None
     group: Group | None = None
     cause: Cause | None = None
     members: list[Finding] = field(default_factory=list)
     consequences: list[Finding] = field(default_factory=list)
-    data: Mapping[str, Any] = field(default_factory=dict)
+    owner: str = ""
     moot: bool = False
+
+    rule = deprecated_name("rule", "code")
+    place = deprecated_name("place", "location")
 
     @property
     def names(self) -> list[str]:
@@ -189,4 +108,4 @@ class Finding:
     def __str__(self) -> str:
         """Return ``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""
         times = f" (in {self.expansions} expansions)" if self.expansions > 1 else ""
-        return f"{self.place}: {self.severity.label}: {self.message}{times} [{self.rule}]"
+        return f"{self.location}: {self.severity.label}: {self.message}{times} [{self.code}]"

@@ -46,7 +46,7 @@ def row(item: LinkReview) -> str:
     ratio = " ".join(f"{value:.3g}" for value in found.ratio)
     angle = "–" if found.angle is None else f"{math.degrees(found.angle):.0f}"
     methods = ", ".join(dict.fromkeys(piece.method for piece in item.body.pieces))
-    faults = ", ".join(fault.kind for fault in item.faults)
+    faults = ", ".join(fault.code for fault in item.faults)
     cells = (
         item.link.name,
         f"{item.link.mass:.4g}",

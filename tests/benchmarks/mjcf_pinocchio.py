@@ -66,7 +66,7 @@ def table(folder: Path, only: str) -> str:
 
 def _said(made: Export) -> set[str]:
     losses = made.written.losses if made.written is not None else []
-    return {loss.rule for loss in losses if loss.severity > 1 and loss.rule != "lossy-nonconvex"}
+    return {loss.code for loss in losses if loss.severity > 1 and loss.code != "lossy-nonconvex"}
 
 
 def _cell(value: float, bound: float) -> str:

@@ -63,7 +63,7 @@ def export(path: Path, folder: Path, packages: dict[str, Path], **choices: objec
             result.written = write(result.robot, Options(**choices))
         except Refused as refused:
             result.forced = True
-            result.rules = {finding.rule for finding in refused.findings}
+            result.rules = {finding.code for finding in refused.findings}
             result.written = write(result.robot, Options(force=True, **choices))
         write_directory(folder, result.written.files, main=result.written.main, overwrite=True)
         result.model = folder / result.written.main

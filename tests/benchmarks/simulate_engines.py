@@ -36,7 +36,7 @@ def line(row: Row) -> str:
     name = FILES[row.path]
     if row.error is not None:
         return f"| {name} | refused | | {row.error.message[:100]} |"
-    apart = [fault for fault in row.faults if fault.kind == "engines-differ"]
+    apart = [fault for fault in row.faults if fault.code == "engines-differ"]
     if not apart:
         return f"| {name} | {row.engine} | agree |"
     said = apart[0].message.partition(": ")[2]
@@ -52,7 +52,7 @@ def main() -> None:
         print(line(row), flush=True)  # as they are done; sort them for a page
         if row.error is None:
             ran.append(row)
-    agree = sum(not any(f.kind == "engines-differ" for f in row.faults) for row in ran)
+    agree = sum(not any(f.code == "engines-differ" for f in row.faults) for row in ran)
     print(f"\n{agree} of {len(ran)} agree.")
 
 

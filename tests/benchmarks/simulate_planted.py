@@ -122,7 +122,7 @@ def rows() -> Iterator[str]:
                 target = Path(folder) / "planted.urdf"
                 tree.write(target)
                 verdict = verdict_on(target, **settings)
-            got = [fault.kind for fault in verdict.faults if fault.fails]
+            got = [fault.code for fault in verdict.faults if fault.fails]
             found += bool(kinds & set(got))
             said.append(f"{path.stem}: {', '.join(dict.fromkeys(got)) or 'stands'}")
             if not kinds & set(got):

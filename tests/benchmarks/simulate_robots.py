@@ -53,7 +53,7 @@ def row(named: tuple[str, Path]) -> str:
     first: dict[str, str] = {}
     for fault in verdict.faults:
         if fault.fails:
-            first.setdefault(fault.kind, fault.message[:110])
+            first.setdefault(fault.code, fault.message[:110])
     why = "; ".join(f"{kind}: {message}" for kind, message in first.items())
     return f"| {name} | {outcome(verdict)} | {why} |"
 

@@ -130,13 +130,13 @@ def test_coacd_that_dies_is_replaced_and_said(monkeypatch):
     from urdftool.collision.decompose import DecompositionError
 
     def dies(*_, **__):
-        raise DecompositionError("CoACD died (SIGABRT)")
+        raise DecompositionError("CoACD died (SIGABRT)", data={"cause": "died"})
 
     monkeypatch.setattr(module, "decompose", dies)
     choice = choose(prepare(*l_profile()), Settings(method="coacd"))
     assert choice.method == "hull"
-    assert "CoACD died" in choice.notes[0]
-    assert "hull was taken instead" in choice.notes[-1]
+    assert choice.notes[0].data["cause"] == "died"
+    assert choice.notes[-1].code == "hull-instead"
 
 
 def test_a_child_that_takes_too_long_is_ended():
@@ -151,4 +151,4 @@ def test_inside_out_and_doubled_meshes_are_mended():
     vertices, faces = noisy("box", (0.2, 0.2, 0.2))
     surface = prepare(vertices, np.concatenate([faces[:, ::-1], faces[:10, ::-1]]))
     assert surface.volume == pytest.approx(0.008, rel=1e-6)
-    assert any("turned" in note for note in surface.notes)
+    assert {"turned-faces", "inside-out"} & {note.code for note in surface.notes}

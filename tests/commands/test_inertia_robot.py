@@ -150,7 +150,7 @@ def test_one_verdict_and_one_number_with_lint(urdftool, write, mass, six, origin
     found = [f for f in check(path, select=["inertia"]) if f.severity.label != "info"]
     code, links = review(urdftool, path)
     assert code == bool(rule)
-    assert [finding.rule for finding in found] == [rule] * bool(rule)
+    assert [finding.code for finding in found] == [rule] * bool(rule)
     fault = links["a"]["faults"][0] if rule else {"kind": ""}
     if fault["kind"] == "box":
         what = "center of mass" if "outside" in fault["message"] else "inertia"

@@ -54,7 +54,7 @@ def test_the_head_without_inertia_gets_its_figures(urdftool, write):
     assert {link.name: link.mass for link in robot.links} == MIRA
     assert moments(robot.link["base_link"]) == (0.0002835, 0.0002835, 0.000324)
     assert moments(robot.link["head_link"]) == (2.88e-05, 2.88e-05, 2.88e-05)
-    assert not [f for f in library.check(path) if f.rule.startswith("inertia")]
+    assert not [f for f in library.check(path) if f.code.startswith("inertia")]
     fill(urdftool, path, "--all")
     assert Path(path).read_text() == after
 
@@ -123,7 +123,7 @@ def test_what_is_missing_of_an_inertial_is_added(urdftool, write, part, wanted):
     if "inertia" in wanted:
         assert moments(link) == pytest.approx([link.mass / 6] * 3)
         assert link.inertial.origin.xyz == (0, 0, 0.5)
-    assert not [f for f in library.check(path) if f.rule == "incomplete-inertial"]
+    assert not [f for f in library.check(path) if f.code == "incomplete-inertial"]
     fill(urdftool, path, "--density", "6")
     assert Path(path).read_text() == after
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import urdftool
-from urdftool.finding import Severity
+from urdftool.diagnostic import Severity
 from urdftool.rules.mesh.outlines import reaches
 
 from .kinds import Robot
@@ -93,7 +93,7 @@ def _count(
     cell.found += bool(hits)
     cell.loud += any(severity > Severity.INFO for severity in hits)
     if not hits:
-        cell.missed.append(f"{sorted(damaged)}: {sorted({f.rule for f in new})}")
+        cell.missed.append(f"{sorted(damaged)}: {sorted({f.code for f in new})}")
 
 
 def _extents(path: Path, sample: Sample) -> dict[str, float]:

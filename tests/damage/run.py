@@ -28,7 +28,7 @@ def findings(text: str, sample: Sample, folder: Path) -> list[Finding]:
 
 def said(finding: Finding) -> tuple[str, str, str]:
     """What makes a finding another one."""
-    return finding.rule, finding.name, finding.message
+    return finding.code, finding.name, finding.message
 
 
 def names(finding: Finding, damaged: set[str]) -> bool:
@@ -55,7 +55,7 @@ def try_damage(sample: Sample, kind: str, seed: int) -> tuple[bool, str] | None:
         text = ElementTree.tostring(root, encoding="unicode")
         new = [f for f in findings(text, sample, Path(folder)) if said(f) not in before]
         hits = [f for f in new if names(f, damaged)]
-        what = ", ".join(sorted({f.rule for f in hits or new}))
+        what = ", ".join(sorted({f.code for f in hits or new}))
         return bool(hits), f"{sorted(damaged)}: {what}"
 
 

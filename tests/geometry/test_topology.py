@@ -44,6 +44,6 @@ def test_rounded_copies_are_welded_where_that_closes_the_surface():
 
 
 def test_unit_suspicion():
-    assert "millimetre" in unit_suspicion(200.0)
-    assert "twice" in unit_suspicion(0.0002)
+    assert unit_suspicion(200.0).code == "mesh-in-millimeters"
+    assert unit_suspicion(0.0002).code == "mesh-scaled-twice"
     assert unit_suspicion(0.3) is None

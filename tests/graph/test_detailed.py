@@ -115,7 +115,7 @@ def test_a_rigid_body_has_the_mass_of_its_links(figure):
 
 def test_findings_stand_on_their_nodes(figure):
     mark_findings(figure, check(robot(ARM)))
-    found = {node.key: {f.rule for f in node.findings} for node in figure.nodes.values()}
+    found = {node.key: {f.code for f in node.findings} for node in figure.nodes.values()}
     assert "incomplete-inertial" in found["link:tip"]
     assert "missing-collision" in found["link:base"]
     assert any("dangling-reference" in rules for key, rules in found.items() if "nothing" in key)
@@ -139,7 +139,7 @@ def test_instances_of_a_macro_are_all_marked(xacro_file):
     figure = detailed_figure(model)
     mark_findings(figure, check(model))
     for key in ("link:leg_1", "link:leg_2"):
-        assert "negative-mass" in {finding.rule for finding in figure.nodes[key].findings}
+        assert "negative-mass" in {finding.code for finding in figure.nodes[key].findings}
 
 
 def test_mermaid_has_every_node_and_edge(figure):

@@ -70,16 +70,16 @@ def test_a_sound_robot_has_no_fault():
 def test_a_fault_has_its_place():
     model = tree("abc", [("ab", "a", "b"), ("ac", "a", "c"), ("bc", "b", "c")])
     (fault,) = find_faults(model)
-    assert str(fault.place) == "r.urdf:4:1"
-    assert fault.rule == "multiple-parents"
+    assert str(fault.location) == "r.urdf:4:1"
+    assert fault.code == "multiple-parents"
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_lint_reports_what_keeps_a_robot_from_being_a_tree(case):
     model, _ = CASES[case]
-    rules = {fault.rule for fault in find_faults(model)} - {""}
+    rules = {fault.code for fault in find_faults(model)} - {"detached"}
     assert rules
-    assert rules <= {finding.rule for finding in validate(model, "graph")}
+    assert rules <= {finding.code for finding in validate(model, "graph")}
 
 
 def test_a_joint_without_links_is_drawn_apart():

@@ -337,7 +337,7 @@ def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, mo
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     with monkeypatch.context() as patch:
         patch.setattr(run, "_lint_once", slow)
-        found = {finding.rule for finding in run.lint_file(path, options).findings}
+        found = {finding.code for finding in run.lint_file(path, options).findings}
     assert "missing-name" not in found
     options.cache = Cache(DiskCache(tmp_path / "kept"))
     assert run.known_report(path, options) is None
@@ -377,7 +377,7 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
     write("ws/.git/HEAD", "")
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     for report in lint_files(paths, options, 1):
-        assert "mesh-not-found" in [finding.rule for finding in report.findings]
+        assert "mesh-not-found" in [finding.code for finding in report.findings]
     sizes = sorted(path.stat().st_size for path in entries(tmp_path / "kept"))
     assert len(sizes) == 4
     assert sizes[-1] > 2 * sizes[0]

@@ -110,7 +110,7 @@ def check(path, case):
     os.chdir(path.parent)
     options = Options(Settings(select=(rule,)), fixes=True)
     report = lint_file(path.name, options)
-    assert [f.rule for f in report.findings] == [rule], report.findings
+    assert [f.code for f in report.findings] == [rule], report.findings
     mended = mend(report, options, unsafe=True)
     assert not mended.broken
     fixed = mended.after[path.name]

@@ -51,7 +51,7 @@ def robots(tmp_path, monkeypatch):
 def _findings(robot):
     settings = Settings(extend_select=("nonstandard-xmlns",))  # which is off by default
     report = lint_file(robot, Options(settings))
-    return {(f.place.path, f.place.line, f.rule): f.name for f in report.findings}
+    return {(f.location.path, f.location.line, f.code): f.name for f in report.findings}
 
 
 @pytest.mark.parametrize("robot", sorted({robot for robot, *_ in MISTAKES}))

@@ -9,7 +9,8 @@ import pytest
 from tests.conftest import ROOT
 from tests.report.sarif import SARIF
 from urdftool import check
-from urdftool.finding import Cause, Finding, Group, Severity
+from urdftool.diagnostic import Severity
+from urdftool.finding import Cause, Finding, Group
 from urdftool.lint.group import NAMES, group
 from urdftool.rules import all_rules
 from urdftool.source.location import Call, Place, SourceFile
@@ -258,7 +259,7 @@ def test_what_another_finding_explains_is_listed_under_it():
             fact("falls", "b", 16, cause=("no-mass",)),
         ]
     )
-    assert [(f.rule, f.name, f.severity) for f in found] == [
+    assert [(f.code, f.name, f.severity) for f in found] == [
         ("no-mass", "a", Severity.ERROR),
         ("falls", "b", Severity.WARNING),
     ]
@@ -276,7 +277,7 @@ def test_a_cause_that_only_some_instances_have_explains_nothing():
 def test_causes_in_a_chain_and_in_a_circle():
     chain = [fact("c", "a", cause=("b",)), fact("b", "a", cause=("a",)), fact("a", "a")]
     (top,) = group(chain)
-    assert (top.rule, top.consequences[0].rule, top.consequences[0].consequences[0].rule) == (
+    assert (top.code, top.consequences[0].code, top.consequences[0].consequences[0].code) == (
         "a",
         "b",
         "c",
@@ -298,19 +299,19 @@ def test_consequences_of_a_group_are_grouped():
     assert under.message == ("falls of 'l0' (and 6 more: 'l1', 'l2', 'l3', 'l4', 'l5' and 1 more)")
 
 
-def test_messages_that_say_different_things_are_not_grouped():
-    alike = Group("robot", "")
-    messages = (
-        "limit of 'a' is 0.5 m, above 10",
-        "limit of 'b' is 3e-05 m, above 100",
-        "limit of 'c' is 0.5 rad, above 10",
-        "<limit> of 'd' does not belong here",
-        "<axis> of 'e' does not belong here",
-    )
-    facts = [fact("a", name, 8 + n, group=alike) for n, name in enumerate("abcde")]
-    for one, message in zip(facts, messages, strict=True):
-        one.message = message
-    assert [found.names for found in group(facts)] == [["a", "b"], ["c"], ["d"], ["e"]]
+def test_findings_are_grouped_by_what_rules_call_alike():
+    keys = (("m", "above"), ("m", "above"), ("rad", "above"), None, None)
+    facts = [
+        fact("a", name, 8 + n, group=Group("robot", "", key))
+        for n, (name, key) in enumerate(zip("abcde", keys, strict=True))
+    ]
+    assert [found.names for found in group(facts)] == [["a", "b"], ["c"], ["d", "e"]]
+
+
+def test_no_message_decides_what_is_grouped():
+    facts = [fact("a", name, 8 + n, group=Group("robot", "")) for n, name in enumerate("ab")]
+    facts[1].message = "another sentence"
+    assert [found.names for found in group(facts)] == [["a", "b"]]
 
 
 def test_declared_groups_and_causes_are_of_rules():

@@ -22,7 +22,7 @@ def robot(*parts):
 
 def effects(path, rule, *others):
     found = check(path, select=[rule, *others])
-    return {name for f in found if f.rule == rule for key in f.effects for name in key.split(", ")}
+    return {name for f in found if f.code == rule for key in f.effects for name in key.split(", ")}
 
 
 def test_urdfdom_takes_no_inertia_of_a_robot_that_it_rejects(write):
@@ -137,7 +137,7 @@ def test_gazebo_takes_nothing_of_a_joint_named_as_its_link_without_its_target(wr
         path = write("r.urdf", robot(*links, JOINT.format(name, "a", "b", LIMIT)))
         found = effects(path, "placeholder-inertia")
         assert ("gz" not in found) == rejected
-        assert "link-joint-name-clash" not in {finding.rule for finding in check(path)}
+        assert "link-joint-name-clash" not in {finding.code for finding in check(path)}
         assert "pinocchio" in found
 
 
@@ -147,7 +147,7 @@ def test_a_remark_waits_until_a_reader_gets_as_far(write):
         links = (LINK.format(name, 0.01) for name in "abc")
         joints = JOINT.format("j", "a", "b", fast), JOINT.format("k", parent, "c", LIMIT)
         path = write("r.urdf", robot(*links, *joints))
-        return {f.rule for f in check(path, grouped=True, **options)}
+        return {f.code for f in check(path, grouped=True, **options)}
 
     assert "implausible-velocity" in reported("b")
     assert "implausible-velocity" not in reported("nobody"), "no reader loads the robot"

@@ -152,7 +152,7 @@ def test_a_comment_does_not_excuse_it(urdftool, xacro_file):
 def test_the_library_gives_the_error(stopped):
     rule, path = stopped
     found = check(path, select=["zero-axis"], ignore=["xml", "xacro", "package"])
-    assert [(f.rule, f.severity.label, f.unchecked) for f in found] == [(rule, "error", True)]
+    assert [(f.code, f.severity.label, f.unchecked) for f in found] == [(rule, "error", True)]
     with pytest.raises(SourceError, match="no such file"):
         check("absent.urdf")
 
@@ -193,7 +193,7 @@ def test_the_namespace_is_reported_first_and_its_fix_lets_the_rest_be_seen(write
     path = write("r.urdf", NO_NAMESPACE)
     (finding,) = check(path, fixes=True)
     assert "has 3 tags of xacro but does not declare its namespace" in finding.message
-    assert finding.place.line == 2
+    assert finding.location.line == 2
     assert finding.fix is not None
     assert finding.fix.safe
     assert urdftool("lint", path, "--fix", "--select", "tree", "--no-cache").code == 0

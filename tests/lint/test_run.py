@@ -25,10 +25,10 @@ def test_instances_of_a_macro_are_one_finding(xacro_file):
         f'{WHEEL}\n<link name="base"/>\n<xacro:wheel side="left"/>\n<xacro:wheel side="right"/>',
     )
     (finding,) = check(path, select=["zero-axis"])
-    assert (finding.place.path, finding.place.line) == (path, 6)
+    assert (finding.location.path, finding.location.line) == (path, 6)
     assert finding.expansions == 2
     assert finding.name == "left_joint"
-    assert [call.what for call in finding.place.calls] == ["macro 'wheel' side=left"]
+    assert [call.what for call in finding.location.calls] == ["macro 'wheel' side=left"]
     ((name, calls),) = finding.others
     assert name == "right_joint"
     assert [call.what for call in calls] == ["macro 'wheel' side=right"]
@@ -67,12 +67,12 @@ def test_findings_come_in_the_order_of_the_source(write):
 def test_a_robot_that_was_loaded_can_be_checked(write):
     path = write("r.urdf", '<robot name="r"><link name="l"/><link name="l"/></robot>')
     robot = load(path)
-    assert {f.rule for f in check(robot)} == {f.rule for f in check(path)}
+    assert {f.code for f in check(robot)} == {f.code for f in check(path)}
 
 
 def test_a_file_that_is_not_well_formed_is_still_looked_at(write):
     path = write("r.urdf", "<!-- (c) -->\n<?xml version='1.0'?>\n<robot><link name='a'/></robot>")
-    found = {f.rule for f in check(path)}
+    found = {f.code for f in check(path)}
     assert found == {"content-before-declaration", "missing-name"}
 
 

@@ -20,7 +20,7 @@ def robot(write):
 
 
 def rules(path, **options):
-    return {(f.rule, f.severity.label) for f in check(path, **options)}
+    return {(f.code, f.severity.label) for f in check(path, **options)}
 
 
 def config(write, text, name="urdftool.toml"):

@@ -18,7 +18,7 @@ IGNORE = "<!-- urdftool-ignore[zero-axis] it is a test -->"
 
 
 def rules(path, **options):
-    return [finding.rule for finding in check(path, select=["zero-axis", "lint"], **options)]
+    return [finding.code for finding in check(path, select=["zero-axis", "lint"], **options)]
 
 
 @pytest.mark.parametrize("where", [(IGNORE, "", ""), ("", IGNORE, ""), ("", "", IGNORE)])
@@ -60,7 +60,7 @@ def test_one_for_a_rule_that_did_not_run_is_not(write):
 def test_an_unknown_rule_names_the_nearest(write):
     text = BAD_LINK.format("", "", "<!-- urdftool-ignore[zero-axes] -->")
     findings = check(write("r.urdf", text), select=["lint"])
-    assert [f.rule for f in findings] == ["unknown-rule"]
+    assert [f.code for f in findings] == ["unknown-rule"]
     assert "did you mean 'zero-axis'?" in findings[0].message
 
 

@@ -12,7 +12,7 @@ RULES = FIXTURES / "rules"
 
 
 def rules_of(model, purpose="export"):
-    return [finding.rule for finding in validate(model, purpose)]
+    return [finding.code for finding in validate(model, purpose)]
 
 
 def test_purposes_are_made_of_rules_that_take_a_robot():
@@ -110,7 +110,7 @@ BLOCK = (
 def test_a_value_of_an_extension_keeps_a_robot_from_the_formats_that_write_it(block, refused):
     model = robot(BLOCK.format(block))
     found = {
-        name: [(f.rule, f.kind) for f in validate(model, f"export:{name}")]
+        name: [(f.code, f.kind) for f in validate(model, f"export:{name}")]
         for name in ("sdf", "mjcf")
     }
     for name, findings in found.items():
@@ -131,13 +131,13 @@ def test_every_follower_of_a_fixed_joint_is_reported_and_its_own_type_is_not():
     parts = "".join(f'<link name="{name}"/>' for name in "kl")
     parts += follower.format("k", "revolute", mimic) + follower.format("l", "prismatic", mimic)
     found = validate(robot(BLOCK.format(parts)), "export:sdf")
-    assert [(f.rule, f.name) for f in found] == [("mimic-dof-mismatch", name) for name in "kl"]
+    assert [(f.code, f.name) for f in found] == [("mimic-dof-mismatch", name) for name in "kl"]
 
 
 def test_the_plugin_without_a_name_is_written_and_the_one_without_a_library_is_not():
     text = '<gazebo><plugin name="p"/><plugin filename="p"/></gazebo>'
     found = validate(robot(BLOCK.format(text)), "export:sdf")
-    assert [(f.rule, f.name) for f in found] == [("plugin-without-filename", "p")]
+    assert [(f.code, f.name) for f in found] == [("plugin-without-filename", "p")]
 
 
 @pytest.mark.parametrize(

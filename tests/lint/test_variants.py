@@ -72,13 +72,13 @@ def test_a_comment_that_one_variant_needs_is_not_unused(write, xacro_file):
     comment = '<!-- urdftool-ignore[zero-axis] a test -->\n  <joint name="turn"'
     path = xacro_file("r.urdf.xacro", ARM.replace('<joint name="turn"', comment))
     found = check(path, select=["zero-axis", "unused-suppression"])
-    assert [f.rule for f in found] == ["zero-axis"]
+    assert [f.code for f in found] == ["zero-axis"]
 
 
 def test_a_variant_that_does_not_expand_is_a_finding(xacro_file, write):
     write("urdftool.toml", TWO.replace("turns = false", 'turns = "maybe"'))
     findings = check(xacro_file("r.urdf.xacro", ARM))
-    (failed,) = [f for f in findings if f.rule == "non-boolean-conditional"]
+    (failed,) = [f for f in findings if f.code == "non-boolean-conditional"]
     assert failed.variants == ("prefix=right_ turns=maybe",)
 
 

@@ -126,11 +126,11 @@ def test_an_export_reports_what_it_does_not_write(name, options, tmp_path):
     file.write_text(TEXT)
     plain = load(file)
     written = registry.format_named(name).write(plain, options)
-    assert not CODES & {loss.rule for loss in written.losses}
+    assert not CODES & {loss.code for loss in written.losses}
     plain.joints[0].dynamics = Dynamics(armature=0.1)
     written = registry.format_named(name).write(replace(plain, **EXTRA), options)
-    assert {loss.rule for loss in written.losses} >= CODES
-    loop = next(loss for loss in written.losses if loss.rule == "lossy-closure")
+    assert {loss.code for loss in written.losses} >= CODES
+    loop = next(loss for loss in written.losses if loss.code == "lossy-closure")
     assert (loop.name, loop.kind, loop.severity.label) == ("loop", "closed loop", "warning")
 
 

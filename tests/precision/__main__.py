@@ -89,8 +89,8 @@ def draw(
         found += [(name, finding) for finding in group(report.findings)]
     chance = random.Random(seed)
     found = list(_by_rule(found, chance) if by == "rule" else chance.sample(found, len(found)))
-    firsts = {(finding.rule, name): finding for name, finding in reversed(found)}
-    drawn = [(name, f) for name, f in found if firsts[f.rule, name] is f][:count]
+    firsts = {(finding.code, name): finding for name, finding in reversed(found)}
+    drawn = [(name, f) for name, f in found if firsts[f.code, name] is f][:count]
     return [
         _record(number, sample, name, named[name], finding)
         for number, (name, finding) in enumerate(drawn, 1)
@@ -103,7 +103,7 @@ def _by_rule(
     """Shuffle rules and the findings of each, and go through the rules in turn."""
     by_rule: dict[str, list[tuple[str, Finding]]] = {}
     for name, finding in found:
-        by_rule.setdefault(finding.rule, []).append((name, finding))
+        by_rule.setdefault(finding.code, []).append((name, finding))
     rules = sorted(by_rule)
     chance.shuffle(rules)
     for rule in rules:
@@ -118,9 +118,9 @@ def _record(number: int, sample: str, name: str, path: str, finding: Finding) ->
         "number": number,
         "robot": name,
         "path": path,
-        "file": finding.place.path,
-        "line": finding.place.line,
-        "rule": finding.rule,
+        "file": finding.location.path,
+        "line": finding.location.line,
+        "rule": finding.code,
         "severity": finding.severity.label,
         "message": _without_folders(finding.message),
         "hint": finding.hint,

@@ -5,7 +5,8 @@ import re
 
 import pytest
 
-from urdftool.finding import FileRewrite, Finding, Fix, Severity
+from urdftool.diagnostic import FileRewrite, Fix, Severity
+from urdftool.finding import Finding
 from urdftool.report.findings_screen import MANY, SCREEN, advice, by_weight, screen
 from urdftool.source.location import Place, SourceFile
 
@@ -16,7 +17,8 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 def fact(rule, severity, line, file=0, fix=None):
     start = 8 + 8 * line
     place = Place(FILES[file], start, start + 7)
-    return Finding(rule, severity, f"{rule} {line}", place, "link", f"l{line}", fix=fix)
+    fixes = (fix,) if fix else ()
+    return Finding(rule, severity, f"{rule} {line}", place, "link", f"l{line}", fixes=fixes)
 
 
 def shown(findings, style="concise", **more):
@@ -44,7 +46,7 @@ def test_errors_come_first_in_a_file_and_rules_are_together():
         "info missing-collision",
         "error zero-axis",
     ]
-    assert [f.place.path for f in by_weight(facts)] == ["a.urdf"] * 5 + ["b.urdf"]
+    assert [f.location.path for f in by_weight(facts)] == ["a.urdf"] * 5 + ["b.urdf"]
 
 
 @pytest.mark.parametrize("style", ["full", "concise"])

@@ -40,7 +40,7 @@ def link(name, *parts):
 def rules(tmp_path, *parts, select):
     path = tmp_path / "r.urdf"
     path.write_text(HEAD + "".join(parts) + "</robot>\n")
-    return [f.rule for f in check(path, select=[select])]
+    return [f.code for f in check(path, select=[select])]
 
 
 # a plate of 1 x 0.2 x 0.02 m that weighs 4 kg, and what a body like it has

@@ -204,7 +204,7 @@ def test_a_plugin_in_an_attribute_is_a_sign_of_gazebo_classic(write):
     assert "gazebo-classic" in report.targets
     assert report.findings == []
     report = lint_file(write("s.urdf", f"{moved}{kp}</robot>"), Options(line))
-    assert [(f.rule, f.severity.label) for f in report.findings] == [
+    assert [(f.code, f.severity.label) for f in report.findings] == [
         ("missing-control-plugin", "warning"),
         ("no-effect-in-gz", "info"),
     ]

@@ -75,7 +75,7 @@ def test_the_joint_that_was_meant_is_asked_for_at_its_place(lint, wrong, meant, 
         f"controller 'base' names joint '{wrong}', which the robot does not have; "
         f"did you mean '{meant}'?"
     )
-    assert str(finding.place) == "config/cart.yaml:4:24"
+    assert str(finding.location) == "config/cart.yaml:4:24"
 
 
 def test_a_joint_without_a_like_is_told_where_the_controller_has_others(lint):
@@ -97,7 +97,7 @@ def test_joints_of_all_kinds_of_parameters_are_looked_at(lint):
   four: {type: joint, joints: [left_weel_joint]}
 """
     found = lint(yaml)
-    assert [(f.place.line, f.name) for f in found] == [(2, "cart"), (4, "cart")]
+    assert [(f.location.line, f.name) for f in found] == [(2, "cart"), (4, "cart")]
 
 
 GRIPPER = '<robot name="{}"><link name="a"/><joint name="{}" type="fixed"/></robot>'

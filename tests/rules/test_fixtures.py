@@ -66,7 +66,7 @@ def _expected(path):
 
 @pytest.mark.parametrize("path", BAD, ids=_name)
 def test_bad_is_found_on_its_lines_and_nothing_else(path):
-    found = sorted((Path(f.place.path).name, f.place.line, f.rule) for f in _findings(path))
+    found = sorted((Path(f.location.path).name, f.location.line, f.code) for f in _findings(path))
     assert found == _expected(path)
     assert path.parent.name in {rule for _, _, rule in found}
 

@@ -22,7 +22,7 @@ MESH = '<mesh filename="part.stl"/>'
 def messages(path):
     report = lint_file(path, Options(Settings(select=("inertia",))))
     assert not report.failed_rules
-    return {finding.rule: finding.message for finding in report.findings}
+    return {finding.code: finding.message for finding in report.findings}
 
 
 def of_link(tmp_path, *six, xyz="0 0 0", rpy="0 0 0", shape=BOX):
@@ -111,7 +111,7 @@ def test_no_command_is_named_that_refuses_the_file(tmp_path):
         path = tmp_path / "r.urdf"
         path.write_text(head + LINK.format(1, 0, 0, 1, 0, 1, xyz="0 0 0", rpy="0 0 0", shape=BOX))
         report = lint_file(path, Options(Settings(select=("placeholder-inertia",))))
-        return [f.hint for f in report.findings if f.rule == "placeholder-inertia"]
+        return [f.hint for f in report.findings if f.code == "placeholder-inertia"]
 
     (hint,) = hints('<?xml version="1.0"?>\n')
     assert "urdftool inertia robot" in hint

@@ -103,13 +103,13 @@ def test_gazebo_takes_no_inertia_of_a_model_that_it_rejects(write):
     rules = "placeholder-inertia", "dangling-reference", "link-joint-name-clash"
     for extra, taken in ((loop("loop", "a", "c"), True), (loop("b", "a", "c"), False)):
         findings = found(write, (*CHAIN, extra), *rules)
-        inertias = [f for f in findings if f.rule == "placeholder-inertia"]
+        inertias = [f for f in findings if f.code == "placeholder-inertia"]
         assert inertias
         assert all(bool(gazebo_of(f)) == taken for f in inertias)
     assert not any(
         gazebo_of(f)
         for f in found(write, (*CHAIN, loop("loop", "a", "d")), *rules)
-        if f.rule == "placeholder-inertia"
+        if f.code == "placeholder-inertia"
     )
 
 
@@ -178,7 +178,7 @@ def test_what_gazebo_leaves_of_a_link_without_mass(write, parts, says):
 def test_gazebo_takes_nothing_below_a_root_without_mass(write):
     parts = link("a", ""), link("b"), joint("j", "revolute", "a", "b")
     for select in (("placeholder-inertia",), ("placeholder-inertia", "massless-root-body")):
-        finding = next(f for f in found(write, parts, *select) if f.rule == "placeholder-inertia")
+        finding = next(f for f in found(write, parts, *select) if f.code == "placeholder-inertia")
         assert gazebo_of(finding) == []
         assert finding.effects
 

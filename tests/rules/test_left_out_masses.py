@@ -97,7 +97,7 @@ def test_the_center_of_mass_of_a_small_part_of_a_body_may_be_anywhere(tmp_path, 
 def test_digits_tell_what_is_rounding(tmp_path, moments, rule):
     rules = ["inertia-triangle-inequality", "inertia-triangle-inequality-rounding"]
     file = _robot(tmp_path, _body("plate", 1, moments=moments))
-    assert [finding.rule for finding in check(file, select=rules)] == [rule]
+    assert [finding.code for finding in check(file, select=rules)] == [rule]
 
 
 @pytest.mark.parametrize(("kind", "named"), [("fixed", False), ("continuous", True)])

@@ -14,7 +14,7 @@ def _found(folder, *uris, name="robot.urdf", head='<robot name="r">', **options)
     links = "\n".join(LINK.format(number, uri) for number, uri in enumerate(uris))
     file.write_text(f"{head}\n{links}\n</robot>\n")
     found = check(file, select=["mesh", "package-not-found"], **options)
-    return [(finding.rule, finding.place.line) for finding in found]
+    return [(finding.code, finding.location.line) for finding in found]
 
 
 def test_file_that_is_wanted_twice_is_one_finding(tmp_path):

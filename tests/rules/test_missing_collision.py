@@ -26,7 +26,7 @@ def _lines(tmp_path, text, **options):
     file = tmp_path / "head.urdf"
     file.write_text(text)
     found = check(file, select=["missing-collision", "lint"], **options)
-    return [(finding.rule, finding.place.line) for finding in found]
+    return [(finding.code, finding.location.line) for finding in found]
 
 
 def test_link_without_collision_is_found_at_its_line(tmp_path):

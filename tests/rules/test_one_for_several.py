@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool import load
-from urdftool.finding import Severity
+from urdftool.diagnostic import Severity
 from urdftool.rules import get_rule
 
 LINK = """<link name="{name}"><inertial><origin xyz="{com}"/><mass value="{mass}"/>

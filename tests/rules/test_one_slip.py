@@ -24,7 +24,7 @@ def _found(tmp_path, inside, rule, name="robot.urdf"):
     path.write_text(
         f'<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{inside}\n</robot>'
     )
-    return [finding for finding in check(path) if finding.rule == rule]
+    return [finding for finding in check(path) if finding.code == rule]
 
 
 def test_a_joint_the_wrong_way_round_is_told_as_that(tmp_path):
@@ -82,7 +82,7 @@ def test_what_closes_a_loop_has_to_be_there(tmp_path):
     assert found.message == (
         "<parent> of joint 'closing' is 'couple', which is no link; did you mean 'coupler'?"
     )
-    assert found.place.line == 4
+    assert found.location.line == 4
 
 
 def test_what_closes_a_loop_may_be_a_link_of_sdf(tmp_path):
@@ -109,7 +109,7 @@ def test_simulated_hardware_of_the_other_gazebo_than_the_plugin(tmp_path):
 <plugin>gazebo_ros2_control/GazeboSystem</plugin></hardware></ros2_control>
 <gazebo><plugin filename="gz_ros2_control-system" name="p"/></gazebo>"""
     (found,) = _found(tmp_path, robot, "ros2-control-wrong-sim-plugin")
-    assert found.place.line == 3
+    assert found.location.line == 3
 
 
 def test_a_thin_mast_does_not_move_the_centre(tmp_path):
@@ -140,7 +140,7 @@ def test_a_parameter_with_a_name_of_xacro_is_told_once_and_where_it_is_declared(
 <xacro:bar name="a" len="1"/>
 <xacro:bar name="b" len="2"/>"""
     (found,) = _found(tmp_path, robot, "shadowed-builtin", "robot.urdf.xacro")
-    assert (found.place.line, found.place.column) == (2, 25)
+    assert (found.location.line, found.location.column) == (2, 25)
 
 
 def test_the_parameter_that_was_meant_is_asked_for(tmp_path):

@@ -36,7 +36,7 @@ def test_a_robot_that_is_looked_at_in_full_has_nothing_to_say(chain):
 def test_joints_that_were_passed_over_are_counted_once(chain, bound, monkeypatch):
     monkeypatch.setattr(overlap, bound, -1 if bound == "TRIES" else 20)
     (finding,) = check(chain, select=BOTH)
-    assert finding.rule == "analysis-incomplete"
+    assert finding.code == "analysis-incomplete"
     expected = ("'j0'", "8 of 8") if bound == "TRIES" else ("'j2'", "6 of 8")
     assert all(word in finding.message for word in expected)
     assert check(chain, select=("analysis-incomplete",)) == []
@@ -51,7 +51,7 @@ def heap(write):
 def test_pairs_that_were_passed_over_are_said(heap, monkeypatch):
     monkeypatch.setattr(overlap, "RESTING", 100)
     found = check(heap, select=("self-collision-at-zero", "analysis-incomplete"))
-    part, rest = sorted(found, key=lambda finding: finding.rule)
+    part, rest = sorted(found, key=lambda finding: finding.code)
     assert "the first 100 pairs" in part.message
     assert rest.message.startswith("100 pairs of links overlap")
     assert "and 88 more pairs" in rest.message

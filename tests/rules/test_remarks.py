@@ -13,7 +13,7 @@ LIMIT = 'lower="-1" upper="1" effort="1" velocity="1"'
 
 
 def found(path, rule, **options):
-    return [f for f in check(path, select=[rule], **options) if f.rule == rule]
+    return [f for f in check(path, select=[rule], **options) if f.code == rule]
 
 
 def test_an_attribute_of_another_program_is_a_remark_beside_all_that_is_required(write):

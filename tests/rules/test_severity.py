@@ -196,7 +196,7 @@ def test_only_robots_for_gazebo_are_asked_for_its_tags(write):
     )
     path = write("r.urdf", text)
     assert levels(path, "missing-gazebo-tags", targets=("gz",)) == [("left_wheel", "warning")]
-    assert "missing-gazebo-tags" not in {f.rule for f in check(path)}
+    assert "missing-gazebo-tags" not in {f.code for f in check(path)}
     assert levels(path, "missing-gazebo-tags", targets=("mujoco",)) == []
 
 

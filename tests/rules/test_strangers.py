@@ -12,7 +12,7 @@ def messages(tmp_path, inside, rule):
     )
     file.write_text(f'<robot name="r">\n<link name="base"/>\n{joints}</robot>\n')
     found = check(file, select=[rule])
-    return [(finding.place.line, finding.message) for finding in found]
+    return [(finding.location.line, finding.message) for finding in found]
 
 
 def test_attributes_nobody_reads_are_one_finding_of_all_their_elements(tmp_path):

@@ -18,7 +18,7 @@ def simulated(path, **settings):
 
 def kinds(verdict):
     """Kinds of what went wrong."""
-    return {fault.kind for fault in verdict.faults if fault.fails}
+    return {fault.code for fault in verdict.faults if fault.fails}
 
 
 def inertial(mass, ixx, iyy, izz, xyz="0 0 0"):

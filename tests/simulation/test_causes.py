@@ -37,7 +37,7 @@ def _judged(path, engine, **settings):
 def test_a_cause_names_the_engine_that_ran(write, engine, library, name):
     text = body('<box size="0.4 0.3 0.2"/>', 2, (0.01, 0.01, 0.04))
     (fault,) = [f for f in _judged(write("r.urdf", text), engine).faults if f.fails]
-    assert fault.kind == "impossible-inertia"
+    assert fault.code == "impossible-inertia"
     others = {"PyBullet", "MuJoCo"} - {name}
     assert name in fault.cause
     assert not any(other in fault.cause for other in others)
@@ -48,7 +48,7 @@ def test_a_cause_names_the_engine_that_ran(write, engine, library, name):
 def test_a_massless_root_comes_before_what_follows_from_it(write, engine, library, name):
     verdict = _judged(write("r.urdf", MASSLESS), engine)
     first, *others = [fault for fault in verdict.faults if fault.fails]
-    assert (first.kind, first.name) == ("no-mass", "base")
+    assert (first.code, first.name) == ("no-mass", "base")
     assert name in first.cause
     for fault in others:
         assert "the root, link 'base', has no mass" in fault.cause
@@ -58,7 +58,7 @@ def test_a_massless_root_comes_before_what_follows_from_it(write, engine, librar
 
 def test_one_mass_several_times_too_large_is_seen():
     verdict = _judged(FIXTURES / "rules" / "mass-out-of-line" / "bad.urdf", "pybullet")
-    (fault,) = [fault for fault in verdict.faults if fault.kind == "mass-out-of-line"]
+    (fault,) = [fault for fault in verdict.faults if fault.code == "mass-out-of-line"]
     assert fault.fails
     assert fault.rule == "mass-out-of-line"
     assert fault.name in fault.message

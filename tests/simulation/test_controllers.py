@@ -267,11 +267,11 @@ def test_a_weak_p_sags_as_far_as_statics_says(arm, write, engine):
     expected = brentq(lambda q: 20 * q - 2 * 9.81 * 0.5 * math.cos(q), 0, 2)
     assert run.recording.positions[-1, 0] == pytest.approx(expected, rel=0.01)
     assert abs(run.recording.efforts[-1, 0]) == pytest.approx(20 * expected, rel=0.01)
-    (fault,) = (fault for fault in verdict.faults if fault.kind == "sags")
+    (fault,) = (fault for fault in verdict.faults if fault.code == "sags")
     assert fault.fails
     assert "to hold it takes 9.81 N·m" in fault.cause
     assert "i does nothing without an i_clamp" in fault.cause
-    assert (fault.place.path, fault.place.line) == ("c.yaml", 5)
+    assert (fault.location.path, fault.location.line) == ("c.yaml", 5)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -286,7 +286,7 @@ def test_an_integral_with_a_clamp_holds(arm, write, engine):
 def test_gains_beyond_what_the_timestep_bears_are_said_to_be(arm, write, engine):
     path = write("c.yaml", ROS1.format(gains="{p: 100, i: 0, d: 2000}"))
     _, verdict = _held(arm(damping=0), path, engine, duration=2.0)
-    (fault,) = (fault for fault in verdict.faults if fault.kind == "unstable-gains")
+    (fault,) = (fault for fault in verdict.faults if fault.code == "unstable-gains")
     assert "d of 2000 is too high: it moves 0.52 kg·m² alone" in fault.cause
     assert "bears a d below 520" in fault.cause
 
@@ -307,7 +307,7 @@ def test_a_joint_without_a_controller_is_limp(arm, write, engine):
     run, verdict = _held(arm(damping=5), path, engine)
     assert run.recording.positions[-1, 0] == pytest.approx(math.pi / 2, abs=0.1)
     assert not run.recording.efforts.any()
-    assert {"not-controlled"} <= {fault.kind for fault in verdict.faults}
+    assert {"not-controlled"} <= {fault.code for fault in verdict.faults}
 
 
 def test_the_command_takes_a_file(urdftool, write):

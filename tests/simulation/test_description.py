@@ -21,10 +21,10 @@ TENSORS = {
 def test_a_defect_of_the_file_has_the_sentence_of_lint(write, rule):
     path = write("r.urdf", body(BOX, 2, TENSORS[rule]))
     (fault,) = [fault for fault in simulated(path).faults if fault.fails]
-    (finding,) = [one for one in check(load(path)) if one.rule == rule]
-    assert fault.kind in ("impossible-inertia", "inertia-too-large")
+    (finding,) = [one for one in check(load(path)) if one.code == rule]
+    assert fault.code in ("impossible-inertia", "inertia-too-large")
     assert (fault.rule, fault.message) == (rule, finding.message)
-    assert fault.place is not None
+    assert fault.location is not None
 
 
 @pytest.mark.parametrize("text", ['ignore = ["placeholder-inertia"]', "ignore = 3"])
@@ -32,7 +32,7 @@ def test_the_configuration_of_lint_does_not_change_a_verdict(write, text):
     path = write("r.urdf", body(BOX, 2, (1, 1, 1)))
     write("urdftool.toml", f"{text}\n")
     (fault,) = [fault for fault in simulated(path).faults if fault.fails]
-    assert (fault.kind, fault.rule) == ("inertia-too-large", "placeholder-inertia")
+    assert (fault.code, fault.rule) == ("inertia-too-large", "placeholder-inertia")
 
 
 def test_every_rule_of_the_purpose_has_a_kind():
@@ -48,5 +48,5 @@ def test_only_links_that_matter_in_the_run_are_told(write):
     light += '<box size="0.1 0.1 0.1"/></geometry></visual></link><joint name="j" type="fixed">'
     light += '<parent link="a"/><child link="b"/></joint></robot>'
     path = write("r.urdf", body(BOX, 20, (0.2, 0.3, 0.4)).replace("</robot>", light))
-    assert "placeholder-inertia" in {finding.rule for finding in check(load(path))}
+    assert "placeholder-inertia" in {finding.code for finding in check(load(path))}
     assert [fault for fault in simulated(path).faults if fault.fails] == []

@@ -80,7 +80,7 @@ def test_a_root_without_mass_is_the_first_cause(write):
     assert "link 'base' has no mass" in comparison.causes[0]
     assert 1 < len(comparison.causes) <= MOST_CAUSES
     for fault in comparison.faults(robot):
-        assert (fault.kind, fault.fails) == ("engines-differ", True)
+        assert (fault.code, fault.fails) == ("engines-differ", True)
         assert fault.cause == "; ".join(comparison.causes)
 
 

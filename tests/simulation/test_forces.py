@@ -79,7 +79,7 @@ def test_an_arm_on_a_fixed_base_holds_its_weight_and_no_more(write, engine):
         {"pan": 0.0, "elbow": -G * (2 * 0.2 + 0.5 * 0.4), "slide": G * 0.5}, rel=0.01, abs=0.02
     )
     assert verdict.rest.supports == ()
-    assert {fault.kind for fault in verdict.faults} <= {"parts-collide"}
+    assert {fault.code for fault in verdict.faults} <= {"parts-collide"}
 
 
 @pytest.mark.parametrize("engine", ENGINES)

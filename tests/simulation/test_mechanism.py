@@ -75,7 +75,7 @@ def _inside(write, text, one, other):
     (fault,) = [
         fault
         for fault in verdict.faults
-        if fault.kind == "parts-collide" and one in fault.message and other in fault.message
+        if fault.code == "parts-collide" and one in fault.message and other in fault.message
     ]
     return fault
 

@@ -32,4 +32,4 @@ def test_what_engine_leaves_a_loop_open(tmp_path, engine, said):
     )
     robot = load(path)
     (run,) = simulate(robot, Settings(duration=0.1), engine=engine)
-    assert [fault.name for fault in judge(robot, run).faults if fault.kind == "loop-open"] == said
+    assert [fault.name for fault in judge(robot, run).faults if fault.code == "loop-open"] == said

@@ -26,7 +26,7 @@ def joint(name, kind, parent, child, xyz, axis="0 0 1", limit="", more=""):
 
 
 def fault(verdict, kind):
-    return next(fault for fault in verdict.faults if fault.kind == kind)
+    return next(fault for fault in verdict.faults if fault.code == kind)
 
 
 @pytest.fixture
@@ -85,7 +85,7 @@ def test_wheels_that_turned_on_the_level_do_not_sag(write):
     verdict = simulated(path, start_rpy=(0.03, 0.06, 0.2))
     assert abs(verdict.run.recording.positions[-1]).max() > 0.05  # they did turn
     assert kinds(verdict) == set()
-    assert "near-effort-limit" not in {fault.kind for fault in verdict.faults}
+    assert "near-effort-limit" not in {fault.code for fault in verdict.faults}
 
 
 def test_brakes_that_are_too_weak_for_a_slope_are_said(write):
@@ -140,7 +140,7 @@ def test_what_a_limp_joint_takes_into_another_is_no_fault_of_shapes(write):
     verdict = simulated(write("arm.urdf", f'<robot name="r">{text}</robot>'), hold="none")
     assert "collapsed" in kinds(verdict)
     assert "parts-collide" not in kinds(verdict)
-    said = [f for f in verdict.faults if f.kind == "parts-collide" and "'table'" in f.message]
+    said = [f for f in verdict.faults if f.code == "parts-collide" and "'table'" in f.message]
     assert said
     assert said[0].cause.startswith("joint 'lean' took them there")
     assert said[0].rule == ""
@@ -191,7 +191,7 @@ def test_wheels_that_are_seen_in_the_floor_are_no_wheels(write, written, rule):
     if rule is None:
         assert "no-contact-shape" not in kinds(verdict)
         return
-    said = [fault for fault in verdict.faults if fault.kind == "no-contact-shape"]
+    said = [fault for fault in verdict.faults if fault.code == "no-contact-shape"]
     assert {fault.name for fault in said} == {"w0", "w1", "w2", "w3"}
     assert {fault.rule for fault in said} == {rule}
 

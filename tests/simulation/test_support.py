@@ -74,7 +74,7 @@ def test_a_robot_beside_its_support_is_not_supported(write):
     assert _support(run, robot) == []
     far = _moved(run.recording.carrying, (0.05, 0.0))
     (fault,) = _support(run, robot, carrying=far)
-    assert (fault.kind, fault.fails, fault.fell) == ("unsupported", True, True)
+    assert (fault.code, fault.fails, fault.fell) == ("unsupported", True, True)
     assert "50 mm outside the support polygon of 'a'" in fault.message
 
 
@@ -84,7 +84,7 @@ def test_contacts_inside_the_robot_do_not_carry_it(write):
     inner = Contact("left_wheel", "base_link", 0.055, 0.0, (0.0, 0.0, 0.0))
     changes = {"carried": 0.5 * run.recording.carried, "contacts": [inner]}
     (fault,) = _support(run, load(path), **changes)
-    assert fault.kind == "unsupported"
+    assert fault.code == "unsupported"
     assert "N of the" in fault.message
     assert "'left_wheel' and 'base_link' (55 mm)" in fault.cause
 
@@ -100,14 +100,14 @@ def test_wheels_in_the_air_are_reported(write):
 
 def test_a_chassis_on_the_ground_is_a_remark(write):
     verdict = _judged(write, _rover(0, 0, chassis=0.05))
-    (fault,) = [fault for fault in verdict.faults if fault.kind == "body-on-ground"]
+    (fault,) = [fault for fault in verdict.faults if fault.code == "body-on-ground"]
     assert (fault.name, fault.fails) == ("base_link", False)
 
 
 def test_a_rover_on_wheels_and_caster_has_neither(write):
     verdict = _judged(write, _rover(0, 0))
     assert not {"wheels-off-ground", "body-on-ground", "unsupported"} & {
-        fault.kind for fault in verdict.faults
+        fault.code for fault in verdict.faults
     }
 
 
@@ -125,5 +125,5 @@ def test_a_collision_without_extent_is_left_out_as_in_an_export(write, engine):
     (run,) = simulate(robot, Settings(), engine=engine)
     verdict = judge(robot, run)
     (fault,) = verdict.faults
-    assert (fault.kind, fault.fails) == ("no-extent", False)
+    assert (fault.code, fault.fails) == ("no-extent", False)
     assert run.recording.poses[-1, 0, 2] == pytest.approx(0.05, abs=1e-3)

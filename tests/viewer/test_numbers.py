@@ -51,7 +51,7 @@ def test_a_finding_is_on_the_links_it_is_about():
     robot = load(FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro")
     findings = check(robot)
     found = by_link(robot, findings)
-    rules = {link: {finding.rule for finding in those} for link, those in found.items()}
+    rules = {link: {finding.code for finding in those} for link, those in found.items()}
     # a joint's finding is on its child; of one macro called thrice each instance is on its link
     assert "unknown-attribute" in rules["forearm"]
     assert "mesh-not-found" in rules["tool"]

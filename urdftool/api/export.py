@@ -207,8 +207,8 @@ def check_plugins(robot: Robot, target: str) -> list[Finding]:
     Returns:
         Findings as warnings, each with its place in the description.
     """
+    from ..diagnostic import Severity
     from ..errors import ConfigError
-    from ..finding import Severity
     from ..lint.run import check
 
     if robot.source is None or not robot.plugins:
@@ -221,7 +221,7 @@ def check_plugins(robot: Robot, target: str) -> list[Finding]:
 
 
 def _is_of_plugin(robot: Robot, finding: Finding) -> bool:
-    place = finding.place
+    place = finding.location
     return any(
         plugin.place.path == place.path and plugin.element.start <= place.start < plugin.element.end
         for plugin in robot.plugins

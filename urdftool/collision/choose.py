@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..diagnostic import Diagnostic, warning
 from ..errors import MeshError
 from ..geometry.topology import body_labels, edges_of
 from .convex import capped_hull, thickened
@@ -46,13 +47,13 @@ class Choice:
         method: ``"primitive"``, ``"hull"``, ``"coacd"`` or ``"simplify"``.
         pieces: Pieces in the mesh's frame.
         measures: Their quality.
-        notes: Complete sentences on failed attempts.
+        notes: Failed attempts and substitutes.
     """
 
     method: str
     pieces: list[Piece]
     measures: Measures
-    notes: tuple[str, ...] = ()
+    notes: tuple[Diagnostic, ...] = ()
 
 
 def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
@@ -68,7 +69,7 @@ def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
         MissingDependency: A library that the method requires is not installed.
     """
     target = Target(surface, cores)
-    notes: list[str] = []
+    notes: list[Diagnostic] = []
     if _is_flat(surface):
         return _plate(surface, target)
     if settings.method != "auto":
@@ -110,11 +111,12 @@ def _plate(surface: Prepared, target: Target) -> Choice:
     thickness = PLATE * surface.size
     vertices, faces = capped_hull(thickened(surface.vertices, thickness), 64)
     pieces = [mesh_piece(vertices, faces)]
-    note = f"The mesh is flat; its collision is its outline, {thickness * 1000:.3g} mm thick."
+    message = f"The mesh is flat; its collision is its outline, {thickness * 1000:.3g} mm thick."
+    note = warning("flat-mesh", message, thickness=thickness)
     return Choice("hull", pieces, measure(target, pieces), (note,))
 
 
-def _primitives(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _primitives(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield the primitives with the smallest largest distance from the visual."""
     even = target.even
     fits = fit_primitives(even)
@@ -123,7 +125,7 @@ def _primitives(target: Target, settings: Settings, notes: list[str]) -> Iterato
         yield Choice("primitive", [piece], measure(target, [piece]))
 
 
-def _hulls(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _hulls(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield one hull: with as few vertices as the error allows, then with as many as permitted."""
     points = target.surface.vertices
     tolerances = [0.0]
@@ -138,7 +140,7 @@ def _hulls(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
             return
 
 
-def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _bodies(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield one hull per exterior body, if there are several but not too many."""
     surface = target.surface
     labels = body_labels(len(surface.faces), edges_of(surface.faces))
@@ -166,7 +168,7 @@ def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         yield Choice("hull", pieces, measure(target, pieces))
 
 
-def _sheets(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _sheets(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield one plate per flat side of an open mesh, if there are not too many."""
     surface = target.surface
     if surface.closed:
@@ -185,7 +187,7 @@ def _sheets(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
     yield Choice("hull", pieces, measure(target, pieces))
 
 
-def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _ladder(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield CoACD results with finer and finer cuts, within the permitted number of pieces."""
     cutter = Cutter(target, settings, few=settings.max_hulls or FEW_HULLS)
     wanted = settings.max_error * target.size
@@ -193,7 +195,8 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         try:
             made = cutter.cut(factor * wanted, wanted, last=factor == LADDER[-1])
         except DecompositionError as error:
-            notes.append(f"{error.message}, at {factor:g} times the error; it was left out.")
+            message = f"{error.message}, at {factor:g} times the error; it was left out."
+            notes.append(warning("coacd-failed", message, factor=factor, **error.data))
             break
         finally:
             notes += cutter.notes
@@ -208,7 +211,7 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         yield Choice("coacd", *coarse)
 
 
-def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _coacd(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield CoACD's result at its threshold; a coarser one if it fails, and one hull if both do."""
     cutter = Cutter(target, settings, most=settings.max_hulls)
     for threshold in (settings.threshold, settings.threshold * _COARSER):
@@ -216,28 +219,30 @@ def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
         try:
             made = cutter.cut(wanted, wanted)
         except DecompositionError as error:
-            notes.append(f"{error.message}, at a threshold of {threshold:g}.")
+            message = f"{error.message}, at a threshold of {threshold:g}."
+            notes.append(warning("coacd-failed", message, threshold=threshold, **error.data))
             continue
         assert made is not None
         notes += cutter.notes
         yield Choice("coacd", *made)
         return
-    notes.append("One convex hull was taken instead.")
+    notes.append(warning("hull-instead", "One convex hull was taken instead."))
     yield from _hulls(target, settings, notes)
 
 
-def _simplified(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+def _simplified(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
     """Yield the mesh with fewer triangles."""
     surface = target.surface
     vertices, faces = decimate(surface.vertices, surface.faces, settings.max_triangles)
     pieces = [mesh_piece(vertices, faces, convex=False)]
     felt = hull_error(target, pieces[0])
     if felt > settings.max_error:
-        notes.append(f"Engines that take the hull of a moving mesh touch it with {felt:.2%} error.")
+        message = f"Engines that take the hull of a moving mesh touch it with {felt:.2%} error."
+        notes.append(warning("hull-of-moving-mesh", message, error=felt))
     yield Choice("simplify", pieces, measure(target, pieces))
 
 
-_METHODS: dict[str, Callable[[Target, Settings, list[str]], Iterator[Choice]]] = {
+_METHODS: dict[str, Callable[[Target, Settings, list[Diagnostic]], Iterator[Choice]]] = {
     "primitive": _primitives,
     "hull": _hulls,
     "coacd": _coacd,

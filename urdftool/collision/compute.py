@@ -9,10 +9,11 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from ..diagnostic import Diagnostic, Severity
 from ..errors import MeshError, UrdftoolError
 from ..source.description import GltfUp
 from .piece import Piece, piece_of
-from .settings import KILLED, Settings
+from .settings import Settings
 
 Vector = tuple[float, float, float]
 
@@ -43,7 +44,7 @@ class Result:
         pieces: Pieces in the mesh's frame.
         measures: Quality, as :meth:`Measures.as_dict`.
         before: ``triangles`` and ``vertices`` of the mesh.
-        notes: Complete sentences for the user.
+        diagnostics: Repairs of the mesh (info), and failed attempts and substitutes (warning).
         seconds: Computation time [s].
         cached: Whether it comes from the cache.
     """
@@ -52,9 +53,14 @@ class Result:
     pieces: list[Piece]
     measures: dict[str, Any]
     before: dict[str, int]
-    notes: tuple[str, ...]
+    diagnostics: tuple[Diagnostic, ...]
     seconds: float
     cached: bool = False
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Return the messages of the diagnostics: complete sentences."""
+        return tuple(found.message for found in self.diagnostics)
 
     @property
     def error(self) -> float:
@@ -64,7 +70,7 @@ class Result:
     @property
     def lasting(self) -> bool:
         """Tell whether the result is reproducible, as no process was killed from outside."""
-        return not any(note.startswith(KILLED) for note in self.notes)
+        return not any(found.data.get("cause") == "killed" for found in self.diagnostics)
 
     def as_bytes(self) -> bytes:
         """Serialize the result for :func:`result_of`."""
@@ -73,7 +79,10 @@ class Result:
             "pieces": [piece.as_dict() for piece in self.pieces],
             "measures": self.measures,
             "before": self.before,
-            "notes": list(self.notes),
+            "diagnostics": [
+                [found.code, found.severity, found.message, dict(found.data)]
+                for found in self.diagnostics
+            ],
             "seconds": self.seconds,
         }
         return json.dumps(table, separators=(",", ":")).encode()
@@ -92,7 +101,10 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
             [piece_of(piece) for piece in table["pieces"]],
             table["measures"],
             table["before"],
-            tuple(table["notes"]),
+            tuple(
+                Diagnostic(code, Severity(severity), message, data=data)
+                for code, severity, message, data in table["diagnostics"]
+            ),
             float(table["seconds"]),
             cached,
         )

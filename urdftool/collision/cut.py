@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
+from ..diagnostic import Diagnostic, warning
 from .convex import capped_hull
 from .decompose import Budget, DecompositionError, decompose, divided, solid_of
 from .measure import Measures, Target, measure, piece_distances
@@ -57,7 +58,7 @@ class Cutter:
         self.few = few
         self.hopeless = False
         self.budget = Budget(settings.time_limit)
-        self.notes: list[str] = []
+        self.notes: list[Diagnostic] = []
         self._coarse: tuple[list[Piece], float] | None = None
 
     @cached_property
@@ -174,7 +175,8 @@ class Cutter:
                     cores=self.target.cores,
                 )
             except DecompositionError as error:
-                self.notes.append(f"{error.message}; a piece too far off was not cut again.")
+                message = f"{error.message}; a piece too far off was not cut again."
+                self.notes.append(warning("piece-not-cut", message, **error.data))
                 break
             if parts:
                 found.remove(pieces[index])

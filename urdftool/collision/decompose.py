@@ -23,7 +23,6 @@ from .decimate import decimate
 from .measure import Target
 from .piece import Piece, mesh_piece
 from .remesh import common, remesh
-from .settings import KILLED
 from .surface import Prepared, prepare
 
 TRIANGLES = 2000
@@ -58,7 +57,7 @@ class Budget:
             DecompositionError: No time remains.
         """
         if self.used >= self.seconds:
-            raise DecompositionError(_TOO_LONG)
+            raise DecompositionError(_TOO_LONG, data={"cause": "time limit"})
         return self.seconds - self.used
 
     def spend(self, seconds: float) -> None:
@@ -182,7 +181,8 @@ def _hulls(parts: list[Points], max_vertices: int) -> list[Piece]:
             continue
         pieces.append(mesh_piece(vertices, faces))
     if not pieces:
-        raise DecompositionError("CoACD gave no piece with a volume")
+        message = "CoACD gave no piece with a volume"
+        raise DecompositionError(message, data={"cause": "no piece"})
     # deterministic order, independent of the search
     pieces.sort(key=lambda piece: (-len(piece.faces), *piece.vertices.mean(axis=0).round(9)))
     return pieces
@@ -218,7 +218,7 @@ def run_child(
                 time_limit=limit * _SLOWEST + 10, processor_limit=limit + 1,
             )  # fmt: skip
     except ProcessTimeout:
-        raise DecompositionError(_TOO_LONG) from None
+        raise DecompositionError(_TOO_LONG, data={"cause": "time limit"}) from None
     except ProcessDied as error:
         in_time = _children_time() - begin < limit
         raise _death(error, in_time=in_time) from None
@@ -228,11 +228,13 @@ def run_child(
 def _death(error: ProcessDied, *, in_time: bool) -> DecompositionError:
     code = error.exit_code
     if code == -getattr(signal, "SIGKILL", 9) and in_time:
-        return DecompositionError(KILLED)
+        message = "CoACD was killed, perhaps for want of memory"
+        return DecompositionError(message, data={"cause": "killed"})
     if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), getattr(signal, "SIGKILL", 9)):
-        return DecompositionError(_TOO_LONG)
+        return DecompositionError(_TOO_LONG, data={"cause": "time limit"})
     last = error.output[-1].strip() if error.output else ""
     if any("Assertion" in line for line in error.output):
         last = "an assertion of its own failed"
     details = f": {last[:120]}" if last else ""
-    return DecompositionError(f"CoACD died ({error.message}{details})")
+    message = f"CoACD died ({error.message}{details})"
+    return DecompositionError(message, data={"cause": "died"})

@@ -11,9 +11,6 @@ METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
 FEW_HULLS = 32
 """Largest number of convex pieces that ``auto`` creates from a mesh."""
 
-KILLED = "CoACD was killed, perhaps for want of memory"
-"""Note if a process was killed from outside, so that the result is not reproducible."""
-
 
 @dataclass(frozen=True)
 class Settings:

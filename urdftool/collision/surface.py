@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..diagnostic import Diagnostic, remark
 from ..errors import MeshError
 from ..geometry.load import FARTHEST, load_mesh
 from ..geometry.mesh import Faces, Points
@@ -34,7 +35,7 @@ class Prepared:
         points: Number of distinct vertices in the file.
         closed: Whether the surface bounds a solid.
         size: Diagonal [m] of the bounding box, to which errors are relative.
-        notes: Complete sentences on defects and repairs.
+        notes: Defects and repairs.
     """
 
     vertices: Points
@@ -43,7 +44,7 @@ class Prepared:
     points: int
     closed: bool
     size: float
-    notes: tuple[str, ...]
+    notes: tuple[Diagnostic, ...]
 
     @property
     def corners(self) -> Points:
@@ -71,13 +72,15 @@ def read_surface(
         MeshError: It cannot be read, or has no face with an area.
     """
     mesh = load_mesh(path, scale, gltf_up=gltf_up)
-    prepared = prepare(mesh.vertices, mesh.faces, notes=mesh.note_texts)
+    prepared = prepare(
+        mesh.vertices, mesh.faces, notes=[remark(note.code, note.message) for note in mesh.notes]
+    )
     if prepared is None:
         raise MeshError("all faces of the mesh are degenerate; none has an area", path=path)
     return prepared
 
 
-def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Prepared | None:
+def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ()) -> Prepared | None:
     """Merge points, drop collapsed or duplicate faces, and make the winding consistent.
 
     Args:
@@ -115,11 +118,14 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
     edges = edges_of(kept)
     closed = edges.cycle
     if dropped:
-        said.append(f"{dropped} degenerate faces were dropped.")
+        message = f"{dropped} degenerate faces were dropped."
+        said.append(remark("degenerate-faces", message, count=dropped))
     if twice:
-        said.append(f"{twice} faces written twice were dropped.")
+        message = f"{twice} faces written twice were dropped."
+        said.append(remark("repeated-faces", message, count=twice))
     if turned:
-        said.append(f"{turned} faces were turned to agree with their neighbours.")
+        message = f"{turned} faces were turned to agree with their neighbours."
+        said.append(remark("turned-faces", message, count=turned))
     used = np.unique(kept)
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -129,9 +135,10 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
     )
     if closed and prepared.volume < 0:
         kept = np.ascontiguousarray(kept[:, ::-1])
-        said.append("The mesh is inside out; it was turned.")
+        said.append(remark("inside-out", "The mesh is inside out; it was turned."))
     if not closed:
-        said.append(f"The mesh is open ({edges.open_count} edges have an odd number of faces).")
+        message = f"The mesh is open ({edges.open_count} edges have an odd number of faces)."
+        said.append(remark("open-mesh", message, edges=edges.open_count))
     return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(said))
 
 

@@ -128,7 +128,7 @@ def report_written(
     Returns:
         The exit code: 1 if a property differs without a reported loss.
     """
-    from ..finding import Severity
+    from ..diagnostic import Severity
     from ..formats.check import is_faithful
     from ..formats.common.loss_report import format_lines, merge_instances
 

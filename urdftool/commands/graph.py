@@ -85,8 +85,8 @@ def command(
             write_pair(console, model, figure, path, output, pencil)
         else:
             write_one(console, model, figure, faults, output or "-", suffix, pencil)
-    for message, fault in first_of_each(faults).items():
-        console.note(f"{fault.place}: {message}")
+    for fault in first_of_each(faults):
+        console.note(f"{fault.location}: {fault.message}")
     return int(bool(faults) or (linted and _is_marked(figure)))
 
 
@@ -128,7 +128,7 @@ def _figure(
 
 
 def _is_marked(figure: Figure) -> bool:
-    from ..finding import Severity
+    from ..diagnostic import Severity
 
     nodes = [finding for node in figure.nodes.values() for finding in node.findings]
     return any(f.severity >= Severity.WARNING for f in (*nodes, *figure.findings))

@@ -152,7 +152,7 @@ def _say(console: Console, file: str, body: MeshBody, result: Any, style: str) -
     if style != "table":
         console.note(summary(file, result))
         console.note(f"  method: {_method(body)}")
-    for note in body.notes:
+    for note in body.note_texts:
         console.note(f"  {note}")
     if not body.reliable:
         console.say(

@@ -53,7 +53,7 @@ def command(
     path, arguments = robot
     model = read_lax(console, path, arguments, package, package_path)
     for finding in validate(model, "links"):
-        console.note(f"{finding.place}: {finding.message}")
+        console.note(f"{finding.location}: {finding.message}")
     with Progress(console, "meshes") as progress:
         measured = measure(model, progress)
     counts = count(model)

@@ -123,11 +123,10 @@ def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds)
     """Print which fixes could not be applied, and which options enable others."""
     outside: Counter[str] = Counter()
     for report in reports:
+        outside.update(where for _, where in report.outside)
         for finding, reason in report.unmended:
-            if "outside of" in reason:
-                outside[reason.removeprefix("it is written in ")] += 1
-            else:
-                console.note(f"{finding.place}: not fixed [{finding.rule}]: {reason}", level=1)
+            place, rule = finding.location, finding.code
+            console.note(f"{place}: not fixed [{rule}]: {reason}", level=1)
     for where, count in outside.items():
         what = "1 fix was" if count == 1 else f"{count} fixes were"
         console.note(f"{what} not applied to {where}")
@@ -144,7 +143,7 @@ def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds)
         if finding.fix.rewrites and not kinds.meshes:
             needed.append("--fix-meshes")
         if needed:
-            key = finding.rule, finding.place.path, finding.place.start
+            key = finding.code, finding.location.path, finding.location.start
             left.setdefault(" ".join(needed), set()).add(key)
     for options, found in left.items():
         have = "1 more finding has" if len(found) == 1 else f"{len(found)} more findings have"

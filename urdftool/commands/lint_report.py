@@ -51,7 +51,7 @@ class Wanted:
 
 def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
     """Print the report of a run, and return the exit code."""
-    from ..finding import Severity
+    from ..diagnostic import Severity
     from ..lint.group import together
     from ..lint.merge import gather
     from ..output import check_targets, write_result

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from ..diagnostic import Severity
 from ..errors import ModelError
-from ..finding import Finding, Severity
+from ..finding import Finding
 from ..lint.validate import validate
 from ..model.elements import Robot
 from ..model.world import with_world
@@ -34,7 +35,7 @@ class Refused(ModelError):  # noqa: N818 -- reads as what happened
     def __init__(self, findings: Sequence[Finding]) -> None:
         """Take the findings, of which there is at least one."""
         first, *others = findings
-        super().__init__(first.message, at=first.place, notes=[str(other) for other in others])
+        super().__init__(first.message, at=first.location, notes=[str(other) for other in others])
         self.findings = list(findings)
 
 
@@ -49,7 +50,7 @@ def refuse(findings: Iterable[Finding], *, force: bool, fatal: frozenset[str] = 
     Raises:
         Refused: With those that forbid it.
     """
-    forbidding = [f for f in findings if not force or f.rule in fatal]
+    forbidding = [f for f in findings if not force or f.code in fatal]
     if forbidding:
         raise Refused(forbidding)
 
@@ -74,7 +75,7 @@ def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
 
 def identity(finding: Finding) -> tuple[str, Place, str]:
     """Get what two findings about one defect of a robot have in common."""
-    return finding.rule, finding.place, finding.name
+    return finding.code, finding.location, finding.name
 
 
 def defect(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..model.elements import Robot
 from ..source.location import Place
 

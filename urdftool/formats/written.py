@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..source.location import Place
 from .check import Check
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..diagnostic import Diagnostic, warning
 from .mesh import Faces, Points
 
 WELD_TOLERANCE = 1e-6
@@ -57,7 +58,7 @@ class Edges:
         return bool(np.array_equal(self.forward, self.backward))
 
 
-def unit_suspicion(extent: float) -> str | None:
+def unit_suspicion(extent: float) -> Diagnostic | None:
     """Explain why the size of one link's mesh suggests a wrong unit; None if it does not.
 
     Of 4,325 meshes in public robots, all but ten have an extent below 2.03 m. Those ten are above
@@ -67,14 +68,18 @@ def unit_suspicion(extent: float) -> str | None:
         extent: Longest edge of the scaled mesh's bounding box [m].
     """
     if extent > LARGE_EXTENT:
-        return (
+        return warning(
+            "mesh-in-millimeters",
             f"The mesh is {extent:.4g} m long, so its unit is probably the millimetre; "
-            'scale="0.001 0.001 0.001" would make it a link\'s size.'
+            'scale="0.001 0.001 0.001" would make it a link\'s size.',
+            extent=extent,
         )
     if 0 < extent < SMALL_EXTENT:
-        return (
+        return warning(
+            "mesh-scaled-twice",
             f"The mesh is {extent:.4g} m long, so it was probably scaled to metres twice; without "
-            "its scale it would be a link's size."
+            "its scale it would be a link's size.",
+            extent=extent,
         )
     return None
 

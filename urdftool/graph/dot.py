@@ -10,7 +10,7 @@ import os
 import re
 from collections.abc import Iterator
 
-from ..finding import Severity
+from ..diagnostic import Severity
 from .figure import Edge, Figure, Node
 from .words import shown, visible
 
@@ -108,7 +108,7 @@ def _detailed(figure: Figure, folder: str | None) -> Iterator[str]:
 def _caption(figure: Figure) -> Iterator[str]:
     """Yield a caption with the findings that concern no node."""
     if figure.findings:
-        said = list(dict.fromkeys(f"{f.severity.label}: {f.rule}" for f in figure.findings))
+        said = list(dict.fromkeys(f"{f.severity.label}: {f.code}" for f in figure.findings))
         color = COLORS[max(finding.severity for finding in figure.findings)]
         label = _several([shown(figure.name), *said])
         yield f'graph [label={label}, fontcolor="{color}"];'
@@ -175,7 +175,7 @@ def _links(node: Node, folder: str | None) -> dict[str, str]:
 
     place = node.place
     lines = [f"{node.kind} {node.name}", *node.lines, *node.faults]
-    lines += [f"{f.severity.label}: {f.message} [{f.rule}]" for f in node.findings]
+    lines += [f"{f.severity.label}: {f.message} [{f.code}]" for f in node.findings]
     found = {}
     if place is not None:
         lines.insert(1, f"{place.path}:{place.line}")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from dataclasses import dataclass
 
+from ..diagnostic import Diagnostic, Severity
 from ..lint.validate import find_problems
 from ..model.elements import Joint, Link, Robot
 from ..rules.rule import Problem
@@ -12,22 +13,23 @@ from ..source.location import Place
 from .words import visible
 
 
-class Fault(NamedTuple):
-    """Something that keeps a robot from being a tree.
+@dataclass(slots=True)
+class Fault(Diagnostic):
+    """Defect that keeps a robot from being a tree.
 
     Attributes:
-        part: The link or joint it is about.
-        mark: A few words that stand on its node.
-        message: The sentence of the rule, with what would be right.
-        place: Where it is written.
-        rule: The rule of ``lint`` that reports it; empty for what follows from other faults.
+        code: Rule of ``lint`` that reports it; ``detached`` for what follows from other faults.
+        message: Sentence of the rule.
+        location: Location in the source.
+        part: The link or joint that it concerns.
+        mark: A few words for its node.
+        problem: Problem of the rule; several links may share it. None for ``detached``.
     """
 
+    location: Place
     part: Link | Joint
     mark: str
-    message: str
-    place: Place
-    rule: str = ""
+    problem: Problem | None = None
 
 
 def find_faults(robot: Robot) -> Iterator[Fault]:
@@ -50,21 +52,28 @@ def find_faults(robot: Robot) -> Iterator[Fault]:
     yield from sorted(ends, key=lambda f: (order[id(f.part)], f.mark.endswith("child")))
 
 
-def first_of_each(faults: Iterable[Fault]) -> dict[str, Fault]:
-    """Faults by their message, the first where several links share one."""
-    found: dict[str, Fault] = {}
+def first_of_each(faults: Iterable[Fault]) -> list[Fault]:
+    """Return the faults, only the first of those that share a problem."""
+    found: dict[int, Fault] = {}
     for fault in faults:
-        found.setdefault(fault.message, fault)
-    return found
+        found.setdefault(id(fault.problem or fault), fault)
+    return list(found.values())
+
+
+def _fault(
+    rule: str, part: Link | Joint, mark: str, problem: Problem, message: str, place: Place
+) -> Fault:
+    return Fault(
+        rule, Severity.ERROR, visible(message), place, part, mark, problem, data=problem.data
+    )
 
 
 def _roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
     if problems:
-        message, roots = visible(problems[0].group), robot.tree.roots
+        problem, roots = problems[0], robot.tree.roots
         for number, link in enumerate(roots, 1):
-            yield Fault(
-                link, f"root {number} of {len(roots)}", message, link.place, "multiple-roots"
-            )
+            mark = f"root {number} of {len(roots)}"
+            yield _fault("multiple-roots", link, mark, problem, problem.group, link.place)
 
 
 def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
@@ -76,15 +85,16 @@ def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
             reported.update(names)
             for name in names:
                 link = robot.link[name]
-                message = visible(problem.message)
-                yield Fault(link, "in a loop", message, link.place, "detached-cycle")
+                yield _fault(
+                    "detached-cycle", link, "in a loop", problem, problem.message, link.place
+                )
     for link in robot.tree.detached:
         if link.name not in reported:
             message = (
                 f"link '{visible(link.name)}' is connected to no root; the joints above it end in "
                 "a loop or at a link that does not exist"
             )
-            yield Fault(link, "detached", message, link.place)
+            yield Fault("detached", Severity.ERROR, message, link.place, link, "detached")
 
 
 def _parents(problems: list[Problem]) -> Iterator[Fault]:
@@ -94,7 +104,7 @@ def _parents(problems: list[Problem]) -> Iterator[Fault]:
         if isinstance(link, Link) and link.name not in reported:
             reported.add(link.name)
             mark = f"{problem.data['parents']} parents"
-            yield Fault(link, mark, visible(problem.message), link.place, "multiple-parents")
+            yield _fault("multiple-parents", link, mark, problem, problem.message, link.place)
 
 
 def _twins(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
@@ -107,8 +117,8 @@ def _twins(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
         parts: list[Link | Joint] = [robot.link[name]] if kind == "link" else [*joints]
         mark = f"one of {len(same) + 1} of this name"
         for part in parts:
-            message, place = visible(same[0].message), same[0].element.place
-            yield Fault(part, mark, message, place, f"duplicate-{kind}-name")
+            place = same[0].element.place
+            yield _fault(f"duplicate-{kind}-name", part, mark, same[0], same[0].message, place)
 
 
 _END_MARKS = {
@@ -128,4 +138,4 @@ def _end(rule: str, problem: Problem) -> Iterator[Fault]:
         mark = _END_MARKS[rule].format(end=problem.data.get("end"))
         element = joint.parent_element if mark.endswith("parent") else joint.child_element
     place = joint.place if element is None else element.place
-    yield Fault(joint, mark, visible(problem.message), place, rule)
+    yield _fault(rule, joint, mark, problem, problem.message, place)

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..source.location import Place
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ class Node:
         yield from ((fault, Severity.ERROR) for fault in self.faults)
         counts: dict[tuple[Severity, str], int] = {}
         for finding in self.findings:
-            key = finding.severity, finding.rule
+            key = finding.severity, finding.code
             counts[key] = counts.get(key, 0) + 1
         for (severity, rule), count in sorted(counts.items(), key=lambda item: -item[0][0]):
             yield f"{severity.label}: {rule}" + (f" (×{count})" if count > 1 else ""), severity

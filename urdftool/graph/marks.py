@@ -35,7 +35,7 @@ def mark_findings(figure: Figure, findings: Iterable[Finding]) -> None:
         named.setdefault((node.kind, node.name), []).append(node)
     owners = _Owners(figure)
     for finding in findings:
-        place = finding.place
+        place = finding.location
         found: dict[str, Node] = {}
         for name, calls in ((finding.name, place.calls), *finding.others):
             nodes = named.get((finding.kind, name), []) if name else []

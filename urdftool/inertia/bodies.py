@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..diagnostic import Diagnostic
 from ..errors import MeshError
 from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
@@ -43,6 +44,13 @@ class MeshBody:
     triangles: int
     notes: tuple[str, ...]
     surface: bool = False
+    suspicion: Diagnostic | None = None
+    """Why the size suggests a wrong unit; None if it does not."""
+
+    @property
+    def note_texts(self) -> tuple[str, ...]:
+        """Return the notes and the message of the suspicion."""
+        return self.notes if self.suspicion is None else (*self.notes, self.suspicion.message)
 
     @property
     def measure(self) -> float:
@@ -88,11 +96,10 @@ class MeshBody:
         return found._with_suspicion()
 
     def _with_suspicion(self) -> MeshBody:
-        """Add a note if the size suggests a wrong unit."""
+        """Set the suspicion by the size."""
         from ..geometry.topology import unit_suspicion
 
-        hint = unit_suspicion(float((self.upper - self.lower).max()))
-        return replace(self, notes=(*self.notes, hint)) if hint else self
+        return replace(self, suspicion=unit_suspicion(float((self.upper - self.lower).max())))
 
     def as_dict(self) -> dict[str, Any]:
         """Return the JSON form of everything but the mass properties."""
@@ -104,7 +111,7 @@ class MeshBody:
             "hull_volume": self.hull_measure,
             "bodies": self.bodies,
             "triangles": self.triangles,
-            "notes": list(self.notes),
+            "notes": list(self.note_texts),
         }
 
 

@@ -124,7 +124,7 @@ def _wanted(item: LinkReview, filling: Filling, masses: Masses, robot: Robot) ->
     if item.mass is None or item.implied is None:
         left(f"its mass is unknown; give --mass {name}=KG, --density or --total-mass")
         return None
-    if any(fault.kind == "unreadable" for fault in item.faults) and not masses.recompute:
+    if any(fault.code == "unreadable" for fault in item.faults) and not masses.recompute:
         left("one of its numbers cannot be read; --all replaces it")
         return None
     try:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
+from ..diagnostic import Severity
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..geometry.convex_points import read_convex_points
@@ -55,7 +56,7 @@ def read_written(item: LinkReview) -> None:
             f"a number above {_LARGEST:g} or a mass below {1 / _LARGEST:g} is outside of "
             "the supported range"
         )
-        item.faults.append(Fault("unreadable", message, inertial.place))
+        item.faults.append(Fault("unreadable", Severity.ERROR, message, inertial.place))
         return
     item.written = link_inertia(item.link)
 
@@ -70,7 +71,7 @@ def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bo
     if text.startswith("{") and text.endswith("}"):
         hint = f"; xacro evaluates ${text} only in braces"
     message = f'{name}="{text}" is not a finite number{hint}'
-    item.faults.append(Fault("unreadable", message, element.attribute_place(name)))
+    item.faults.append(Fault("unreadable", Severity.ERROR, message, element.attribute_place(name)))
     return True
 
 
@@ -120,7 +121,7 @@ def judge(item: LinkReview, findings: Sequence[Finding], context: Context) -> No
     complete = item.body is not None and item.body.complete
     if complete and item.body is not None:
         item.comparison = compare(written, item.body.unit)
-    if all(fault.kind == "placeholder" for fault in item.faults):
+    if all(fault.code == "placeholder" for fault in item.faults):
         is_made_up = is_placeholder(item.link, inertial.inertia.six)
         _judge_box(item, inertial, context, only_com=is_made_up)
     if complete:
@@ -128,19 +129,19 @@ def judge(item: LinkReview, findings: Sequence[Finding], context: Context) -> No
     if item.faults and item.proposal is not None and item.proposal.kind == "copied":
         moment = f"{inertial.inertia.ixx:.6g}"
         message = f"the inertia is {moment} about every axis, that of its geometry is not"
-        item.faults = [Fault("copied", message, inertial.inertia.place)]
+        item.faults = [Fault("copied", Severity.ERROR, message, inertial.inertia.place)]
 
 
 def _add_finding(item: LinkReview, finding: Finding) -> None:
     """Add a finding as a fault, or as a note where it is harmless or no more than a remark."""
-    kind = FAULTS.get(finding.rule)
+    kind = FAULTS.get(finding.code)
     harmless = finding.data.get("is_harmless", False) or not finding.data.get("is_large", True)
     if kind is None or harmless:
         item.notes.append(finding.message)
         return
     if kind == "triangle" and item.written is not None and not is_positive(item.written.tensor):
         kind = "positivity"
-    item.faults.append(Fault(kind, finding.message, finding.place))
+    item.faults.append(Fault(kind, Severity.ERROR, finding.message, finding.location))
 
 
 def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_com: bool) -> None:
@@ -205,7 +206,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
         if not misfit.certain:
             item.notes.append(f"{message}; the mesh may not contain the heavy parts")
         else:
-            item.faults.append(Fault("box", message, inertial.place))
+            item.faults.append(Fault("box", Severity.ERROR, message, inertial.place))
 
 
 def _box_of_shapes(shapes: Sequence[Shape], at: Pose, context: Context) -> Bounds | None:

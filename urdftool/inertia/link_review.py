@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ..diagnostic import Diagnostic
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.typo_detection import Proposal
 from ..model.elements import Inertial, Link
@@ -13,20 +14,18 @@ from .comparison import Comparison
 from .pieces import LinkBody
 
 
-@dataclass(frozen=True)
-class Fault:
+@dataclass(slots=True)
+class Fault(Diagnostic):
     """A value that is invalid or physically inconsistent.
 
     Attributes:
-        kind: ``"unreadable"``, ``"mass"``, ``"positivity"``, ``"triangle"``, ``"box"``,
+        code: ``"unreadable"``, ``"mass"``, ``"positivity"``, ``"triangle"``, ``"box"``,
             ``"copied"`` or ``"placeholder"``.
         message: The fault and the remedy.
-        place: Location of the value.
+        location: Location of the value.
     """
 
-    kind: str
-    message: str
-    place: Place
+    location: Place
 
 
 @dataclass(eq=False)

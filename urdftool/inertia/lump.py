@@ -65,7 +65,7 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
             or immovable joint.
     """
     for finding in validate(robot, "inertia:lump"):
-        raise InertiaError(finding.message, at=finding.place)
+        raise InertiaError(finding.message, at=finding.location)
     root = robot.tree.roots[0].name
     check_positions(robot, pose)
     positions = with_mimics(robot, pose)

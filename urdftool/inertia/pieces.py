@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..diagnostic import Diagnostic
 from ..errors import UrdftoolError
 from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
@@ -55,6 +56,12 @@ class Piece:
     reliable: bool = True
     error: float = 0.0
     notes: tuple[str, ...] = ()
+    suspicion: Diagnostic | None = None
+
+    @property
+    def note_texts(self) -> tuple[str, ...]:
+        """Return the notes and the message of the suspicion."""
+        return self.notes if self.suspicion is None else (*self.notes, self.suspicion.message)
 
 
 @dataclass(frozen=True)
@@ -157,7 +164,16 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
         placed, lower, upper = _placed(shape, body.unit, (body.lower, body.upper))
         name = Path(geometry.filename).name
         return Piece(
-            shape, name, placed, lower, upper, body.method, body.reliable, body.error, body.notes
+            shape,
+            name,
+            placed,
+            lower,
+            upper,
+            body.method,
+            body.reliable,
+            body.error,
+            body.notes,
+            body.suspicion,
         )
     unit, half = _primitive(geometry)
     placed, lower, upper = _placed(shape, unit, (-half, half))

@@ -53,11 +53,11 @@ class Baseline:
 
     def entry(self, finding: Finding) -> Entry:
         """Return the entry of a finding in this file."""
-        path = finding.place.path
-        if finding.place.file.path != "<stdin>":
+        path = finding.location.path
+        if finding.location.file.path != "<stdin>":
             folder = os.path.dirname(os.path.abspath(self.path))
             path = os.path.relpath(os.path.abspath(path), folder).replace(os.sep, "/")
-        return Entry(path, finding.rule, finding.kind, finding.name, fingerprint(finding))
+        return Entry(path, finding.code, finding.kind, finding.name, fingerprint(finding))
 
     def file_of(self, entry: Entry) -> str:
         """Return the absolute path of the file of an entry."""

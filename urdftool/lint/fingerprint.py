@@ -1,8 +1,31 @@
-"""Identity of a finding that does not depend on line numbers."""
+"""Identity of a finding: one that does not depend on the location, and one for files of users."""
 
 from __future__ import annotations
 
+import re
+
+from ..diagnostic import freeze
 from ..finding import Finding
+
+Fact = tuple[object, ...]
+
+
+def fact_of(finding: Finding) -> Fact:
+    """Return what is equal for findings that report the same: rule, object and data.
+
+    The message is not part of it. A location is compared by the caller.
+    """
+    return finding.code, finding.kind, finding.name, finding.owner, freeze(finding.data)
+
+
+def word_at(finding: Finding) -> bytes:
+    """Return the name of the element or attribute at the location; empty if there is none."""
+    file, start, end, _ = finding.location
+    match = _WORD.match(file.data, start, end)
+    return match[0] if match else b""
+
+
+_WORD = re.compile(rb"<?[\w:.-]+")
 
 
 def fingerprint(finding: Finding) -> str:
@@ -14,15 +37,15 @@ def fingerprint(finding: Finding) -> str:
     """
     from hashlib import sha256
 
-    words = [finding.rule, finding.kind, finding.name, *_written(finding)]
+    words = [finding.code, finding.kind, finding.name, *_written(finding)]
     if finding.members:
-        words = [finding.rule, *sorted(map(fingerprint, finding.members))]
+        words = [finding.code, *sorted(map(fingerprint, finding.members))]
     return sha256("\0".join(words).encode("utf-8", "surrogateescape")).hexdigest()[:16]
 
 
 def _written(finding: Finding) -> list[str]:
     """Return the attributes of the tag at the location of a finding, or the text there."""
-    file, start, end, _ = finding.place
+    file, start, end, _ = finding.location
     data = file.data[start:end]
     spans = file.attribute_spans(start) if data.startswith(b"<") else {}
     pieces = [file.data[a:b] for _, (a, b) in sorted(spans.items())] or [data]

@@ -6,15 +6,17 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+from ..diagnostic import Fix, Replacement
 from ..extras import missing_library
-from ..finding import Finding, Fix, Replacement
+from ..finding import Finding
 from ..model.elements import Robot
 from ..rules import get_rule
-from ..rules.fix import FixContext, Proposal, RefusedError
+from ..rules.fix import FixContext, OutsideError, Proposal, RefusedError
 from ..rules.rule import Problem
 from ..rules.table import FIXES
 from ..source.description import Description
 from ..source.document import Document
+from .fingerprint import fact_of
 from .fix_settle import Settler
 from .outcome import Options, Report
 
@@ -53,24 +55,28 @@ def add_fixes(
     """
     groups: dict[tuple[Any, ...], list[Finding]] = {}
     for finding in findings:
-        if finding.rule in FIXES:
-            place = finding.place
-            key: tuple[Any, ...] = (finding.rule, place.path, place.start, place.end)
-            groups.setdefault(key if place.calls else (*key, finding.message), []).append(finding)
+        if finding.code in FIXES:
+            place = finding.location
+            key: tuple[Any, ...] = (finding.code, place.path, place.start, place.end)
+            key = key if place.calls else (*key, *fact_of(finding))
+            groups.setdefault(key, []).append(finding)
     if not groups:
         return
     settler = Settler(description)
     context = FixContext(robot or Robot(description.document.root), description, report.targets)
-    if not any(finding.rule in DOUBTED_SIZES for finding in findings):
+    if not any(finding.code in DOUBTED_SIZES for finding in findings):
         context.compute_inertia = options.compute_inertia
     for group in groups.values():
-        name = group[0].rule
+        name = group[0].code
         try:
             proposals = [_proposal(finding, origins.get(id(finding)), context) for finding in group]
             whole = [proposal for proposal in proposals if proposal is not None]
             if len(whole) < len(proposals) or not whole:
                 continue
             replacements, rewrites = settler.settle(whole), settler.rewrites(whole)
+        except OutsideError as error:
+            report.outside.append((group[0], str(error)))
+            continue
         except RefusedError as error:
             report.unmended.append((group[0], str(error)))
             continue
@@ -83,7 +89,7 @@ def add_fixes(
             continue
         if replacements or rewrites:
             safe = all(proposal.safe for proposal in whole) and not _lost_comments(replacements)
-            group[0].fix = Fix(safe, whole[0].message, replacements, rewrites)
+            group[0].fixes = (Fix(safe, whole[0].message, replacements, rewrites),)
 
 
 _COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)
@@ -105,10 +111,10 @@ def _proposal(finding: Finding, origin: Origin | None, context: FixContext) -> P
     Findings without an origin concern files that could not be expanded; only fixes of files
     apply to them.
     """
-    if (origin is None) != FIXES[finding.rule].of_file:
+    if (origin is None) != FIXES[finding.code].of_file:
         return None
-    make = get_rule(finding.rule).make_fix
-    assert make is not None, finding.rule
+    make = get_rule(finding.code).make_fix
+    assert make is not None, finding.code
     if origin is None:
         return make(finding, context)
     context.document, context.severity = origin.document, finding.severity

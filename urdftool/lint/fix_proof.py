@@ -6,7 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
+from .fingerprint import fact_of, word_at
 from .outcome import Report
 
 REVEALING = frozenset(
@@ -65,14 +67,14 @@ class Wrong(NamedTuple):
 
 def key_of(finding: Finding) -> Key:
     """Return the identity of a finding, which does not depend on the preceding bytes."""
-    place = finding.place
-    key: Key = (finding.rule, place.path, finding.kind, finding.name, finding.message)
-    return (*key, place.start) if finding.kind == "file" else key
+    place = finding.location
+    start = place.start if finding.kind == "file" else None
+    return place.path, start, *likeness(finding)
 
 
 def likeness(finding: Finding) -> Key:
     """Return what equal findings in different descriptions have in common."""
-    return finding.rule, finding.kind, finding.name, finding.message
+    return *fact_of(finding), word_at(finding)
 
 
 def subject_of(finding: Finding) -> tuple[str, str]:
@@ -97,7 +99,7 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
     still = [finding for finding in chosen if left[key_of(finding)] >= there[key_of(finding)]]
     if still:
         return Wrong("the finding remains", subjects=frozenset(map(subject_of, still)))
-    if stops[0] or any(finding.rule in REVEALING for finding in chosen):
+    if stops[0] or any(finding.code in REVEALING for finding in chosen):
         return None
     for level in (Severity.ERROR, Severity.WARNING):
         now, then = _counted(after, level), _counted(before, level)
@@ -106,7 +108,7 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
         gone = sum(one.severity >= level for one in chosen) if more and len(chosen) > 1 else 0
         if sum(now.values()) > sum(then.values()) - gone:
             new = [f for f in after.findings if f.severity >= level and not there[key_of(f)]]
-            what = f"then {new[0].message} [{new[0].rule}]" if new else ""
+            what = f"then {new[0].message} [{new[0].code}]" if new else ""
             return Wrong(what or "it would cause more findings", subjects=more)
     return None
 

@@ -15,8 +15,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
+from ..diagnostic import FileRewrite
 from ..errors import UrdftoolError
-from ..finding import FileRewrite, Finding
+from ..finding import Finding
 from ..rules.file_rewrites import rewritten_bytes
 from ..rules.table import FIXES
 from ..workspace import Workspace
@@ -207,7 +208,7 @@ class _Round:
             for one in part:
                 key: object = likeness(one.finding)
                 if key not in self.doubted:
-                    key = one.finding.rule in REVEALING, FIXES[one.finding.rule].renames
+                    key = one.finding.code in REVEALING, FIXES[one.finding.code].renames
                 groups.setdefault(key, []).append(one)
             for some in sorted(groups.values(), key=len, reverse=True):
                 self._halve(self._current(some))
@@ -254,7 +255,7 @@ class _Round:
             self.banned.add(key_of(finding))
             self.doubted.add(likeness(finding))
             kind = self.result.unmade if wrong.of_a_file else self.result.broken
-            kind.setdefault(finding.rule, f"{finding.place}: {wrong.text}")
+            kind.setdefault(finding.code, f"{finding.location}: {wrong.text}")
             return
         suspects = [one for one in chosen if subject_of(one.finding) in wrong.subjects]
         others = [one for one in chosen if subject_of(one.finding) not in wrong.subjects]
@@ -296,8 +297,8 @@ class _Round:
         for number, report in fresh.items():
             result.reports[number] = report
             self._index(number, report)
-        result.applied.update(one.finding.rule for one in some)
-        result.made += [(one.finding.rule, one.paths) for one in some]
+        result.applied.update(one.finding.code for one in some)
+        result.made += [(one.finding.code, one.paths) for one in some]
         self.kept += some
         return None
 
@@ -338,8 +339,8 @@ class _Round:
         if path in self.start:
             return self.start[path]
         for other in self.findings[number]:
-            if other.place.path == path and other.rule in ("not-well-formed", _LATE):
-                return other.place.file.data
+            if other.location.path == path and other.code in ("not-well-formed", _LATE):
+                return other.location.file.data
         return data
 
 
@@ -351,7 +352,7 @@ def _middle(chosen: Sequence[_Wanted]) -> int:
     """Return where to split fixes: near the middle, between two rules, since most fail by rule."""
     half = len(chosen) / 2
     edges = [
-        n for n in range(1, len(chosen)) if chosen[n].finding.rule != chosen[n - 1].finding.rule
+        n for n in range(1, len(chosen)) if chosen[n].finding.code != chosen[n - 1].finding.code
     ]
     return min(edges, key=lambda n: abs(n - half), default=len(chosen) // 2)
 

@@ -12,9 +12,9 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from ..diagnostic import FileRewrite, Replacement
 from ..errors import SourceError
-from ..finding import FileRewrite, Replacement
-from ..rules.fix import Change, Proposal, RefusedError, Span
+from ..rules.fix import Change, OutsideError, Proposal, RefusedError, Span
 from ..source import edit
 from ..source.description import Description
 from ..source.document import STDIN, Element
@@ -120,7 +120,7 @@ class Settler:
         files, packages = self.description.workspace, self.description.packages
         root = files.real_path(packages.own[1] if packages.own else packages.file.parent)
         if self.main == STDIN or not files.real_path(file).startswith(root + os.sep):
-            raise RefusedError(f"it is written in {file}, outside of {shown_path(root)}")
+            raise OutsideError(f"{file}, outside of {shown_path(root)}")
 
 
 def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.Edit]:

@@ -7,13 +7,14 @@ step before a report is written, in all formats.
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..finding import Cause, FileRewrite, Finding, Fix, Group, Replacement, Severity, Site
+from ..diagnostic import FileRewrite, Fix, Replacement, Severity
+from ..finding import Cause, Finding, Group, Site
+from .fingerprint import fact_of
 from .merge import in_order
 from .outcome import Outcome
 
@@ -58,7 +59,7 @@ def _nested(findings: list[Finding]) -> list[Finding]:
         return findings
     causes: dict[tuple[str, Site | None], list[int]] = {}
     for number, finding in enumerate(findings):
-        causes.setdefault((finding.rule, finding.site), []).append(number)
+        causes.setdefault((finding.code, finding.site), []).append(number)
     above: dict[int, int] = {}
     for number, finding in enumerate(findings):
         if finding.cause is None:
@@ -118,19 +119,14 @@ def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
         return id(finding)
     where: Any = robots.get(_identity(finding), 0)
     if finding.group.by == "repository":
-        where = _repository(os.path.dirname(os.path.abspath(finding.place.path)))
-    same = finding.group.sentence or _QUOTED_OR_NUMBER.sub("", finding.message)
+        where = _repository(os.path.dirname(os.path.abspath(finding.location.path)))
     effects = tuple(finding.effects.items())
-    return finding.rule, finding.severity, same, effects, finding.variants, where
-
-
-_QUOTED_OR_NUMBER = re.compile(r"'[^']*'|(?<![\w<])-?\d[\d.]*(?:e[-+]?\d+)?")
-"""Parts in which equivalent messages may differ."""
+    return finding.code, finding.severity, finding.group.alike, effects, finding.variants, where
 
 
 def _identity(finding: Finding) -> Any:
-    place = finding.place
-    return finding.rule, place.path, place.start, place.end, finding.name, finding.message
+    place = finding.location
+    return place.path, place.start, place.end, fact_of(finding)
 
 
 def _repository(folder: str) -> str:
@@ -145,7 +141,7 @@ def _as_one(found: Sequence[Finding]) -> Finding:
     """Return one finding for a group, at the place of the first."""
     first = found[0]
     rest = [
-        (name, calls) for f in found[1:] for name, calls in ((f.name, f.place.calls), *f.others)
+        (name, calls) for f in found[1:] for name, calls in ((f.name, f.location.calls), *f.others)
     ]
     hints = {finding.hint for finding in found}
     consequences = [c for finding in found for c in finding.consequences]
@@ -154,7 +150,7 @@ def _as_one(found: Sequence[Finding]) -> Finding:
         members=list(found),
         others=[*first.others, *rest],
         hint=first.hint if len(hints) == 1 else "",
-        fix=_fix(found),
+        fixes=_combine_fixes(found),
         consequences=_grouped(consequences, {}),
     )
     assert first.group is not None
@@ -177,13 +173,13 @@ def _listed(names: Sequence[str]) -> str:
     return f"{shown} and {more} more" if more > 0 else shown
 
 
-def _fix(found: Sequence[Finding]) -> Fix | None:
+def _combine_fixes(found: Sequence[Finding]) -> tuple[Fix, ...]:
     """Return the combined fix of a group; its message has the number of findings if not all."""
     fixes = [finding.fix for finding in found if finding.fix is not None]
     safe = [fix for fix in fixes if fix.safe]
     chosen = safe or fixes
     if not chosen:
-        return None
+        return ()
     replacements: list[Replacement] = []
     rewrites: list[FileRewrite] = []
     covered = 0
@@ -200,7 +196,7 @@ def _fix(found: Sequence[Finding]) -> Fix | None:
     if covered < len(found):
         message += f" (covers {covered} of {len(found)} places)"
     replacements.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
-    return Fix(bool(safe), message, tuple(replacements), tuple(rewrites))
+    return (Fix(bool(safe), message, tuple(replacements), tuple(rewrites)),)
 
 
 def _overlap(one: Replacement, other: Replacement) -> bool:

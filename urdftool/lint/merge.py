@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..finding import Finding
+from .fingerprint import fact_of
 from .outcome import Outcome, Report
 
 
@@ -15,14 +16,14 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
     merged: dict[tuple[Any, ...], Finding] = {}
     copied: set[tuple[Any, ...]] = set()
     for finding in findings:
-        place = finding.place
-        key: tuple[Any, ...] = (finding.rule, place.file.path, place.start, place.end)
+        place = finding.location
+        key: tuple[Any, ...] = (finding.code, place.file.path, place.start, place.end)
         if not place.calls:
-            key += (finding.message,)
+            key += fact_of(finding)
         first = merged.get(key)
         if first is None:
             merged[key] = finding
-        elif place.calls and place.calls != first.place.calls:
+        elif place.calls and place.calls != first.location.calls:
             if key not in copied:  # do not modify the given findings
                 copied.add(key)
                 first = merged[key] = replace(first, others=list(first.others))
@@ -34,7 +35,7 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
     """Sort findings by file, place and rule."""
-    return sorted(findings, key=lambda f: (f.place.file.path, f.place.start, f.rule))
+    return sorted(findings, key=lambda f: (f.location.file.path, f.location.start, f.code))
 
 
 def gather(reports: Iterable[Report]) -> Outcome:

@@ -99,7 +99,7 @@ class Rejections:
         effects = {}
         for key, effect in finding.effects.items():
             readers = key.split(", ")
-            left = [r for r in readers if finding.rule in self._by_reader.get(r, {finding.rule})]
+            left = [r for r in readers if finding.code in self._by_reader.get(r, {finding.code})]
             if left:
                 one = len(left) == 1 < len(readers)
                 effects[", ".join(left)] = in_singular(effect) if one else effect

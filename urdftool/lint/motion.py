@@ -5,29 +5,31 @@ from __future__ import annotations
 from ..model.elements import Robot
 from ..source.document import Element
 
-UNUSED_LINK = "does not use it, because the link is fixed to the world"
 WELDED = "does not use it: it fixes the root link to the world"
 UNUSED_JOINT = "does not use it, because the joint is fixed"
 
 
-def why_unused(robot: Robot | None, element: Element) -> str:
-    """Return why no reader uses the dynamics of a link or joint; empty if some do."""
+def is_joint_unused(robot: Robot | None, element: Element) -> bool:
+    """Tell whether no reader uses the dynamics of an element, because it is a fixed joint."""
+    if robot is None or element.tag != "joint":
+        return False
+    joint = robot.joint.get(element.get("name") or "")
+    return joint is not None and joint.is_fixed
+
+
+def is_link_unused(robot: Robot | None, element: Element) -> bool:
+    """Tell whether no reader uses the inertia of an element: a link that is fixed to the world."""
     name = element.get("name")
-    if robot is None or name is None:
-        return ""
-    if element.tag == "joint":
-        joint = robot.joint.get(name)
-        return UNUSED_JOINT if joint is not None and joint.is_fixed else ""
-    if element.tag != "link":
-        return ""
+    if robot is None or name is None or element.tag != "link":
+        return False
     seen: set[str] = set()
     while name != "world" and name not in seen:
         seen.add(name)
         joint = robot.tree.parent_joint(name)
         if joint is None or not joint.is_fixed:
-            return ""
+            return False
         name = joint.parent
-    return UNUSED_LINK if name == "world" else ""
+    return name == "world"
 
 
 def is_welded_in_mujoco(robot: Robot | None, element: Element) -> bool:

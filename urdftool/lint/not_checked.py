@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
+from ..diagnostic import Severity
 from ..errors import PackageNotFound, SourceError, UrdftoolError
-from ..finding import Finding, Severity
+from ..finding import Finding
 from ..source.description import Description
 from ..source.document import Element
 from ..source.location import Place, SourceFile

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from ..configuration import Configuration, find_configuration
+from ..diagnostic import Severity
 from ..errors import ConfigError, SourceError, UrdftoolError
 from ..extras import missing_library
-from ..finding import Cause, Finding, Group, Severity, Site
+from ..finding import Cause, Finding, Group, Site
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import applies_to
@@ -23,7 +24,13 @@ from ..source.well_formed import mend
 from ..workspace import Workspace
 from .merge import in_order, merge
 from .moot import Rejections
-from .motion import UNUSED_LINK, WELDED, is_welded_in_mujoco, why_unused
+from .motion import (
+    UNUSED_JOINT,
+    WELDED,
+    is_joint_unused,
+    is_link_unused,
+    is_welded_in_mujoco,
+)
 from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
@@ -290,8 +297,8 @@ def _check_description(
         tags = _tags(description)
         idle = {name for name in selected if not applies_to(name, tags)}
         stale = unused(suppressions, ran | idle) if robot is not None else ()
-        findings += [f for f in (*wrong, *stale) if f.rule in selected]
-    if options.fixes and any(f.rule in FIXES for f in findings):
+        findings += [f for f in (*wrong, *stale) if f.code in selected]
+    if options.fixes and any(f.code in FIXES for f in findings):
         from .fix import Origin, add_fixes
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
@@ -366,11 +373,10 @@ def _finding(
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)
         if rule.of_motion and severity is not Severity.ERROR:
-            unused = why_unused(robot, problem.element)
-            if unused == UNUSED_LINK:
+            if is_link_unused(robot, problem.element):
                 return None
-            if unused:
-                severity, effects = Severity.INFO, {"every reader": unused}
+            if is_joint_unused(robot, problem.element):
+                severity, effects = Severity.INFO, {"every reader": UNUSED_JOINT}
             elif is_welded_in_mujoco(robot, problem.element):
                 effects = _without_mujoco(effects)
     causes = rule.caused_by if problem.caused_by is None else problem.caused_by
@@ -386,8 +392,9 @@ def _finding(
         effects,
         problem.hint,
         site=_site(problem.element),
-        group=Group(rule.group, problem.group) if rule.group else None,
+        group=Group(rule.group, problem.group, problem.alike) if rule.group else None,
         cause=Cause(causes, _site(problem.cause_element)) if causes else None,
+        owner=problem.owner,
         data=problem.data,
     )
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ..configuration import Configuration
+from ..diagnostic import Severity
 from ..errors import ConfigError
-from ..finding import Severity
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.rule import TARGETS, Rule
 from ..suggestions import did_you_mean

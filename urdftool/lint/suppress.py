@@ -13,8 +13,9 @@ from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from ..diagnostic import Severity
 from ..errors import ConfigError
-from ..finding import Finding, Severity
+from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..source.document import Document
 from ..source.location import Place
@@ -47,10 +48,10 @@ class Suppression:
 
     def covers(self, finding: Finding) -> bool:
         """Tell whether the comment suppresses a finding, by its rule and place."""
-        if not self._names(finding.rule):
+        if not self._names(finding.code):
             return False
-        places = [(finding.place.file, finding.place.start)]
-        places += [(call.file, call.start) for call in finding.place.calls]
+        places = [(finding.location.file, finding.location.start)]
+        places += [(call.file, call.start) for call in finding.location.calls]
         return any(
             file.path == self.place.file.path and self.start <= at < self.end for file, at in places
         )

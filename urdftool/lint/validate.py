@@ -10,8 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from ..diagnostic import Severity
 from ..errors import ModelError
-from ..finding import Finding, Severity
+from ..finding import Finding
 from ..model.elements import Joint, Link, Robot
 from ..rules import get_rule
 from ..rules.rule import Problem
@@ -175,7 +176,7 @@ def require(robot: Robot, purpose: str) -> Robot:
     """
     first, *others = validate(robot, purpose) or (None,)
     if first is not None:
-        raise ModelError(first.message, at=first.place, notes=[str(other) for other in others])
+        raise ModelError(first.message, at=first.location, notes=[str(other) for other in others])
     return robot
 
 
@@ -211,5 +212,6 @@ def as_error(rule: str, problem: Problem) -> Finding:
         kind,
         name,
         hint=problem.hint,
+        owner=problem.owner,
         data=problem.data,
     )

@@ -11,6 +11,7 @@ from typing import Any
 from ..configuration import Configuration
 from ..errors import ConfigError
 from ..finding import Finding
+from .fingerprint import fact_of
 from .merge import in_order
 from .outcome import Report
 from .settings import nearest
@@ -90,7 +91,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
     )
     return replace(
         first,
-        findings=in_order(f for f in findings if not (f.variants and f.rule.startswith("unused-"))),
+        findings=in_order(f for f in findings if not (f.variants and f.code.startswith("unused-"))),
         targets=frozenset().union(*(report.targets for report in checked.values())),
         ignored=[(finding, reasons[_key(finding)]) for finding in hidden],
         files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
@@ -101,8 +102,8 @@ def as_one(reports: Mapping[str, Report]) -> Report:
 
 
 def _key(finding: Finding) -> tuple[str, str, int, int]:
-    place = finding.place
-    return finding.rule, place.file.path, place.start, place.end
+    place = finding.location
+    return finding.code, place.file.path, place.start, place.end
 
 
 def _merged(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Finding]:
@@ -112,7 +113,7 @@ def _merged(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Fi
         for finding in findings:
             group = groups.setdefault(_key(finding), [])
             open_ones = [pair for pair in group if name not in pair[1]]
-            same = [pair for pair in open_ones if pair[0].message == finding.message]
+            same = [pair for pair in open_ones if fact_of(pair[0]) == fact_of(finding)]
             chosen = next(iter(same or open_ones), None)
             if chosen is None:
                 group.append((replace(finding), [name]))

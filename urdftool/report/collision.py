@@ -11,6 +11,7 @@ from typing import Any
 from ..collision.compute import Result, Task, shown_scale
 from ..collision.rewrite import geometry_tag
 from ..collision.robot import Written
+from ..diagnostic import Severity
 from .tables import render_table
 
 _HEAD = (
@@ -180,9 +181,9 @@ def notes(rows: Iterable[Row]) -> Iterable[str]:
 def failures(rows: Iterable[Row]) -> Iterable[str]:
     """Yield the notes on failures, substitutes, and convex hulls that engines use."""
     for row in rows:
-        for note in row.result.notes:
-            if note.startswith(("CoACD", "One convex", "The mesh is flat", "Engines that")):
-                yield f"{_label(row)}: {note}"
+        for found in row.result.diagnostics:
+            if found.severity > Severity.INFO:
+                yield f"{_label(row)}: {found.message}"
 
 
 def summary(report: Report) -> str:

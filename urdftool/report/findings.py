@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 
 import click
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..lint.outcome import Outcome
 from ..rules.table import FIXES
 from .counted import counted
@@ -58,15 +59,15 @@ def full(findings: Iterable[Finding], *, colors: bool = False, whole: bool = Tru
 def _headline(finding: Finding, paint: Painter) -> str:
     color = _COLORS[finding.severity]
     return (
-        f"{paint(clean(str(finding.place)), bold=True)}: "
+        f"{paint(clean(str(finding.location)), bold=True)}: "
         f"{paint(finding.severity.label, color, bold=True)}: "
-        f"{sentence(finding)} {paint(f'[{finding.rule}]', color)}"
+        f"{sentence(finding)} {paint(f'[{finding.code}]', color)}"
     )
 
 
 def _source(finding: Finding, paint: Painter) -> Iterator[str]:
     """Yield the source lines of a finding, with the marked bytes underlined."""
-    place = finding.place
+    place = finding.location
     first, column = place.file.position(place.start)
     last, end_column = place.end_position
     if not place.file.data:
@@ -106,7 +107,7 @@ def _remarks(finding: Finding, paint: Painter, whole: bool) -> Iterator[str]:
     for remark in remarks(finding):
         label, _, text = remark.partition(": ")
         yield f"{paint(label, bold=True)}: {text}"
-    yield from (f"from {line}" for line in call_lines(finding.place.calls))
+    yield from (f"from {line}" for line in call_lines(finding.location.calls))
     if finding.members:
         lines = list(member_lines(finding))
         most = len(lines) if whole or len(lines) <= _MOST_CALLS else _MOST_CALLS - 1
@@ -127,7 +128,7 @@ def statistics(outcome: Outcome) -> Iterator[str]:
     counts: Counter[tuple[str, Severity]] = Counter()
     places: Counter[tuple[str, Severity]] = Counter()
     for finding in outcome.findings:
-        key = (finding.rule, finding.severity)
+        key = (finding.code, finding.severity)
         counts[key] += 1
         places[key] += len(finding.members) or 1
     for key, count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):

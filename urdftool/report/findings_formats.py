@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..finding import Severity
+from ..diagnostic import Severity
 from ..lint.outcome import Outcome
 from .findings import statistics as count_by_rule
 from .findings_screen import screen

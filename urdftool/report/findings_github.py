@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..finding import Severity
+from ..diagnostic import Severity
 from ..lint.outcome import Outcome
 from .findings import NOT_CHECKED
 from .findings_words import call_lines, clean, member_lines, remarks, sentence
@@ -19,15 +19,15 @@ def github(outcome: Outcome) -> Iterator[str]:
             where = f"file={_property(report.path)},title={NOT_CHECKED}"
             yield f"::error {where}::{_data(clean(report.error.message))}"
     for finding in outcome.findings:
-        line, column = finding.place.file.position(finding.place.start)
-        end_line, end_column = finding.place.end_position
-        properties: dict[str, object] = {"file": finding.place.path, "line": line}
+        line, column = finding.location.file.position(finding.location.start)
+        end_line, end_column = finding.location.end_position
+        properties: dict[str, object] = {"file": finding.location.path, "line": line}
         properties["endLine"] = end_line
         if line == end_line:  # GitHub rejects columns of a span over several lines
             properties |= {"col": column, "endColumn": end_column}
-        properties["title"] = finding.rule
+        properties["title"] = finding.code
         said = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items())
-        came = (f"from {call}" for call in call_lines(finding.place.calls))
+        came = (f"from {call}" for call in call_lines(finding.location.calls))
         also = (f"also {line}" for line in member_lines(finding))
         text = "\n".join([sentence(finding), *remarks(finding), *came, *also])
         yield f"::{_COMMANDS[finding.severity]} {said}::{_data(text)}"

@@ -8,7 +8,8 @@ from html import escape
 from pathlib import Path
 from string import Template
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..lint.outcome import Outcome, Report
 from .findings import NOT_CHECKED, summary
 from .findings_screen import by_weight
@@ -23,7 +24,7 @@ def to_html(outcome: Outcome) -> str:
     """Format a run as a page: findings by file, with filters by severity and rule."""
     by_file: dict[str, list[Finding]] = {}
     for finding in by_weight(outcome.findings):
-        by_file.setdefault(finding.place.path, []).append(finding)
+        by_file.setdefault(finding.location.path, []).append(finding)
     files = [_unreadable(r) for r in outcome.reports if r.error is not None]
     files += [_file(path, findings) for path, findings in by_file.items()]
     return Template(_PAGE.read_text("utf-8")).substitute(
@@ -40,7 +41,7 @@ def _text(text: str) -> str:
 def _filters(outcome: Outcome) -> str:
     """Return a check box for each severity, and a list of the rules with their counts."""
     levels = Counter(finding.severity for finding in outcome.findings)
-    rules = Counter(finding.rule for finding in outcome.findings)
+    rules = Counter(finding.code for finding in outcome.findings)
     boxes = [
         f'<label class="{s.label}"><input type="checkbox" value="{s.label}" checked> '
         f'<span class="level">{_counted(levels[s], s)}</span></label>'
@@ -75,9 +76,9 @@ def _unreadable(report: Report) -> str:
 
 
 def _finding(finding: Finding) -> str:
-    level, rule = finding.severity.label, escape(finding.rule)
+    level, rule = finding.severity.label, escape(finding.code)
     rows = "".join(f"<dt>{_text(a)}</dt><dd>{_text(b)}</dd>" for a, b in _rows(finding))
-    place = f"{finding.place.line}:{finding.place.column}"
+    place = f"{finding.location.line}:{finding.location.column}"
     return (
         f'<article class="{level}" data-rule="{rule}">\n'
         f'<p><span class="level">{level}</span> {_text(sentence(finding))}</p>\n'
@@ -91,7 +92,7 @@ def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
     for remark in remarks(finding):
         label, _, text = remark.partition(": ")
         yield label, text
-    for line in call_lines(finding.place.calls):
+    for line in call_lines(finding.location.calls):
         yield "from", line
     for line in member_lines(finding):
         yield "also", line
@@ -101,7 +102,7 @@ def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
 
 def _source(finding: Finding) -> str:
     """Format the source lines of a finding, with the marked bytes highlighted."""
-    place = finding.place
+    place = finding.location
     if not place.file.data:
         return ""
     first, column = place.file.position(place.start)

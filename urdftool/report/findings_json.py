@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from ..diagnostic import Fix, Severity
 from ..extras import EXTRA_OF
-from ..finding import Finding, Fix, Severity
+from ..finding import Finding
 from ..lint.outcome import Outcome
 from .json_text import finite_values, json_text
 
@@ -44,13 +45,13 @@ def to_json(outcome: Outcome) -> str:
 
 def finding_record(finding: Finding) -> dict[str, Any]:
     """Return the JSON form of a finding."""
-    line, column = finding.place.file.position(finding.place.start)
-    end_line, end_column = finding.place.end_position
+    line, column = finding.location.file.position(finding.location.start)
+    end_line, end_column = finding.location.end_position
     record: dict[str, Any] = {
-        "rule": finding.rule,
+        "rule": finding.code,
         "severity": finding.severity.label,
         "message": finding.message,
-        "path": finding.place.path,
+        "path": finding.location.path,
         "line": line,
         "column": column,
         "end_line": end_line,
@@ -58,7 +59,7 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "element": {"kind": finding.kind, "name": finding.name},
         "targets": list(finding.targets),
         "effects": finding.effects,
-        "expansion": _calls(finding.place.calls),
+        "expansion": _calls(finding.location.calls),
         "instances": [{"name": name, "expansion": _calls(calls)} for name, calls in finding.others],
         "hint": finding.hint or None,
         "fix": fix_record(finding.fix),
@@ -79,10 +80,10 @@ def finding_record(finding: Finding) -> dict[str, Any]:
 
 def _member(member: Finding) -> dict[str, Any]:
     """Return the JSON form of a member of a group: its own message and location."""
-    line, column = member.place.file.position(member.place.start)
+    line, column = member.location.file.position(member.location.start)
     return {
         "message": member.message,
-        "path": member.place.path,
+        "path": member.location.path,
         "line": line,
         "column": column,
         "element": {"kind": member.kind, "name": member.name},

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ..diagnostic import Severity
 from ..extras import missing
-from ..finding import Finding, Severity
+from ..finding import Finding
 from ..lint.outcome import Outcome, Report
 from .findings import NOT_CHECKED
 from .findings_words import call_lines, clean, member_lines, remarks, sentence
@@ -21,8 +22,8 @@ def to_junit(outcome: Outcome, fail_on: Severity) -> str:
     """
     by_file: dict[str, dict[str, list[Finding]]] = {r.path: {} for r in outcome.reports}
     for finding in outcome.findings:
-        by_rule = by_file.setdefault(finding.place.path, {})
-        by_rule.setdefault(finding.rule, []).append(finding)
+        by_rule = by_file.setdefault(finding.location.path, {})
+        by_rule.setdefault(finding.code, []).append(finding)
     reports = {report.path: report for report in outcome.reports}
     root = Element("testsuites", name="urdftool lint")
     for path, by_rule in by_file.items():
@@ -67,9 +68,9 @@ def _told(case: Element, findings: Iterable[Finding], fail_on: Severity) -> None
 
 
 def _lines(finding: Finding) -> Iterable[str]:
-    yield f"{clean(str(finding.place))}: {finding.severity.label}: {sentence(finding)}"
+    yield f"{clean(str(finding.location))}: {finding.severity.label}: {sentence(finding)}"
     yield from (f"  {remark}" for remark in remarks(finding))
-    yield from (f"  from {clean(line)}" for line in call_lines(finding.place.calls))
+    yield from (f"  from {clean(line)}" for line in call_lines(finding.location.calls))
     yield from (f"  also {line}" for line in member_lines(finding))
 
 

@@ -9,7 +9,8 @@ from typing import Any
 from urllib.parse import quote
 
 from .. import __version__
-from ..finding import Finding, Fix, Severity
+from ..diagnostic import Fix, Severity
+from ..finding import Finding
 from ..lint.fingerprint import fingerprint
 from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF, get_rule
@@ -31,11 +32,11 @@ def to_sarif(outcome: Outcome) -> str:
         *((finding, [suppression]) for finding, suppression in excused),
     ]
     unreadable = [report for report in outcome.reports if report.error is not None]
-    names = sorted({finding.rule for finding, _ in found} | {NOT_CHECKED for _ in unreadable})
+    names = sorted({finding.code for finding, _ in found} | {NOT_CHECKED for _ in unreadable})
     seen: Counter[tuple[str, str]] = Counter()
     results = []
     for finding, suppressions in found:
-        result = _result(finding, names.index(finding.rule), seen)
+        result = _result(finding, names.index(finding.code), seen)
         results.append(result | {"suppressions": suppressions} if excused else result)
     results += [_unreadable(report, names.index(NOT_CHECKED)) for report in unreadable]
     driver = {
@@ -91,19 +92,19 @@ def _unreadable(report: Report, index: int) -> dict[str, Any]:
 
 def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dict[str, Any]:
     known_by = fingerprint(finding)
-    seen[finding.place.path, known_by] += 1
-    location: dict[str, Any] = {"physicalLocation": _place(finding.place)}
+    seen[finding.location.path, known_by] += 1
+    location: dict[str, Any] = {"physicalLocation": _place(finding.location)}
     if finding.name:
         location["logicalLocations"] = [{"name": finding.name, "kind": finding.kind}]
     text = "\n".join([sentence(finding), *remarks(finding)])
     record = {
-        "ruleId": finding.rule,
+        "ruleId": finding.code,
         "ruleIndex": index,
         "level": _LEVELS[finding.severity],
         "message": {"text": text},
         "locations": [location],
         "partialFingerprints": {
-            "primaryLocationLineHash": f"{known_by}:{seen[finding.place.path, known_by]}"
+            "primaryLocationLineHash": f"{known_by}:{seen[finding.location.path, known_by]}"
         },
     }
     if finding.fix is not None and not finding.fix.rewrites:  # SARIF fixes can only replace text
@@ -136,17 +137,17 @@ def _fix(fix: Fix) -> dict[str, Any]:
 
 def _related(finding: Finding) -> Iterator[dict[str, Any]]:
     """Yield the locations of macro calls and includes, then of other instances and consequences."""
-    for call in finding.place.calls:
+    for call in finding.location.calls:
         yield _call(call, f"from {call_words(call)}")
     for member in finding.members[1:]:
         text = clean(member.message)
-        yield {"physicalLocation": _place(member.place), "message": {"text": text}}
+        yield {"physicalLocation": _place(member.location), "message": {"text": text}}
     for name, calls in () if finding.members else finding.others:
         for call in calls[:1]:
             yield _call(call, f"also {clean(name)}, from {call_words(call)}")
     for found in finding.consequences:
-        text = f"{sentence(found)} [{found.rule}]"
-        yield {"physicalLocation": _place(found.place), "message": {"text": text}}
+        text = f"{sentence(found)} [{found.code}]"
+        yield {"physicalLocation": _place(found.location), "message": {"text": text}}
 
 
 def _call(call: Call, text: str) -> dict[str, Any]:

@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..rules.table import FIXES
 from .counted import counted
@@ -26,13 +27,13 @@ def by_weight(findings: Iterable[Finding]) -> list[Finding]:
     findings = list(findings)
     first: dict[tuple[str, Severity, str], int] = {}
     for finding in findings:
-        key = finding.place.path, finding.severity, finding.rule
-        first[key] = min(finding.place.start, first.get(key, finding.place.start))
+        key = finding.location.path, finding.severity, finding.code
+        first[key] = min(finding.location.start, first.get(key, finding.location.start))
 
     def weight(finding: Finding) -> tuple[str, int, int, str, int]:
-        key = finding.place.path, finding.severity, finding.rule
-        place = finding.place
-        return place.path, -finding.severity, first[key], finding.rule, place.start
+        key = finding.location.path, finding.severity, finding.code
+        place = finding.location
+        return place.path, -finding.severity, first[key], finding.code, place.start
 
     return sorted(findings, key=weight)
 
@@ -59,7 +60,7 @@ def screen(
     if not whole:
         families: dict[str, list[int]] = {}
         for number, finding in enumerate(shown):
-            families.setdefault(FAMILY_OF.get(finding.rule, "lint"), []).append(number)
+            families.setdefault(FAMILY_OF.get(finding.code, "lint"), []).append(number)
         for family, numbers in families.items():
             numbers.sort(key=lambda number: (-shown[number].severity, number))
             cut = _fit(numbers, blocks)
@@ -118,7 +119,7 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
     options = Counter(finding.fix.option for finding in findings if finding.fix is not None)
     safe, unsafe = options["--fix"], options["--fix --unsafe-fixes"]
     meshes = options.total() - safe - unsafe
-    counts = Counter(finding.rule for finding in findings).most_common(_RULES)
+    counts = Counter(finding.code for finding in findings).most_common(_RULES)
     width = max(len(rule) for rule, _ in counts)
     if counts[0][1] > 1:
         yield "rules with the most findings:"
@@ -126,7 +127,7 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
         if count == 1:
             break
         if options:
-            fixes = [f.fix.option for f in findings if f.rule == rule and f.fix is not None]
+            fixes = [f.fix.option for f in findings if f.code == rule and f.fix is not None]
         else:  # fixes were not computed
             fixes = [FIXES[rule].option] if rule in FIXES else []
         fix = f"{min(fixes, key=len)}, or " if fixes else ""

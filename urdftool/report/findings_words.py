@@ -40,7 +40,7 @@ def remarks(finding: Finding) -> Iterator[str]:
     if finding.fix is not None:
         yield f"fix: {clean(finding.fix.message)} ({finding.fix.option})"
     for consequence in finding.consequences:
-        yield f"so: {sentence(consequence)} [{consequence.rule}]"
+        yield f"so: {sentence(consequence)} [{consequence.code}]"
 
 
 def member_lines(finding: Finding) -> Iterator[str]:
@@ -52,7 +52,7 @@ def member_lines(finding: Finding) -> Iterator[str]:
         text = clean(member.message)
         if finding.group is not None and finding.group.sentence:
             text = f"'{clean(member.name)}'" if member.name else ""
-        yield f"{clean(str(member.place))}: {text}".removesuffix(": ")
+        yield f"{clean(str(member.location))}: {text}".removesuffix(": ")
 
 
 def call_words(call: Call) -> str:

@@ -20,7 +20,7 @@ def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
         "name": robot.name,
         "nodes": [_node(node) for node in figure.nodes.values()],
         "edges": [_edge(edge) for edge in figure.edges],
-        "faults": [{"message": fault.message, **_where(fault.place)} for fault in faults],
+        "faults": [{"message": fault.message, **_where(fault.location)} for fault in faults],
         "findings": [_finding(finding) for finding in figure.findings],
     }
     return json_text(graph, 1) + "\n"
@@ -45,10 +45,10 @@ def _edge(edge: Edge) -> dict[str, Any]:
 
 def _finding(finding: Finding) -> dict[str, Any]:
     return {
-        "rule": finding.rule,
+        "rule": finding.code,
         "severity": finding.severity.label,
         "message": finding.message,
-        **_where(finding.place),
+        **_where(finding.location),
     }
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from rich.text import Text
 from rich.tree import Tree
 
-from ..finding import Severity
+from ..diagnostic import Severity
 from ..graph.figure import Figure, Node
 from ..graph.words import shown
 from ..model.elements import Robot
@@ -31,7 +31,7 @@ def tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int 
     console = text_console(stream, colors=colors, width=max(width, 40) if colors else WIDEST)
     title = Text(shown(robot.name) or "no name", style="bold")
     for finding in figure.findings:
-        title.append(f"  {finding.severity.label}: {finding.rule}", _STYLES[finding.severity])
+        title.append(f"  {finding.severity.label}: {finding.code}", _STYLES[finding.severity])
     console.print(title, soft_wrap=True)
     for tree in _trees(figure):
         console.print(tree, soft_wrap=True)

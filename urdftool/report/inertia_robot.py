@@ -74,7 +74,7 @@ def _compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str
 def _verdict(item: LinkReview) -> str:
     status = item.status
     if status == "wrong":
-        return "CANNOT BE: " + ", ".join(dict.fromkeys(fault.kind for fault in item.faults))
+        return "CANNOT BE: " + ", ".join(dict.fromkeys(fault.code for fault in item.faults))
     if status == "doubtful":
         return "doubtful"
     if status == "missing":
@@ -90,14 +90,14 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
     said: dict[tuple[str, str], list[str]] = {}
     for item in reviews:
         for fault in item.faults:
-            said.setdefault((str(fault.place), fault.kind), []).append(clean(item.link.name))
+            said.setdefault((str(fault.location), fault.code), []).append(clean(item.link.name))
     for item in reviews:
         name = clean(item.link.name)
         for fault in item.faults:
-            names = said.pop((str(fault.place), fault.kind), [])
+            names = said.pop((str(fault.location), fault.code), [])
             if names:
                 who = f"link '{names[0]}'" + f" and {len(names) - 1} more" * (len(names) > 1)
-                yield f"{fault.place}: {who}: {paint('cannot be', 'red')}: {fault.message}"
+                yield f"{fault.location}: {who}: {paint('cannot be', 'red')}: {fault.message}"
         if item.proposal is not None:
             at = item.link.inertial.inertia if item.link.inertial else None
             if not item.faults and at is not None:
@@ -107,7 +107,7 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
             six = components_of(rounded.tensor)
             written = " ".join(f'{key}="{number_text(value)}"' for key, value in six.items())
             yield f"  <inertia {written}/>"
-        elif item.faults and item.implied is not None and item.faults[-1].kind != "unreadable":
+        elif item.faults and item.implied is not None and item.faults[-1].code != "unreadable":
             yield f"  its geometry implies, at {item.implied.mass:.6g} kg: {_short(item.implied)}"
         for note in item.notes:
             yield f"{item.link.place}: link '{name}': {note}"
@@ -121,9 +121,8 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
                         f"{piece.shape.place}: link '{name}': {piece.what} is not closed; "
                         f"estimated by {piece.method}, not reliable"
                     )
-                for note in piece.notes:
-                    if "millimetre" in note or "scaled to metres twice" in note:
-                        yield f"{piece.shape.place}: link '{name}': {note}"
+                if piece.suspicion is not None:
+                    yield f"{piece.shape.place}: link '{name}': {piece.suspicion.message}"
 
 
 def _far(item: LinkReview) -> str:
@@ -228,7 +227,7 @@ def _link(item: LinkReview) -> dict[str, Any]:
         "comparison": item.comparison.as_dict() if item.comparison is not None else None,
         "missing": list(item.missing),
         "faults": [
-            {"kind": fault.kind, "message": fault.message, **place_dict(fault.place)}
+            {"kind": fault.code, "message": fault.message, **place_dict(fault.location)}
             for fault in item.faults
         ],
         "proposal": _proposal(item.proposal),
@@ -239,7 +238,7 @@ def _link(item: LinkReview) -> dict[str, Any]:
                 "method": piece.method,
                 "reliable": piece.reliable,
                 "error": piece.error,
-                "notes": list(piece.notes),
+                "notes": list(piece.note_texts),
                 **place_dict(piece.shape.place),
             }
             for piece in (body.pieces if body is not None else ())

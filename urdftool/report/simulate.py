@@ -45,7 +45,7 @@ def _headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
     name = clean(robot.name) or "the robot"
     if verdict.stands:
         return f"{name}: {paint('stands', 'green', bold=True)}"
-    kinds = ", ".join(dict.fromkeys(fault.kind for fault in verdict.faults if fault.fails))
+    kinds = ", ".join(dict.fromkeys(fault.code for fault in verdict.faults if fault.fails))
     return f"{name}: {paint(outcome(verdict), 'red', bold=True)} ({kinds})"
 
 
@@ -86,7 +86,7 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
                 f"{1000 * rest.margin:.1f} mm from the centre of mass to the nearest edge",
             )
     if run.swept:
-        blocked = sum(fault.kind == "blocked" for fault in verdict.faults)
+        blocked = sum(fault.code == "blocked" for fault in verdict.faults)
         yield "sweep", f"{counted(len(run.swept), 'joint')} through their limits, {blocked} blocked"
 
 
@@ -96,7 +96,7 @@ def _faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
         groups.setdefault(fault.group, []).append(fault)
     for fault, *alike in groups.values():
         label, color = ("error", "red") if fault.fails else ("note", "blue")
-        place = f"{clean(str(fault.place))}: " if fault.place is not None else ""
+        place = f"{clean(str(fault.location))}: " if fault.location is not None else ""
         yield ""
         yield f"{paint(place, bold=True)}{paint(label, color, bold=True)}: {clean(fault.message)}"
         others = list(dict.fromkeys(other.name for other in alike if other.name != fault.name))
@@ -117,11 +117,11 @@ def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Itera
     seen: dict[tuple[str, str], tuple[Fault, list[int]]] = {}
     for number, verdict in enumerate(verdicts, 1):
         tilt = math.degrees(math.hypot(*verdict.run.settings.start_rpy[:2]))
-        kinds = ", ".join(dict.fromkeys(f.kind for f in verdict.faults if f.fails))
+        kinds = ", ".join(dict.fromkeys(f.code for f in verdict.faults if f.fails))
         settled = "no rest" if verdict.rest.settled is None else f"{verdict.rest.settled:6.2f} s"
         yield f"  trial {number:>3}  from {tilt:4.1f}°  {settled:>8}  {kinds or 'stands'}"
         for fault in verdict.faults:
-            seen.setdefault((fault.kind, fault.name), (fault, []))[1].append(number)
+            seen.setdefault((fault.code, fault.name), (fault, []))[1].append(number)
     faults = [fault for fault, _ in seen.values()]
     yield from _faults(sorted(faults, key=lambda fault: not fault.fails), paint)
 
@@ -208,9 +208,9 @@ def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
 
 
 def _fault(fault: Fault) -> dict[str, Any]:
-    place = fault.place
+    place = fault.location
     return {
-        "kind": fault.kind,
+        "kind": fault.code,
         "fails": fault.fails,
         "message": fault.message,
         "cause": fault.cause or None,

@@ -65,7 +65,7 @@ def _what(row: Row) -> str:
     kinds: dict[str, list[str]] = {}
     for fault in row.faults:
         if fault.fails:
-            kinds.setdefault(fault.kind, []).append(fault.name)
+            kinds.setdefault(fault.code, []).append(fault.name)
     return ", ".join(
         f"{kind} ({clean(names[0])}{', …' if len(names) > 1 else ''})" if names[0] else kind
         for kind, names in kinds.items()
@@ -136,7 +136,7 @@ def _told(case: Element, row: Row) -> None:
     wrong = [fault for fault in row.faults if fault.fails]
     remarks = [fault for fault in row.faults if not fault.fails]
     if wrong:
-        kinds = ", ".join(dict.fromkeys(fault.kind for fault in wrong))
+        kinds = ", ".join(dict.fromkeys(fault.code for fault in wrong))
         failure = SubElement(case, "failure", type=kinds, message=clean(wrong[0].message))
         failure.text = "\n".join(line for fault in wrong for line in _lines(fault))
     if remarks:
@@ -145,8 +145,8 @@ def _told(case: Element, row: Row) -> None:
 
 
 def _lines(fault: Fault) -> Iterator[str]:
-    place = "" if fault.place is None else f"{clean(str(fault.place))}: "
-    yield f"{place}{clean(fault.message)} [{fault.kind}]"
+    place = "" if fault.location is None else f"{clean(str(fault.location))}: "
+    yield f"{place}{clean(fault.message)} [{fault.code}]"
     if fault.cause:
         yield f"  {clean(fault.cause)}"
     if fault.rule:

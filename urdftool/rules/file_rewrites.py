@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from ..diagnostic import FileRewrite
 from ..errors import MeshError
-from ..finding import FileRewrite
 from ..geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
 from ..workspace import Workspace
 

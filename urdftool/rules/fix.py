@@ -24,7 +24,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..finding import FileRewrite, Finding, Severity
+from ..diagnostic import FileRewrite, Severity
+from ..finding import Finding
 from ..model.elements import Joint, Link, Robot
 from ..source.description import Description
 from ..source.document import Document, Element
@@ -76,6 +77,10 @@ class Change(NamedTuple):
 
 class RefusedError(Exception):
     """A change cannot be made; the text says why."""
+
+
+class OutsideError(RefusedError):
+    """The file to change is outside of the package; the text names both."""
 
 
 class Span(NamedTuple):
@@ -332,7 +337,7 @@ def write_inside(
         new: Text to write.
         harmless: Whether the fix is safe.
     """
-    place, file = finding.place, finding.place.file
+    place, file = finding.location, finding.location.file
     written = file.data[place.start : place.end]
     if written.count(old.encode()) != 1:
         return None

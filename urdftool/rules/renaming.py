@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ..finding import Severity
+from ..diagnostic import Severity
 from ..model.elements import Joint, Link, Robot
 from ..source.document import Element
 from .fix import Change, FixContext, Proposal, set_attribute, set_text, unsafe

@@ -20,9 +20,10 @@ Two arguments of the decorator say how findings are reported together:
     The findings of the rule about one robot are reported as one, with their count and names;
     ``group="repository"`` does so over all robots of one repository. Each finding stays a fact of
     its own for comments, baselines, fixes and variants. ``Problem(group=…)`` gives the sentence
-    for several: ``"{count} links have a visual and no collision: {names}"``. Problems with the
-    same sentence and severity are one finding. Without a sentence, those are whose messages differ
-    in quoted names and numbers only, and the first message is followed by the other names.
+    for several: ``"{count} links have a visual and no collision: {names}"``. Without a sentence,
+    the first message is followed by the other names. Problems of the same severity and effects are
+    one finding. Where their sentences differ in more than names and numbers,
+    ``Problem(alike=…)`` tells them apart.
 
 ``caused_by=("placeholder-inertia",)``
     A finding of one of these rules about the same element explains a finding of this rule, which
@@ -54,7 +55,8 @@ from dataclasses import dataclass, field
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from ..finding import Scope, Severity
+from ..diagnostic import Severity
+from ..finding import Scope
 from ..model.elements import Part, Robot
 from ..source.document import Element
 from ..source.location import Place
@@ -95,11 +97,14 @@ class Problem:
         caused_by: Instead of the rule's, where it depends on the case.
         effects: Which of the rule's effects hold, by their keys, where that depends on the case;
             None for those whose key names no case.
+        alike: What problems that are reported as one have in common, where their sentences differ
+            in more than names and numbers: a text, number, bool or tuple of these.
         data: Values that the rule knows, by name, for fixes and other programs: texts, numbers and
             lists of these. Nothing reads them out of the message.
     """
 
     __slots__ = (
+        "alike",
         "at",
         "cause",
         "caused_by",
@@ -124,6 +129,7 @@ class Problem:
         cause: Part | Element | None = None,
         caused_by: tuple[str, ...] | None = None,
         effects: Collection[str] | None = None,
+        alike: object = None,
         data: Mapping[str, Any] | None = None,
     ) -> None:
         """Keep what was found; the place is worked out when it is reported."""
@@ -136,6 +142,7 @@ class Problem:
         self.cause = cause
         self.caused_by = caused_by
         self.effects = effects
+        self.alike = alike
         self.data: Mapping[str, Any] = data or {}
 
     @property
@@ -158,6 +165,17 @@ class Problem:
     def element(self) -> Element:
         """The element of the subject."""
         return _element_of(self.subject)
+
+    @property
+    def owner(self) -> str:
+        """Name of the nearest named element around a subject without a name."""
+        element: Element | None = self.element
+        while element is not None:
+            name = element.attributes.get("name") or element.attributes.get("reference")
+            if name:
+                return name
+            element = element.parent
+        return ""
 
     @property
     def cause_element(self) -> Element:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..diagnostic import Severity
 from ..model.elements import Robot
 from .fault import Fault
 from .recording import Array
@@ -90,7 +91,7 @@ class EngineComparison:
         message = f"the engines differ{trial}: {part.what} {values}"
         place = None if element is None else element.place
         causes = "; ".join(self.causes)
-        return Fault("engines-differ", message, place, part.kind, part.name, causes)
+        return Fault("engines-differ", Severity.ERROR, message, place, part.kind, part.name, causes)
 
 
 def compare_engines(first: Sequence[Verdict], second: Sequence[Verdict]) -> EngineComparison:

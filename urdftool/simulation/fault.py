@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..source.location import Place
+from ..diagnostic import Diagnostic, Severity, deprecated_name
 
 FALLEN = frozenset(
     {
@@ -16,39 +16,43 @@ FALLEN = frozenset(
 """Kinds of failures of the run; the others are errors in the file of a robot that stands."""
 
 
-@dataclass(frozen=True)
-class Fault:
+@dataclass(slots=True)
+class Fault(Diagnostic):
     """Something that went wrong, or a remark.
 
     Attributes:
-        kind: Such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
+        code: Such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
+        severity: ``ERROR`` if the robot does not stand because of it; ``INFO`` for a remark.
         message: One sentence: what was measured.
-        place: Where the link or joint is written.
+        location: Where the link or joint is written.
         what: ``link``, ``joint`` or ``robot``.
         name: Of that.
         cause: The probable reason; empty if the message has it.
         rule: The lint rule that explains more; empty if there is none.
-        fails: Whether the robot does not stand because of it; otherwise it is a remark.
     """
 
-    kind: str
-    message: str
-    place: Place | None
     what: str = "robot"
     name: str = ""
     cause: str = ""
     rule: str = ""
-    fails: bool = True
+
+    kind = deprecated_name("kind", "code")
+    place = deprecated_name("place", "location")
+
+    @property
+    def fails(self) -> bool:
+        """Tell whether the robot does not stand because of it; otherwise it is a remark."""
+        return self.severity is Severity.ERROR
 
     @property
     def fell(self) -> bool:
         """Tell whether a robot with it does not stand in the plain sense."""
-        return self.fails and self.kind in FALLEN
+        return self.fails and self.code in FALLEN
 
     @property
     def group(self) -> tuple[str, bool, str]:
         """Return a key that is equal for faults that differ in their part only."""
-        return self.kind, self.fails, self.cause + self.name * (self.kind == "blocked")
+        return self.code, self.fails, self.cause + self.name * (self.code == "blocked")
 
 
 def quote_names(names: Sequence[str], most: int = 4) -> str:

@@ -64,9 +64,9 @@ def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[F
     """
     faults: dict[tuple[str, str], Fault] = {}
     for fault in (*(fault for verdict in verdicts for fault in verdict.faults), *more):
-        known = faults.get((fault.kind, fault.name))
+        known = faults.get((fault.code, fault.name))
         if known is None or (fault.fails and not known.fails):
-            faults[fault.kind, fault.name] = fault
+            faults[fault.code, fault.name] = fault
     engines = dict.fromkeys(verdict.run.recording.engine for verdict in verdicts)
     return Row(
         path,

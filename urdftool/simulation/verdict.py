@@ -60,7 +60,7 @@ _CONSEQUENCES = frozenset(
 def _caused(run: Run, fault: Fault) -> Fault:
     """Replace the cause of a fault that follows from a root without mass."""
     root = run.bodies.bodies[0]
-    if root.mass or run.bodies.fixed_base or fault.kind not in _CONSEQUENCES:
+    if root.mass or run.bodies.fixed_base or fault.code not in _CONSEQUENCES:
         return fault
     cause = (
         f"the root, link '{root.name}', has no mass, so contacts and joints have nothing to push"

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..model.elements import Joint, Robot, Vector
 from ..model.kinematics import MOVABLE, motion_of
 from ..model.pose import IDENTITY, Pose, Quaternion, pose_of, quaternion_of_rotation

@@ -6,7 +6,8 @@ from bisect import bisect_right
 from collections.abc import Iterable
 from operator import itemgetter
 
-from ..finding import Finding, Severity
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..model.elements import Robot
 from ..source.location import Call, Place
 
@@ -24,11 +25,11 @@ def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding
     found: dict[str, list[Finding]] = {}
     for finding in findings:
         links: dict[str, None] = {}
-        for name, calls in ((finding.name, finding.place.calls), *finding.others):
+        for name, calls in ((finding.name, finding.location.calls), *finding.others):
             link = _named(robot, finding.kind, name)
             if link is None:
                 owners = _owners(robot) if owners is None else owners
-                link = _owner(owners, finding.place, calls)
+                link = _owner(owners, finding.location, calls)
             if link is not None and link in robot.link:
                 links[link] = None
         for link in links:

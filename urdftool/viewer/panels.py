@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from ..diagnostic import Severity
 from ..errors import UrdftoolError
-from ..finding import Finding, Severity
+from ..finding import Finding
 from ..model.elements import Robot
 from .marks import counted, worst
 from .numbers import joint_rows, link_rows, safe, shortened, table
@@ -146,6 +147,7 @@ def _item(finding: Finding, links: list[str]) -> str:
     return (
         f"<div style='border-left:4px solid {color};padding-left:.6em;margin:.5em 0;"
         f"overflow-wrap:anywhere'><b style='color:{color}'>{finding.severity.label}</b> "
-        f"{safe(finding.message + times)}<br><span style='opacity:.65'>{safe(str(finding.place))} "
-        f"[{safe(finding.rule)}]{safe(where + more)}</span></div>"
+        f"{safe(finding.message + times)}<br>"
+        f"<span style='opacity:.65'>{safe(str(finding.location))} "
+        f"[{safe(finding.code)}]{safe(where + more)}</span></div>"
     )

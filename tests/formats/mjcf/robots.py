@@ -45,4 +45,4 @@ def find(model, tag, name):
 
 def rules(written):
     """The names of the losses."""
-    return [loss.rule for loss in written.losses]
+    return [loss.code for loss in written.losses]

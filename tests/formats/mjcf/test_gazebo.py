@@ -49,7 +49,7 @@ def test_colour_of_gazebo_where_urdf_has_none(write):
 def test_numbers_that_are_none(write, text):
     with pytest.raises(Refused) as caught:
         exported(write, gazebo(text))
-    assert caught.value.findings[0].rule == "bad-extension-number"
+    assert caught.value.findings[0].code == "bad-extension-number"
 
 
 @pytest.mark.parametrize("keyword", ["kp", "maxVel", "dampingFactor", "selfCollide", "laserRetro"])

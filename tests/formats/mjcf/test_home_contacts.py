@@ -41,7 +41,7 @@ def test_an_overlap_is_excluded_and_reported(write, radius, touches):
     assert (frozenset(("a", "c")) in excluded(written)) == touches
     assert ("lossy-overlap" in rules(written)) == touches
     if touches:
-        (loss,) = (loss for loss in written.losses if loss.rule == "lossy-overlap")
+        (loss,) = (loss for loss in written.losses if loss.code == "lossy-overlap")
         assert "'a' and 'c' 10 mm" in loss.message
 
 
@@ -49,7 +49,7 @@ def test_an_overlap_that_stays_is_reported_too(write):
     path = write("r.urdf", chain(ball(0.9)))
     written = export_mjcf(load(path), exclude="adjacent")
     assert excluded(written) == []
-    (loss,) = (loss for loss in written.losses if loss.rule == "lossy-overlap")
+    (loss,) = (loss for loss in written.losses if loss.code == "lossy-overlap")
     assert "--exclude touching excludes them" in loss.message
 
 
@@ -85,7 +85,7 @@ def test_an_overlap_of_hulls_is_told_from_one_of_the_geometry(write):
     found = load(path)
     assert measure_overlap(found, {}, "a", "c") == pytest.approx(0, abs=1e-9)
     written = export_mjcf(found)
-    (loss,) = (loss for loss in written.losses if loss.rule == "lossy-overlap")
+    (loss,) = (loss for loss in written.losses if loss.code == "lossy-overlap")
     assert "only by the convex hulls" in loss.message
     assert "--decompose" in loss.hint
 

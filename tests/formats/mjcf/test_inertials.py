@@ -76,7 +76,7 @@ def test_an_impossible_tensor_of_a_moving_body_is_refused_with_its_place(write):
     path = write("r.urdf", robot("", link("base"), "", link("a", BAD), joint("j", "base", "a")))
     with pytest.raises(Refused) as caught:
         export(path)
-    assert caught.value.findings[0].rule == "inertia-triangle-inequality"
+    assert caught.value.findings[0].code == "inertia-triangle-inequality"
     assert caught.value.line == 4
 
 
@@ -90,7 +90,7 @@ def test_it_is_repaired_as_asked_and_reported_in_numbers(write, fix, moments):
     written = export(write("r.urdf", text), fix_inertia=fix)
     tensor = tensor_of(written_inertial(tree(written), "a"))
     assert np.diag(tensor) == pytest.approx(moments)
-    (loss,) = [loss for loss in written.losses if loss.rule == "lossy-inertia"]
+    (loss,) = [loss for loss in written.losses if loss.code == "lossy-inertia"]
     assert "1, 1, 3" in loss.message
 
 

@@ -139,7 +139,7 @@ def test_defects_are_refused_and_forced(write, inside, rule):
     path = write("r.urdf", two(inside))
     with pytest.raises(Refused) as caught:
         export(path)
-    assert [finding.rule for finding in caught.value.findings] == [rule]
+    assert [finding.code for finding in caught.value.findings] == [rule]
     assert caught.value.line == 3 or rule == "zero-axis"
     assert rule in rules(export(path, force=True))
 

@@ -106,7 +106,7 @@ def test_numbers_that_are_none(write, inside):
     path = write("r.urdf", closed(inside))
     with pytest.raises(Refused) as caught:
         export(path)
-    assert caught.value.findings[0].rule == "bad-extension-number"
+    assert caught.value.findings[0].code == "bad-extension-number"
     assert len(equalities(export(path, force=True))) >= 1
 
 

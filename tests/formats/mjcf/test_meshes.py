@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
-from urdftool.finding import Severity
+from urdftool.diagnostic import Severity
 from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.convert import convert
 from urdftool.formats.mjcf.cut import Cut
@@ -239,7 +239,7 @@ def test_a_mesh_is_cut_into_pieces(write, mesh):
         geom.get("mesh") for geom in tree(written).iter("geom") if geom.get("class") == "collision"
     ]
     assert collisions == ["two_cubes_collision_0", "two_cubes_collision_1", "cube", "flat"]
-    (said,) = (loss for loss in written.losses if loss.rule == "lossy-convex")
+    (said,) = (loss for loss in written.losses if loss.code == "lossy-convex")
     assert "2 convex pieces" in said.message
     assert "1.00%" in said.message
 

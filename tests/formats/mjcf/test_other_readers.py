@@ -119,7 +119,7 @@ def test_drake(name):
     if CASES[name]:
         with pytest.raises(Refused) as caught:
             write_mjcf(found)
-        assert {finding.rule for finding in caught.value.findings} <= CASES[name]
+        assert {finding.code for finding in caught.value.findings} <= CASES[name]
     else:
         written = write_mjcf(found, Options())
         count = sum(len(link.collisions) for link in found.links)

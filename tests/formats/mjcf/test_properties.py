@@ -86,6 +86,6 @@ def test_a_random_robot_is_itself(write, odd, seed):
     checks = verify_copy(found, options, written)
     same_robot = [check for check in checks if check.name != "runs"]  # random masses may diverge
     assert is_faithful(same_robot), check_table(checks)
-    exact = {"lossy-inertia", "lossy-massless"}.isdisjoint(loss.rule for loss in written.losses)
+    exact = {"lossy-inertia", "lossy-massless"}.isdisjoint(loss.code for loss in written.losses)
     if exact:
         assert {check.verdict for check in same_robot} == {"equal"}, check_table(checks)

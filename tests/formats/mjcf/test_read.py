@@ -203,7 +203,7 @@ def test_mechanism(robot):
 
 
 def test_what_the_model_lacks_is_reported_once_each(mechanism):
-    found = {loss.rule: (loss.severity.label, loss.data["count"]) for loss in mechanism.losses}
+    found = {loss.code: (loss.severity.label, loss.data["count"]) for loss in mechanism.losses}
     assert found == {
         "unread-actuator": ("warning", 1),
         "unread-coupling": ("warning", 1),
@@ -215,7 +215,7 @@ def test_what_the_model_lacks_is_reported_once_each(mechanism):
         "unread-sensor": ("info", 1),
         "unread-tendon": ("warning", 1),
     }
-    tendon = next(loss for loss in mechanism.losses if loss.rule == "unread-tendon")
+    tendon = next(loss for loss in mechanism.losses if loss.code == "unread-tendon")
     assert (tendon.name, tendon.place.line) == ("cable", line_of('name="cable"'))
 
 

@@ -196,8 +196,8 @@ def test_mujoco_values_that_are_none(write, inside):
     with pytest.raises(Refused) as caught:
         export(path)
     (finding,) = caught.value.findings
-    assert finding.rule == "bad-extension-number"
-    assert finding.place.line == 3
+    assert finding.code == "bad-extension-number"
+    assert finding.location.line == 3
     written = export(path, force=True)
     assert rules(written) == ["bad-extension-number"]
     value = inside.partition('="')[2].partition('"')[0]

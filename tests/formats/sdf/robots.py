@@ -69,7 +69,7 @@ def names(model, tag):
 
 def rules(written):
     """The names of the losses."""
-    return [loss.rule for loss in written.losses]
+    return [loss.code for loss in written.losses]
 
 
 TWO = (link("a"), joint("j", "a", "b"), link("b"))

@@ -94,7 +94,7 @@ def refused(*parts, **choices):
 def test_a_defect_is_one_finding_at_its_place(rule):
     parts = {**FORCED, **{name: case[0] for name, case in LEFT.items()}, **FATAL}[rule]
     error = refused(*parts)
-    found = [finding for finding in error.findings if finding.rule == rule]
+    found = [finding for finding in error.findings if finding.code == rule]
     assert len(found) == 1 + (rule in ("missing-parent-or-child", "missing-name"))
     assert str(found[0]).startswith("r.urdf:")
     assert error.line is not None
@@ -127,7 +127,7 @@ def test_force_leaves_what_can_stand(rule, choices, tmp_path):
 
 def test_a_world_that_no_link_declares_is_the_world():
     parts = (link("a"), joint("j", "world", "a", "fixed"))
-    assert [f.rule for f in refused(*parts).findings] == ["unknown-parent-link"]
+    assert [f.code for f in refused(*parts).findings] == ["unknown-parent-link"]
     written = export(*parts, force=True)
     assert tree(written).findtext("joint/parent") == "world"
     assert tree(written).find("joint").get("type") == "fixed"
@@ -143,7 +143,7 @@ def test_trees_stand_at_the_origin_one_beside_the_other():
 
 @pytest.mark.parametrize("rule", FATAL)
 def test_force_does_not_invent_a_robot(rule):
-    assert rule in [finding.rule for finding in refused(*FATAL[rule], force=True).findings]
+    assert rule in [finding.code for finding in refused(*FATAL[rule], force=True).findings]
 
 
 def test_all_defects_are_said_at_once():
@@ -151,7 +151,7 @@ def test_all_defects_are_said_at_once():
         link("a", IMPOSSIBLE),
         gazebo("a", "<mu1>x</mu1><kp>y</kp><maxContacts>1.5</maxContacts>"),
     )
-    found = [finding.rule for finding in refused(*parts).findings]
+    found = [finding.code for finding in refused(*parts).findings]
     assert found == ["bad-extension-number"] * 3 + ["inertia-triangle-inequality"]
 
 
@@ -208,6 +208,6 @@ def test_a_pose_that_is_none_is_left_out_when_forced():
 )
 def test_values_that_a_reader_refuses(said):
     parts = (link("a", f"{inertial()}<collision>{BOX}</collision>"), gazebo("a", said))
-    assert [f.rule for f in refused(*parts).findings] == ["bad-extension-number"]
+    assert [f.code for f in refused(*parts).findings] == ["bad-extension-number"]
     text = export(*parts, force=True).files["model.sdf"].decode()
     assert all(f">{word}<" not in text for word in ("down", "x", "sometimes"))

@@ -30,7 +30,7 @@ def written(*inside, **choices):
         ]
     )
     centre = [float(n) for n in node.findtext("pose").split()][:3]
-    said = [loss.message for loss in made.losses if loss.rule == "lossy-inertia"]
+    said = [loss.message for loss in made.losses if loss.code == "lossy-inertia"]
     return float(node.findtext("mass")), centre, tensor, said
 
 
@@ -38,7 +38,7 @@ def test_it_is_refused_and_the_option_named():
     with pytest.raises(Refused) as refused:
         export(link("a", BAD))
     (finding,) = refused.value.findings
-    assert finding.rule == "inertia-triangle-inequality"
+    assert finding.code == "inertia-triangle-inequality"
     assert "--fix-inertia lift, balance or box" in finding.hint
 
 
@@ -86,5 +86,5 @@ def test_both_languages_get_the_same(way, write, urdftool):
 
     robot = load(path)
     losses = write_mjcf(robot, Mjcf(fix_inertia=way, base="free")).losses
-    (said,) = [loss.message for loss in losses if loss.rule == "lossy-inertia"]
+    (said,) = [loss.message for loss in losses if loss.code == "lossy-inertia"]
     assert said.split(" kg·m²")[0] in done.err

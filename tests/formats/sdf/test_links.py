@@ -19,14 +19,14 @@ def test_a_moving_link_without_mass_stays_with_all_below_it():
     model = tree(written)
     assert names(model, "link") == ["a", "b", "c"]
     assert named(model, "link", "b").findtext("inertial/mass") == "1e-12"
-    assert [(x.rule, x.name, x.severity.label) for x in written.losses] == [
+    assert [(x.code, x.name, x.severity.label) for x in written.losses] == [
         ("lossy-mass", "b", "info")
     ]
 
 
 def test_a_leaf_without_mass_is_a_warning():
     written = export(*TWO[:2], link("b", ""))
-    assert [(x.rule, x.severity.label) for x in written.losses] == [("lossy-mass", "warning")]
+    assert [(x.code, x.severity.label) for x in written.losses] == [("lossy-mass", "warning")]
 
 
 def test_lumped_masses_are_one():

@@ -125,7 +125,7 @@ def test_a_script_that_nothing_can_find_is_not_written(write, choices):
     write("pkg/textures/wood.png", PICTURE)
     robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
     written = export(robot, Options(target="gazebo-classic", **choices))
-    assert [loss.rule for loss in written.losses] == ["lossy-texture"]
+    assert [loss.code for loss in written.losses] == ["lossy-texture"]
     assert tree(written).find("link/visual/material/script") is None
     assert [name for name in written.files if name.startswith("materials/")] == []
 

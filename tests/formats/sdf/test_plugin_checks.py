@@ -56,4 +56,4 @@ def test_the_python_function_says_it_too(write):
 
     path = write("r.urdf", ROBOT)
     written = urdftool.export_sdf(urdftool.load(path))
-    assert "plugin-unknown-entity" in [loss.rule for loss in written.losses]
+    assert "plugin-unknown-entity" in [loss.code for loss in written.losses]

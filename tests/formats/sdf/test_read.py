@@ -147,7 +147,7 @@ def test_frames(robot):
 
 
 def test_what_the_model_lacks_is_reported_once_each(mechanism):
-    found = {loss.rule: (loss.severity.label, loss.data["count"]) for loss in mechanism.losses}
+    found = {loss.code: (loss.severity.label, loss.data["count"]) for loss in mechanism.losses}
     assert found == {
         "unread-plugin": ("info", 1),
         "unread-shape-heightmap": ("warning", 1),
@@ -262,7 +262,7 @@ def test_the_model_with_most_joints_is_read(tmp_path):
     </world></sdf>""")
     reading = read(file)
     assert reading.robot.name == "arm"
-    assert [(loss.rule, loss.name) for loss in reading.losses] == [
+    assert [(loss.code, loss.name) for loss in reading.losses] == [
         ("unread-scenery", "sun"),
         ("unread-model", "floor"),
     ]

@@ -111,7 +111,7 @@ def test_masses_that_are_none_are_said(mass, said):
     if said == "negative-mass":
         with pytest.raises(Refused) as caught:
             export(link("link1", inside))
-        assert [finding.rule for finding in caught.value.findings] == [said]
+        assert [finding.code for finding in caught.value.findings] == [said]
     else:
         assert rules(export(link("link1", inside))) == [said]
 
@@ -264,7 +264,7 @@ def test_an_origin_of_a_robot_that_is_none_is_said():
     parts = ('<origin xyz="0 foo 0" rpy="0 0 0"/>', link("link"))
     with pytest.raises(Refused) as caught:
         export(*parts)
-    assert [finding.rule for finding in caught.value.findings] == ["not-a-number"]
+    assert [finding.code for finding in caught.value.findings] == ["not-a-number"]
     assert tree(export(*parts, force=True)).find("pose") is None
 
 

@@ -63,9 +63,9 @@ def tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
     """
     own, later = list(defects(robot)), list(defects(left))
     remain = set(map(identity, later))
-    yield from (f for f in own if f.rule not in OF_TREES or identity(f) in remain)
+    yield from (f for f in own if f.code not in OF_TREES or identity(f) in remain)
     known = set(map(identity, own))
-    yield from (f for f in later if forced and f.rule in OF_TREES and identity(f) not in known)
+    yield from (f for f in later if forced and f.code in OF_TREES and identity(f) not in known)
 
 
 def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
@@ -76,11 +76,11 @@ def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
         found: The defects.
     """
     for finding in found:
-        fallback = FALLBACKS.get(finding.rule)
+        fallback = FALLBACKS.get(finding.code)
         written.report_loss(
-            finding.rule,
+            finding.code,
             finding.message,
-            finding.place,
+            finding.location,
             kind=finding.kind,
             name=finding.name,
             hint=f"accepted by --force; {fallback}" if fallback else "accepted by --force",

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from ...finding import Finding, Severity
+from ...diagnostic import Severity
+from ...finding import Finding
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
     """Merge findings of one rule at one place, as those of the instances of a macro."""
     found: dict[tuple[str, str, int], Finding] = {}
     for finding in findings:
-        key = finding.rule, finding.place.path, finding.place.start
+        key = finding.code, finding.location.path, finding.location.start
         if key in found:
             found[key].expansions += 1
         else:
@@ -27,7 +28,7 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
         hint += f" ({finding.hint})" if finding.hint else ""
         times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
         label = "note" if finding.severity is Severity.INFO else finding.severity.label
-        yield f"{finding.place}: {label}: {finding.message}{hint}{times} [{finding.rule}]"
+        yield f"{finding.location}: {label}: {finding.message}{hint}{times} [{finding.code}]"
 
 
 def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:
@@ -35,7 +36,7 @@ def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding,
     groups: dict[object, list[Finding]] = {}
     for index, finding in enumerate(findings):
         cause = finding.data.get("not_found_because")
-        groups.setdefault((finding.rule, cause) if cause else index, []).append(finding)
+        groups.setdefault((finding.code, cause) if cause else index, []).append(finding)
     yield from ((some[0], len(some) - 1) for some in groups.values())
 
 

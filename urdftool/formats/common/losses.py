@@ -21,7 +21,7 @@ class DeclaredLosses:
     @classmethod
     def from_findings(cls, findings: Iterable[Finding]) -> DeclaredLosses:
         """Collect the codes and names of findings."""
-        return cls(frozenset((finding.rule, finding.name) for finding in findings))
+        return cls(frozenset((finding.code, finding.name) for finding in findings))
 
     def any(self, *codes: str) -> bool:
         """Return whether a loss with one of these codes was reported anywhere."""

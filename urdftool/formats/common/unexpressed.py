@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
 from ..written import Written

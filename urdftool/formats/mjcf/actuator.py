@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ..common.actuator_config import JointSettings
 from ..written import Written

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...rules.gazebo.keywords import is_true
 from ..written import Written
 from .drives import drive_plugins

@@ -8,7 +8,8 @@ from itertools import pairwise
 
 from lxml import etree
 
-from ...finding import Finding, Severity
+from ...diagnostic import Severity
+from ...finding import Finding
 from .body import Bodies
 
 ORDER = (

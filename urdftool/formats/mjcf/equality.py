@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint
 from ..written import Written
 from .digits import numbers_text

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...mechanics.spatial_inertia import combine
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_of_quaternion

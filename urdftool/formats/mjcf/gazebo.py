@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
 from ...rules.gazebo.block_values import is_false

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...finding import Finding, Severity
+from ...diagnostic import Severity
+from ...finding import Finding
 from ...mechanics.spatial_inertia import SpatialInertia, combine
 from ...mechanics.tensor import (
     ZERO_TENSOR,

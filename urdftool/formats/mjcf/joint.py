@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import cross, norm
 from ..written import Written

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..written import Written
 from .body import Bodies

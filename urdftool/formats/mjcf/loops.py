@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import GazeboExtension, Vector
 from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rpy
 from ...model.read import number, numbers

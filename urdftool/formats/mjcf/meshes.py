@@ -8,7 +8,8 @@ from pathlib import Path
 
 from lxml import etree
 
-from ...finding import Finding, Severity
+from ...diagnostic import Severity
+from ...finding import Finding
 from ...geometry.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..common.assets import find_file

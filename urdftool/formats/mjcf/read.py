@@ -11,9 +11,9 @@ import os
 from pathlib import Path
 from typing import Any
 
+from ...diagnostic import Severity
 from ...errors import ModelError
 from ...extras import is_installed, missing
-from ...finding import Severity
 from ...isolated import IsolatedProcess, ProcessDied, ProcessTimeout
 from ...model.elements import Robot
 from ...model.provenance import Written

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint, Mimic, Robot
 from ...model.mechanism import (
     Camera,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import (
     Box,
     Capsule,

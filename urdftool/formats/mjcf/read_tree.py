@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import (
     Axis,
     Dynamics,

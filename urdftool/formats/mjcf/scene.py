@@ -6,7 +6,7 @@ import math
 
 from lxml import etree
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Vector
 from ..common.naming import UniqueNames
 from ..written import Written

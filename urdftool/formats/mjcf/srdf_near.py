@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...diagnostic import Severity
 from ...errors import SourceError
-from ...finding import Severity
 from ...model.elements import Robot
 from ...source.document import parse, read_file
 from ...source.packages import own_package, shown_path

@@ -58,7 +58,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         *defects(robot),
         *validate(robot, "export:mjcf"),
     ]
-    if any(finding.rule in FATAL for finding in found):
+    if any(finding.code in FATAL for finding in found):
         refuse(found, force=options.force)
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None

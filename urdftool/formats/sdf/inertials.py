@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...mechanics.repair import nearest_consistent
 from ...mechanics.tensor import (
     COMPONENTS,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.numbers import number_text

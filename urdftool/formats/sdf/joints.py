@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint
 from ...model.pose import norm
 from ..common.actuator_config import JointSettings

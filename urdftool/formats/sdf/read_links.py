@@ -6,8 +6,8 @@ import math
 import os
 from dataclasses import dataclass, field
 
+from ...diagnostic import Severity
 from ...errors import ModelError
-from ...finding import Severity
 from ...model.elements import (
     Box,
     Capsule,

@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...diagnostic import Severity
 from ...errors import ModelError, SourceError
-from ...finding import Severity
 from ...source.document import Element, parse, read_file
 from ...source.location import SourceFile
 from ...source.packages import Packages

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint, Link
 from ...rules.gazebo.sensors import TYPES
 from ...source.document import Element

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint, Link, Part, Robot
 from ...source.document import Element
 from ..common.actuator_config import JointSettings

@@ -54,7 +54,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         robot = left
     meshes = find_meshes(robot, options)
     found += mesh_defects(robot, meshes)
-    if any(finding.rule in FATAL | STRUCTURAL for finding in found):
+    if any(finding.code in FATAL | STRUCTURAL for finding in found):
         refuse(found, force=options.force, fatal=FATAL)
     plan = make_plan(robot, lump=options.lump)
     if options.fix_inertia == "none":

@@ -69,6 +69,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 "every length must be above 0",
                 at=element.attribute_place(name),
                 data={"attribute": name, "value": text, "collides": kind == "collision"},
+                alike=(name, element.tag, kind),
                 severity=ERROR if rejected else WARNING,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )

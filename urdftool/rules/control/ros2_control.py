@@ -175,7 +175,12 @@ def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
                         joint, param.text.strip(), written.mimic if written is not None else None
                     )
                     yield Problem(
-                        control.element, message, at=param, severity=INFO if repeats else None
+                        control.element,
+                        message,
+                        at=param,
+                        severity=INFO if repeats else None,
+                        alike=(written is None, joint.params.get("multiplier") is None),
+                        data={"joint": joint.name},
                     )
 
 

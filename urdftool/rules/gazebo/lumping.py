@@ -106,7 +106,8 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         settles = all(child.tag in JOINT_KEYWORDS for child in lost)
         remedy = "add <preserveFixedJoint>true</preserveFixedJoint>"
         child = robot.link.get(joint.child)
-        if child is not None and child.mass == 0:
+        is_massless = child is not None and child.mass == 0
+        if child is not None and is_massless:
             remedy += f" and give link '{child.name}' an <inertial>"
         if settles:
             remedy = f"remove the block; for a sensor {remedy}"
@@ -115,6 +116,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
             f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",
             at=block.element.attribute_place("reference"),
             severity=WARNING if settles else None,
+            alike=(what, is_massless),
             data={"joint": joint.name, "elements": list(dict.fromkeys(one.tag for one in lost))},
         )
 
@@ -165,6 +167,7 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
                 f"{what} {means}".rstrip()
                 + f"; write it at '{body}' if that is meant",
                 at=child,
+                alike=word,
                 data={"element": word, "link": name, "body": body},
             )
 
@@ -256,6 +259,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
                         f"{what} '{shape.name}' does not begin with '{link.name}', so Gazebo "
                         f"applies no {lost} to it; name it '{link.name}_{shape.name}'",
                         at=shape.element.attribute_place("name"),
+                        alike=(what, *sorted(told)),
                         data={"write": f"{link.name}_{shape.name}", "elements": sorted(told)},
                     )
 
@@ -346,6 +350,7 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
                 block.element,
                 f"{words} {do} nothing, as link '{name}' has no collision",
                 at=children[0],
+                alike=tuple(child.tag for child in children),
                 data={"elements": [child.tag for child in children]},
             )
 

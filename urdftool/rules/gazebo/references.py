@@ -193,16 +193,18 @@ def _misplaced(
         joint = robot.tree.parent_joint(name)
         right = f"joint '{joint.name}'" if joint is not None else right
     verb = "does" if len(children) == 1 else "do"
-    remedy = f"write it at {right}"
+    remedy, change = f"write it at {right}", "move"
     if name in robot.link and is_lumped(robot, name) and not any(map(keeps_joint, children)):
         remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} is fixed"
-        remedy += " and lumped"
+        remedy, change = f"{remedy} and lumped", "remove a lumped one"
     elif name and _is_repeated(robot, block.element, children):
         remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} has its own"
+        change = "remove a repeated one"
     return Problem(
         block.element,
         f"{tags} {verb} nothing {belongs}; {remedy}",
         at=children[0],
+        alike=(*(child.tag for child in children), name in robot.link, name in robot.joint, change),
         data={"elements": list(dict.fromkeys(child.tag for child in children))},
     )
 

@@ -152,6 +152,7 @@ def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             elements[0],
             f"material '{name}'{more} is an Ogre script, which new Gazebo cannot read; "
             "leave it out where the URDF has a colour",
+            alike=len(elements) > 1,
             data={"material": name, "count": len(elements)},
         )
 

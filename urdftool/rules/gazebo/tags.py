@@ -78,6 +78,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
                 f'{kind} has no <gazebo reference="{link.name}">; it needs {" and ".join(needs)}',
                 severity=None if role else INFO,
                 data={"role": role or ""},
+                alike=(role == "caster", *cases),
                 effects=holding(_WITHOUT_BLOCK, *cases),
                 group="{count} links have no <gazebo> block of their own, and need "
                 f"{' and '.join(needs).replace(' its ', ' their ')}: {{names}}",
@@ -228,6 +229,7 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
                     f"{role} '{link.name}' has no friction of its own; write {_FRICTION[role]}",
                     at=blocks[0],
                     data={"role": role},
+                    alike=role,
                     group=f"{{count}} {_PLURAL[role]} have no friction of their own: {{names}}; "
                     f"write {_FRICTION[role].replace(' its ', ' their ')}",
                 )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...finding import Severity
 from ...model.elements import GazeboExtension, Joint, Robot
 from ...model.read import number
 from ...source.document import Element
@@ -178,6 +177,7 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
                 block.element,
                 f"link '{name}' has {word} and no {other}, which is 1 then; write both",
                 at=block.element.child(word),
+                alike=word,
                 data={"written": word, "missing": other},
             )
 
@@ -230,7 +230,7 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
     """
     told: set[tuple[str, float]] = set()
     for block in robot.gazebo:
-        found: dict[str, tuple[Element, list[str], Severity | None]] = {}
+        found: dict[tuple[bool, bool], tuple[str, list[Element], list[str]]] = {}
         meant = _holds(robot, block.reference) and _is_alike(block)
         for child in block.element.children:
             if child.tag not in ("mu1", "mu2", "kp"):
@@ -252,8 +252,14 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
                 why = "rubber on concrete has about 1"
             else:
                 continue
-            severity = ERROR if value < 0 else None
-            found.setdefault(why, (child, [], severity))[1].append(wrong)
-        for why, (child, wrongs, severity) in found.items():
-            message = f"{' and '.join(wrongs)}; {why}"
-            yield Problem(block.element, message, at=child, severity=severity)
+            _, children, wrongs = found.setdefault((child.tag == "kp", value < 0), (why, [], []))
+            children.append(child)
+            wrongs.append(wrong)
+        for (_, is_negative), (why, children, wrongs) in found.items():
+            yield Problem(
+                block.element,
+                f"{' and '.join(wrongs)}; {why}",
+                at=children[0],
+                severity=ERROR if is_negative else None,
+                alike=tuple(child.tag for child in children),
+            )

@@ -93,6 +93,7 @@ def _outside(link: Link, found: Misfit, also: str = "") -> Problem:
         f"centre of mass of link '{link.name}' {found.sentence}{also}",
         at=(link.inertial and link.inertial.origin) or link.inertial,
         severity=None if found.certain else INFO,
+        alike=(found.axis, bool(also)),
         data={"distance": found.amount, "axis": "xyz"[found.axis]},
     )
 
@@ -139,28 +140,35 @@ def inertial_not_at_com_suspect(
         digits = 1 - math.floor(math.log10(noise))
         centre = [0.0 if abs(value) < noise else round(value, digits) for value in box.centre]
         shown = " ".join(f"{value:g}" for value in centre)
+        remedy, of_inertia = _remedy(link, inertial, box)
         yield Problem(
             link,
             f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
-            f"{shown} m; {_remedy(link, inertial, box)}",
+            f"{shown} m; {remedy}",
             at=inertial.origin if inertial.origin is not None else inertial,
+            alike=of_inertia,
             data={"center": centre},
         )
 
 
-def _remedy(link: Link, inertial: Inertial, box: Bounds) -> str:
-    """Say what to write besides the center of mass, by the point that the inertia is about."""
+def _remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
+    """Say what to write besides the center of mass, by the point that the inertia is about.
+
+    Returns:
+        The remedy, and which inertia it names: ``""``, ``"unknown"`` or ``"known"``.
+    """
     remedy = "write its center of mass as the <origin> of its <inertial>"
     if inertial.inertia is None or is_zero(inertial.inertia.six, link.mass):
-        return remedy
+        return remedy, ""
     right = about_center(link, inertial, box.centre, box)
     if right is None:
-        return f"{remedy}, and the inertia about it"
+        return f"{remedy}, and the inertia about it", "unknown"
     if right == inertial.inertia.six:
-        return remedy
+        return remedy, ""
     return (
         f"{remedy}, and the inertia, which fits the shapes only about the frame, about it: "
-        f"{attributes_text(right)}"
+        f"{attributes_text(right)}",
+        "known",
     )
 
 

@@ -175,21 +175,25 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
                     "an inertia of zeros",
                     at=at,
                     effects=_AS_PART,
+                    alike="part",
                 )
             continue
         if link is not next(one for one in links if one in zero):
             continue  # one finding for a body
         moved = joint is not None and not joint.is_fixed
         if not targets.isdisjoint(GAZEBO):
-            severity, so = ERROR, "Gazebo removes the link and everything attached to it"
+            case, severity = "removed", ERROR
+            so = "Gazebo removes the link and everything attached to it"
         elif moved and "mujoco" in targets:
-            severity, so = ERROR, "MuJoCo rejects the file"
+            case, severity, so = "rejected", ERROR, "MuJoCo rejects the file"
         elif moved:
-            severity, so = ERROR if link.collisions else WARNING, "a body that moves has a mass"
+            case, severity = "moves", ERROR if link.collisions else WARNING
+            so = "a body that moves has a mass"
         elif robot.moving_joints and targets != {"pybullet"}:
-            severity, so = INFO, "PyBullet fixes it to the world, and Gazebo loads nothing"
+            case, severity = "root", INFO
+            so = "PyBullet fixes it to the world, and Gazebo loads nothing"
             if joint is not None:
-                so = "Gazebo removes the link and everything attached to it"
+                case, so = "removed", "Gazebo removes the link and everything attached to it"
         else:
             continue
         keys = {"gz, gazebo-classic", *(("mujoco",) if moved else ())}
@@ -199,6 +203,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             at=at,
             severity=severity,
             effects=_AS_ROOT if joint is None else keys,
+            alike=case,
         )
 
 
@@ -244,6 +249,7 @@ def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
             group="{count} links of mass 0 are fixed to links of mass 0, at which sdformat 12.3 "
             "rejects the robot; write a mass of 1e-5 kg for each: {names}",
             effects=("gz, gazebo-classic (both)",),
+            alike="pair",
         )
 
 
@@ -431,6 +437,7 @@ def _of_density(found: _Density, also: str = "") -> Problem:
         f"{where}; water has 1000{also}",
         at=found.element.attribute_place("value"),
         severity=WARNING if found.impossible else INFO,
+        alike=(found.in_box, bool(also)),
         data={"mass": link.mass, "density": found.density, "is_too_large": found.too_heavy},
     )
 

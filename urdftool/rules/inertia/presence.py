@@ -71,24 +71,26 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         moves = joint is not None and not joint.is_fixed
         held = is_fixed_to_world(robot, link)
         if in_gazebo and link.name not in heavy:
-            severity, so = ERROR, f"; {_REMOVED}"
+            outcome, severity, so = "removed", ERROR, f"; {_REMOVED}"
             several = "; Gazebo removes them and everything attached to them"
         elif "pybullet" in targets and not held:
-            severity, so = ERROR, "; PyBullet gives it 1 kg"
+            outcome, severity, so = "1 kg", ERROR, "; PyBullet gives it 1 kg"
             several = "; PyBullet gives each of them 1 kg"
         elif "mujoco" in targets and link.collisions and moves:
-            severity = INFO if _is_marker(link) else ERROR
+            outcome, severity = "water", INFO if _is_marker(link) else ERROR
             so = "; MuJoCo gives it the mass of water"
             several = "; MuJoCo gives each of them the density of water"
         elif link.name in heavy:
             others = [one for one, _ in attached_links(robot, link) if one.mass > 0]
-            severity, so = INFO, f", and is fixed to '{others[0].name}', which has one"
+            outcome, severity = "part", INFO
+            so = f", and is fixed to '{others[0].name}', which has one"
             several = ", and are fixed to links that have one"
         elif held:
-            severity, so = INFO, " and is fixed to the world, where its mass has no effect"
+            outcome, severity = "static", INFO
+            so = " and is fixed to the world, where its mass has no effect"
             several = " and are fixed to the world, where their mass has no effect"
         else:
-            severity, so = WARNING, " and so has no mass"
+            outcome, severity, so = "no mass", WARNING, " and so has no mass"
             several = " and so have no mass"
         has_shapes = bool(link.visuals or link.collisions)
         warned_by_kdl = link is robot.tree.root and not targets.isdisjoint(ROS)
@@ -104,6 +106,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
             effects=_effects_without_inertial(robot, link, case),
+            alike=outcome,
         )
 
 

@@ -7,7 +7,7 @@ from ...mechanics.typo_detection import Proposal, infer_intended_tensor
 from ...model.elements import Inertial, Link, Robot
 from ...model.pose import UPRIGHT, pose_of, rotate, transpose
 from ..mesh.outlines import reaches
-from .solids import box_of, solid_tensor, solid_text
+from .solids import box_of, solid_kind, solid_tensor, solid_text
 
 
 def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposal | None:
@@ -49,6 +49,12 @@ def remedy_text(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
     if proposal.kind in ("decimal", "sign", "copied"):
         return f"; {proposal.sentence}"
     return f"; {proposal.sentence}; write {attributes_text(proposal.tensor)}"
+
+
+def remedy_kind(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
+    """Tell apart the remedies of :func:`remedy_text`; empty if there is none."""
+    proposal = proposal_of(link, inertial, six)
+    return solid_kind(link) if proposal is None else proposal.kind
 
 
 def attributes_text(six: SymmetricTensor) -> str:

@@ -24,7 +24,7 @@ from .bodies import bodies, slight_parts
 from .corrections import undo_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
 from .density import outlier
 from .frame import about_com
-from .proposals import recomputing_hint, remedy_text
+from .proposals import recomputing_hint, remedy_kind, remedy_text
 from .solids import is_dummy, solid_moments, solid_text
 from .tensors import is_accepted, is_positive, is_zero, tensors
 
@@ -179,6 +179,7 @@ def inertia_exceeds_geometry(
             fits = judge(box, com=box.centre) is None
             is_own = _has_own_size(robot, link, found.certain)
             remedy = remedy_text(link, inertial, six) if is_own else ""
+            kind = remedy_kind(link, inertial, six) if is_own else ""
             yield Problem(
                 link,
                 f"inertia of link '{link.name}' {found.sentence}{remedy}",
@@ -186,6 +187,7 @@ def inertia_exceeds_geometry(
                 severity=None if found.certain else INFO,
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
                 effects=_readers_of(six),
+                alike=(found.axis, kind),
                 data={"certain": found.certain},
             )
 

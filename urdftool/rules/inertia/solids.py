@@ -137,6 +137,14 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
     return box is not None and max(box.size) <= largest
 
 
+def solid_kind(link: Link) -> str:
+    """Name the element of the solid that :func:`solid_text` describes; empty if there is none."""
+    shape = only_shape(link)
+    if solid_moments(link) is None or shape is None or shape.geometry is None:
+        return ""
+    return shape.geometry.element.tag
+
+
 def solid_text(link: Link) -> str:
     """What to write: ``; a solid box of that mass has ixx 1, iyy 2, izz 3``, or nothing."""
     moments, shape = solid_moments(link), only_shape(link)

@@ -18,7 +18,7 @@ from .corrections import write_inertia_of_shapes, write_meant_inertia
 from .joint_inertia import joint_inertia
 from .proposals import recomputing_hint, remedy_text
 from .slips import slip_of
-from .solids import solid_text
+from .solids import solid_kind, solid_text
 from .tensors import (
     EXACT,
     SIX,
@@ -236,6 +236,7 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
                 *["mujoco"] * rejected,
                 *["pinocchio"] * (not is_part),
             ],
+            alike=(any(six), solid_kind(link)),
         )
 
 
@@ -300,6 +301,7 @@ def singular_inertia(
             at=inertial.inertia,
             severity=None if rejected else WARNING,
             effects=[key for key in _SINGULAR if key != "mujoco" or rejected],
+            alike=solid_kind(link),
             data={"moments": list(principal_moments(six))},
         )
 

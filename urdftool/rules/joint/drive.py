@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from ...model.actuation import actuated_joints, is_passive, measured_joints
 from ...model.elements import Joint, Limit, Robot
@@ -56,6 +57,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 "drive, if it has one",
                 at=limit.element.attribute_place("effort"),
                 severity=INFO if passive else None,
+                alike=joint.type == "prismatic",
             )
 
 
@@ -81,6 +83,7 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
                 f"velocity limit of joint '{joint.name}' is 0, so it may not move; "
                 f"write what it reaches [{_units(joint)[1]}]",
                 at=limit.element.attribute_place("velocity"),
+                alike=joint.type == "prismatic",
             )
 
 
@@ -152,13 +155,15 @@ def implausible_velocity(
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
             what = f"{limit.velocity:g} {_units(joint)[1]}, {_judged(limit.velocity, fastest)}"
-            found.append((joint, limit, what))
-    for joint, limit, what, more in _alike(found, together):
+            found.append(_Large(joint, limit, limit.velocity, _is_endless(limit.velocity), what))
+    for one, more in _alike(found, together):
         yield Problem(
-            joint,
-            f"velocity limit of joint '{joint.name}'{more} is {what}; write what the drive reaches",
-            at=limit.element.attribute_place("velocity"),
-            data={"velocity": limit.velocity},
+            one.joint,
+            f"velocity limit of joint '{one.joint.name}'{more} is {one.what}; "
+            "write what the drive reaches",
+            at=one.limit.element.attribute_place("velocity"),
+            alike=(one.is_slide, one.is_endless, bool(more)),
+            data={"velocity": one.value},
         )
 
 
@@ -181,42 +186,76 @@ def implausible_effort(
     """
     actuated = actuated_joints(robot)
     found = [
-        (joint, limit, f"{limit.effort:g} {_units(joint)[0]}, {_judged(limit.effort, largest)}")
+        _Large(
+            joint,
+            limit,
+            limit.effort,
+            _is_endless(limit.effort),
+            f"{limit.effort:g} {_units(joint)[0]}, {_judged(limit.effort, largest)}",
+        )
         for joint, limit in _driven(robot)
         if limit.effort is not None and limit.effort > largest and not is_passive(joint, actuated)
     ]
-    for joint, limit, what, more in _alike(found, together):
+    for one, more in _alike(found, together):
         yield Problem(
-            joint,
-            f"effort limit of joint '{joint.name}'{more} is {what}; write what the drive has",
-            at=limit.element.attribute_place("effort"),
-            data={"effort": limit.effort},
+            one.joint,
+            f"effort limit of joint '{one.joint.name}'{more} is {one.what}; "
+            "write what the drive has",
+            at=one.limit.element.attribute_place("effort"),
+            alike=(one.is_slide, one.is_endless, bool(more)),
+            data={"effort": one.value},
         )
 
 
 def _judged(value: float, most: float) -> str:
     """Compare a limit with the largest plausible one: a power of ten above it means no limit."""
+    return "in effect no limit" if _is_endless(value) else f"above {most:g}"
+
+
+def _is_endless(value: float) -> bool:
+    """Tell whether a large limit stands for none."""
     power = math.log10(value)
-    is_none = value >= _ENDLESS or abs(power - round(power)) < 1e-9
-    return "in effect no limit" if is_none else f"above {most:g}"
+    return value >= _ENDLESS or abs(power - round(power)) < 1e-9
 
 
 _ENDLESS = 1e6
 """Velocity [rad/s, m/s] or effort [N·m, N] from which a limit is a number for "none"."""
 
 
-def _alike(
-    found: list[tuple[Joint, Limit, str]], together: float
-) -> Iterator[tuple[Joint, Limit, str, str]]:
-    """Each joint, or the first of more than ``together`` of which one thing is said."""
-    times = Counter(what for _, _, what in found)
+class _Large(NamedTuple):
+    """A limit that is implausibly large.
+
+    Attributes:
+        joint: Its joint.
+        limit: The limit.
+        value: Its velocity [rad/s, m/s] or effort [N·m, N].
+        is_endless: Whether the value stands for no limit.
+        what: The value in words.
+    """
+
+    joint: Joint
+    limit: Limit
+    value: float
+    is_endless: bool
+    what: str
+
+    @property
+    def is_slide(self) -> bool:
+        """Tell whether the joint is prismatic."""
+        return self.joint.type == "prismatic"
+
+
+def _alike(found: list[_Large], together: float) -> Iterator[tuple[_Large, str]]:
+    """Yield each limit, or the first of more than ``together`` that are equal."""
+    times = Counter((one.value, one.is_slide) for one in found)
     told = set()
-    for joint, limit, what in found:
-        if times[what] <= together:
-            yield joint, limit, what, ""
-        elif what not in told:
-            told.add(what)
-            yield joint, limit, what, f" (and {times[what] - 1} more)"
+    for one in found:
+        key = one.value, one.is_slide
+        if times[key] <= together:
+            yield one, ""
+        elif key not in told:
+            told.add(key)
+            yield one, f" (and {times[key] - 1} more)"
 
 
 @rule(

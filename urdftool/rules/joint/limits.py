@@ -57,6 +57,7 @@ def _without_limit(joint: Joint) -> Problem:
         joint,
         f"{joint.type} joint '{joint.name}' has no <limit>; "
         f"write lower, upper, effort and velocity{or_type}",
+        alike=joint.type,
     )
 
 
@@ -202,6 +203,7 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             at=limit,
             severity=severity,
             effects=holding(_WITHOUT_BOUNDS, case),
+            alike=(case, joint.type == "revolute"),
             data={"missing": missing},
         )
 

@@ -47,7 +47,7 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
             continue
         if not name.strip():
             if "joint" in mimic.element.attributes or not _is_misspelt(mimic.element):
-                yield Problem(joint, _without_leader(joint), at=mimic)
+                yield Problem(joint, _without_leader(joint), at=mimic, alike="no name")
         elif name.strip() not in stripped:
             yield _unknown_leader(robot, joint, mimic)
 
@@ -74,6 +74,7 @@ def _unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
         joint,
         f"joint '{joint.name}' mimics '{mimic.joint}', which is no joint{near}",
         at=mimic.element.attribute_place("joint"),
+        alike=bool(near),
         data={"suggestion": nearest(mimic.joint, robot.joint)},
     )
 

@@ -344,6 +344,7 @@ def limit_rounded_outward(
                     f"{name} limit {value:g} of joint '{joint.name}' is beyond {turns * 90}° "
                     f"by {beyond:.1g} rad; write {inside:g}",
                     at=limit.element.attribute_place(name),
+                    alike=name,
                     data={"write": f"{inside:.9g}", "beyond": beyond},
                 )
 

@@ -24,7 +24,7 @@ def unused_suppression() -> tuple[Problem, ...]:
 @unused_suppression.fix(SAFE, of_file=True)
 def remove_comment(finding: Finding, context: FixContext) -> Proposal | None:
     """Remove the comment, with its line where nothing else is on it."""
-    place, data = finding.place, finding.place.file.data
+    place, data = finding.location, finding.location.file.data
     start, end = place.start, place.end
     begin = data.rfind(b"\n", 0, start) + 1
     rest = re.compile(rb"[ \t]*\r?\n").match(data, end)

@@ -6,8 +6,8 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from ...diagnostic import FileRewrite
 from ...errors import MeshError
-from ...finding import FileRewrite
 from ...source.document import Element
 from ...source.packages import shown_path
 from ..file_rewrites import rewritten_bytes

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...finding import FileRewrite
+from ...diagnostic import FileRewrite
 from ...geometry.stl_header import StlHeader, read_stl_header
 from ...model.elements import Robot
 from ...model.mesh_formats import READ_BY, ending_of, is_odd, rejecting_readers

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...finding import FileRewrite
+from ...diagnostic import FileRewrite
 from ...geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
 from ...model.elements import Robot
 from ...model.read import numbers

@@ -275,4 +275,5 @@ def nonconvex_collision_mesh(
             else "{count} collision meshes are far from convex, and engines fill them up to their "
             "hulls, in the links {names}",
             effects=("mujoco", "pybullet (concave)" if concave else "pybullet"),
+            alike=concave,
         )

@@ -206,6 +206,7 @@ def _clashes_of_sdf(robot: Robot, kept: set[str]) -> Iterator[Problem]:
                 f"joint '{name}' in <gazebo> has the name of {names[name]}; give it its own",
                 at=element.attribute_place("name"),
                 effects=[key for key in holding(_CLASH, "both stay") if key != _OTHERS_ACCEPT],
+                alike=names[name],
             )
         elif name:
             names[name] = "another joint in <gazebo>"

@@ -40,7 +40,7 @@ _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
 @missing_xmlns.fix(SAFE, of_file=True)
 def declare_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
     """Declare the prefix on the root."""
-    file = finding.place.file
+    file = finding.location.file
     match = re.search(rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
     if match is None or b"xmlns:xacro" in file.data or b"<xacro:" not in file.data:
         return None
@@ -70,7 +70,7 @@ def unknown_macro() -> tuple[Problem, ...]:
 def call_suggested_macro(finding: Finding, context: FixContext) -> Proposal | None:
     """Call the suggested macro."""
     right = finding.data.get("suggestion", "")
-    place = finding.place
+    place = finding.location
     if not right:
         return None
     old, new = (f"xacro:{name}".encode() for name in (finding.data["name"], right))
@@ -120,7 +120,7 @@ def undeclared_arg() -> tuple[Problem, ...]:
 @undeclared_arg.fix(UNSAFE, of_file=True)
 def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     """Write the suggested argument, or declare it with an empty default, first in the robot."""
-    name, place = finding.data["name"], finding.place
+    name, place = finding.data["name"], finding.location
     if not re.fullmatch(r"[\w-]+", name) or place.calls or finding.data["given"]:
         return None
     if finding.data["suggestion"]:
@@ -233,7 +233,7 @@ _COMPARED = re.compile(r"(\$\(arg [\w-]+\))\s*(==|!=)\s*(['\"]?)([\w.-]+)\3")
 @non_boolean_conditional.fix(UNSAFE, of_file=True)
 def write_boolean(finding: Finding, context: FixContext) -> Proposal | None:
     """Write ``true`` for ``yes``, ``false`` for ``no``, and a comparison as an expression."""
-    place = finding.place
+    place = finding.location
     start = _tag(place.file, place.start)
     span = place.file.attribute_spans(start).get("value")
     if span is None:

@@ -39,7 +39,7 @@ def separate_hyphens(finding: Finding, context: FixContext) -> Proposal | None:
     """Write ``- -`` for ``--`` in all comments."""
     if finding.data.get("case") != "'--' in a comment":
         return None
-    file = finding.place.file
+    file = finding.location.file
     spans = []
     for match in re.finditer(rb"<!--(.*?)-->", file.data, re.DOTALL):
         inner = match[1]
@@ -82,7 +82,7 @@ _BELONGS = {
 @content_before_declaration.fix(SAFE, of_file=True)
 def move_declaration(finding: Finding, context: FixContext) -> Proposal | None:
     """Move the declaration to the start of the file."""
-    file = finding.place.file
+    file = finding.location.file
     match = re.search(rb"<\?xml[^>]*?\?>", file.data)
     if match is None or file.data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...finding import Severity
+from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.read import number, numbers
 from ...source.description import Description
@@ -190,14 +190,17 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         if (parent.tag, element.tag) in _NOT_LOST or (word is None and not instead):
             mere.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
-            yield Problem(element, f"<{element.tag}> does not belong in {_the(parent)}; {instead}")
+            what = f"<{element.tag}> does not belong in {_the(parent)}; {instead}"
+            yield Problem(element, what, alike=(parent.tag, element.tag))
         elif word is not None and word != element.tag.lower():
             what = f"{_the(parent)} has no <{element.tag}>; write <{word}>"
-            yield Problem(element, what, severity=ERROR)
+            yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
     for kind, elements in mere.items():
         what = f"<{kind[1]}> does not belong in {_the(elements[0].parent)}{_more(elements)}"
         why = _ELSEWHERE.get(kind, "URDF readers pass over it")
-        yield Problem(elements[0], f"{what}; {why}", severity=INFO)
+        yield Problem(
+            elements[0], f"{what}; {why}", severity=INFO, alike=(*kind, len(elements) > 1)
+        )
 
 
 def _is_misplaced(element: Element, geometry: Element) -> bool:
@@ -272,6 +275,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             at=first.attribute_place(names[0]),
             severity=severity,
             effects=holding(_OF_ATTRIBUTE),
+            alike=(first.tag, len(names) > 1, len(elements) > 1),
         )
 
 
@@ -315,7 +319,8 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
         kind = (element.tag, name)
         if kind in _INSTEAD:
             effects = holding(_OF_ATTRIBUTE)
-            yield Problem(element, f"{what}; {_INSTEAD[kind]}", at=at, effects=effects)
+            message = f"{what}; {_INSTEAD[kind]}"
+            yield Problem(element, message, at=at, effects=effects, alike=kind)
             continue
         word = _OTHER_NAMES.get(kind) or _word(element, name)
         if word is not None and word != name.lower():
@@ -325,6 +330,7 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
                 f"{what}; write {word}",
                 at=at,
                 data={"write": word},
+                alike=(element.tag, word),
                 severity=WARNING if kind in _OTHER_NAMES else ERROR,
                 effects=holding(_OF_ATTRIBUTE, *["one with a default is meant"] * has_default),
             )

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.pose import rotation_of_quaternion
 from ..fault import Fault
@@ -46,6 +47,7 @@ def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
         return
     yield Fault(
         "collapsed",
+        Severity.ERROR,
         f"it collapsed: {what} from {recording.positions[0, column]:.3g} to "
         f"{recording.positions[-1, column]:.3g}",
         robot.joint[name].place,

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...formats.common.extent import shape_points
 from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
 from ...model.pose import Pose, pose_of
@@ -45,6 +46,7 @@ def _starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
                 continue
             yield Fault(
                 "starts-in-floor",
+                Severity.ERROR,
                 f"link '{contact.one}' starts {contact.depth:.3g} m deep in the floor",
                 robot.link[contact.one].place,
                 "link",
@@ -61,6 +63,7 @@ def _ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
     if deepest is not None and deepest.depth > _ground_depth(run):
         yield Fault(
             "sank-in",
+            Severity.ERROR,
             f"link '{deepest.one}' sank {deepest.depth:.3g} m into the floor",
             robot.link[deepest.one].place,
             "link",
@@ -101,6 +104,7 @@ def _missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
                 where = "on" if least > -gap else f"{-least:.3g} m below"
                 yield Fault(
                     "no-contact-shape",
+                    Severity.ERROR,
                     f"link '{name}' is {where} the floor and has no <collision> to touch it with",
                     robot.link[name].place,
                     "link",
@@ -137,6 +141,7 @@ def _submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
                 )
                 yield Fault(
                     "no-contact-shape",
+                    Severity.ERROR,
                     f"link '{name}' is seen {-low:.3g} m below the floor, and its <collision> does "
                     "not reach it",
                     robot.link[name].collisions[0].place,
@@ -167,6 +172,7 @@ def _unlike_their_copies(robot: Robot, run: Run, state: FinalState) -> Iterator[
             if twin is not None:
                 yield Fault(
                     "no-contact-shape",
+                    Severity.ERROR,
                     f"link '{name}' has no <collision>, and '{twin}', which looks the same, stands "
                     "on the floor with one",
                     robot.link[name].place,

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...errors import UrdftoolError
 from ...model.elements import Robot
 from ...model.pose import rotation_of_quaternion
@@ -42,7 +43,7 @@ def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _fault(kind: str, message: str, control: Control, joint: RigidBodyJoint, cause: str) -> Fault:
-    return Fault(kind, message, _place(control), "joint", joint.name, cause)
+    return Fault(kind, Severity.ERROR, message, _place(control), "joint", joint.name, cause)
 
 
 def _place(control: Control) -> Place | None:
@@ -61,11 +62,11 @@ def _not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
     shown = ", ".join(f"'{name}'" for name in names[:4]) + (", …" if len(names) > 4 else "")
     yield Fault(
         "not-controlled",
+        Severity.INFO,
         f"no controller holds {shown}",
         robot.joint[names[0]].place,
         "joint",
         names[0],
-        fails=False,
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..fault import Fault
 from ..overlap import penetration_depth
@@ -68,6 +69,7 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         named = beside[0] if beside else contact.one
         yield Fault(
             "parts-collide",
+            Severity.ERROR if fails else Severity.INFO,
             f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
             (robot.link[named].collisions[0] if beside else robot.link[named]).place,
             "link",
@@ -80,7 +82,6 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
             or mechanism
             or "their collision shapes are too large or misplaced, or the pose is not free",
             "collision-off-visual" if fails else "",
-            fails=fails,
         )
 
 
@@ -217,6 +218,7 @@ def check_sweep(robot: Robot, run: Run) -> Iterator[Fault]:
         part = robot.joint[joint.joint]
         yield Fault(
             "blocked",
+            Severity.INFO,
             f"joint '{joint.joint}' may go from {joint.lower:.3g} to {joint.upper:.3g} and is free "
             f"from {joint.free_lower:.3g} to {joint.free_upper:.3g}: beyond, '{hit.one}' and "
             f"'{hit.other}' overlap{more}",
@@ -225,5 +227,4 @@ def check_sweep(robot: Robot, run: Run) -> Iterator[Fault]:
             joint.joint,
             "its limits are wider than its parts allow, by the hulls of their collision shapes; "
             "or one of those is too large",
-            fails=False,
         )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.pose import rotation_of_quaternion
 from ..control import is_driven
@@ -39,12 +40,12 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     for name, value in run.bodies.moved_start.items():
         yield Fault(
             "zero-outside-limits",
+            Severity.INFO,
             f"joint '{name}' cannot be at zero and starts at {value:.4g}, its nearest limit",
             _joint(robot, name).place,
             "joint",
             name,
             rule="zero-outside-limits",
-            fails=False,
         )
     if not recording.capabilities.closes_loops:
         yield from _open_loops(robot)
@@ -56,12 +57,12 @@ def _open_loops(robot: Robot) -> Iterator[Fault]:
         for element in () if block.reference else block.element.all("joint"):
             yield Fault(
                 "loop-open",
+                Severity.INFO,
                 f"joint '{element.get('name') or ''}' in <gazebo> closes a loop, and is not "
                 "simulated; the joints of the loop are held one by one",
                 element.place,
                 "joint",
                 element.get("name") or "",
-                fails=False,
             )
 
 
@@ -120,6 +121,7 @@ def _sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
             why += _why_idle(run, column)
         yield Fault(
             "sags",
+            Severity.ERROR,
             f"joint '{joint.name}' is held at {target:.3g} {length} and "
             f"{'is' if state.settled is None else 'came to rest'} at {now:.3g} {length}",
             (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
@@ -211,6 +213,7 @@ def _misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
         mimic = _joint(robot, joint.name).mimic
         yield Fault(
             "beyond-limit",
+            Severity.ERROR,
             f"joint '{joint.name}' follows '{joint.leader}' to {asked:.3g} {length}, beyond its "
             f"own {side} limit {limit:.3g}",
             (mimic or _joint(robot, joint.name)).place,
@@ -232,6 +235,7 @@ def _beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
         limit = joint.upper if now > joint.upper else joint.lower
         yield Fault(
             "beyond-limit",
+            Severity.ERROR,
             f"joint '{joint.name}' is at {now:.3g} {length}, beyond its {side} limit {limit:.3g}",
             (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
             "joint",
@@ -258,12 +262,12 @@ def _near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
             _, force = _units(joint)
             yield Fault(
                 "near-effort-limit",
+                Severity.INFO,
                 f"joint '{joint.name}' uses {used:.4g} {force} to stand, of {joint.effort:.4g} it "
                 "may",
                 (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
                 "joint",
                 joint.name,
-                fails=False,
             )
 
 
@@ -277,6 +281,7 @@ def _without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
         yield Fault(
             "no-effort",
+            Severity.INFO,
             f"joint '{names[0]}'{more} {'have' if more else 'has'} no effort above zero, and "
             f"{'were' if more else 'was'} held without bound",
             _joint(robot, names[0]).place,
@@ -285,7 +290,6 @@ def _without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
             "write <limit effort> to see whether it can bear its load; Gazebo drives no joint of "
             "effort zero",
             "zero-effort-limit",
-            fails=False,
         )
 
 
@@ -299,6 +303,7 @@ def _capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
         least = run.settings.timestep * had / joint.damping
         yield Fault(
             "damping-capped",
+            Severity.INFO,
             f"joint '{joint.name}' has a damping of {joint.damping:.4g} {force}·s/{length}, of "
             f"which {had:.4g} was simulated",
             (part.dynamics or part).place,
@@ -307,7 +312,6 @@ def _capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
             "more would drive what it moves instead of braking it at this timestep; --timestep "
             f"{least:.1g} bears all of it",
             "stiff-joint-damping",
-            fails=False,
         )
 
 
@@ -320,9 +324,9 @@ def _not_held(robot: Robot, run: Run) -> Iterator[Fault]:
         shown = ", ".join(f"'{name}'" for name in names[:4]) + (", …" if len(names) > 4 else "")
         yield Fault(
             "not-held",
+            Severity.INFO,
             f"nothing held {shown}: the file actuates other joints",
             _joint(robot, names[0]).place,
             "joint",
             names[0],
-            fails=False,
         )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..engines.registry import alternatives
 from ..fault import Fault, quote_names
@@ -28,6 +29,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "beyond all bounds"
         yield Fault(
             "blew-up",
+            Severity.ERROR,
             f"it blew up: its energy grew {gain} at {_time_of_most_energy(recording):.2f} s, "
             f"most of it in link '{name}'",
             robot.link[name].place,
@@ -42,6 +44,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         touching = any(body.shapes for body in bodies.bodies)
         yield Fault(
             "fell-through",
+            Severity.ERROR,
             "it fell through the floor",
             top.place,
             "link",
@@ -58,6 +61,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
         yield Fault(
             "not-settled",
+            Severity.ERROR,
             f"it did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still {does}"
             f"{at}",
             robot.link[name].place,

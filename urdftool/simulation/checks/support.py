@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...rules.gazebo.contact import contact_role
 from ..fault import Fault, quote_names
@@ -54,7 +55,7 @@ def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         why = f"contacts inside the robot carry it: {pairs} overlap"
     else:
         why = "no robot stands so; another --engine or a smaller --timestep may show how it falls"
-    yield Fault("unsupported", what, root.place, "link", root.name, why)
+    yield Fault("unsupported", Severity.ERROR, what, root.place, "link", root.name, why)
 
 
 def _internal_overlaps(run: Run) -> list[Contact]:
@@ -91,6 +92,7 @@ def _wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fa
     height = min(_height(run, number) for number in wheels)
     yield Fault(
         "wheels-off-ground",
+        Severity.ERROR,
         f"no wheel carries the robot, which rests on {quote_names(carrying)}",
         robot.link[name].place,
         "link",
@@ -127,6 +129,7 @@ def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
         what = "wheels" if on_wheels else "feet"
         yield Fault(
             "body-on-ground",
+            Severity.INFO,
             f"the body rests on the ground with link '{name}', and not on its {what} alone",
             robot.link[name].place,
             "link",
@@ -135,6 +138,5 @@ def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
             "caster"
             if on_wheels
             else "the legs do not lift it where the joints start; --pose gives them another start",
-            fails=False,
         )
         return

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..fault import Fault, quote_names
 from ..run import Run
@@ -21,6 +22,7 @@ def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         fallen = state.tilt > thresholds.tip_tilt
         yield Fault(
             "tipped-over" if fallen else "leans",
+            Severity.ERROR,
             f"it {'tipped over' if fallen else 'leans'}: link '{top.name}' is tilted by "
             f"{math.degrees(state.tilt):.0f}°",
             top.place,
@@ -74,13 +76,15 @@ def _check_sliding(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]
     name = rolled[0] if rolled else slick[0] if slick else names[0]
     yield Fault(
         "slid",
+        Severity.ERROR
+        if bool(slope) or drift > run.thresholds.slide_failure * size
+        else Severity.INFO,
         f"it moved {drift:.3g} m along the floor, {drift / size:.0%} of its size",
         robot.link[name].place,
         "link",
         name,
         _why(run, rolled, slick),
         "implausible-friction" if slick and not rolled else "",
-        fails=bool(slope) or drift > run.thresholds.slide_failure * size,
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...diagnostic import Severity
 from ...mechanics.tensor import SymmetricTensor, consistency
 from ...model.elements import Robot
 from ..extent import measure_extent
@@ -27,6 +28,7 @@ def check_read_back(robot: Robot, run: Run, known: set[str]) -> Iterator[Fault]:
         part = robot.link.get(difference.name) or robot.joint.get(difference.name)
         yield Fault(
             "read-otherwise",
+            Severity.ERROR,
             f"{difference.what} of {difference.kind} '{difference.name}' is {difference.said} in "
             f"the file, and the engine took {difference.got}",
             None if part is None else part.place,

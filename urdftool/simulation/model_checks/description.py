@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from ...diagnostic import Severity
 from ...finding import Finding
 from ...lint.validate import validate
 from ...model.elements import Robot
@@ -80,7 +81,7 @@ def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
     for kind, rules in KINDS.items():
         told: set[str] = set()
         for rule in rules:
-            for finding in (one for one in findings if one.rule == rule):
+            for finding in (one for one in findings if one.code == rule):
                 about = Described(finding, robot, run, body_of(run, finding.name), massless)
                 if finding.name in told or (finding.kind == "link" and about.body is None):
                     continue
@@ -95,18 +96,18 @@ def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
 
 def _fault(kind: str, about: Described, cause: str) -> Fault:
     finding = about.finding
-    fails = kind not in REMARKS
+    is_remark = kind in REMARKS
     if kind == "nothing-touches":
-        fails = not about.run.bodies.fixed_base
+        is_remark = about.run.bodies.fixed_base
     return Fault(
         kind,
+        Severity.INFO if is_remark else Severity.ERROR,
         finding.message,
-        finding.place,
+        finding.location,
         finding.kind,
         finding.name if finding.kind == "link" else "",
         cause,
-        finding.rule,
-        fails,
+        finding.code,
     )
 
 
@@ -165,7 +166,7 @@ def _of_size(about: Described) -> str | None:
     robot, run, link = about.robot, about.run, about.robot.link[about.finding.name]
     if about.body is None or is_held(run, about.body):
         return None
-    if not slows_link(robot, link, run, placeholder=about.finding.rule == "placeholder-inertia"):
+    if not slows_link(robot, link, run, placeholder=about.finding.code == "placeholder-inertia"):
         return None
     return "a tensor of ones, or of other units; the link turns far too slowly"
 

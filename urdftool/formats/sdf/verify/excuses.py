@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ....finding import Finding, Severity
+from ....diagnostic import Severity
+from ....finding import Finding
 from ....model.elements import Joint, Robot
 from ...common.losses import DeclaredLosses
 
@@ -63,7 +64,7 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
     made = Excuses(massy=more)
     declared: set[tuple[str, str]] = set()
     for loss in losses:
-        rule, name = loss.rule, loss.name
+        rule, name = loss.code, loss.name
         if loss.severity > Severity.INFO:  # losses of severity info do not change the behavior
             declared.add((rule, name))
             if rule in BLOCKS and not name:
@@ -97,7 +98,7 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
 def _blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
     """Yield the reference of the ``<gazebo>`` block in which a loss occurred."""
     for block in robot.gazebo:
-        element, place = block.element, loss.place
+        element, place = block.element, loss.location
         same = element.place.path == place.path
         if same and element.start <= place.start < element.end:
             yield block.reference or ""
