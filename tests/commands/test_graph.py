@@ -171,7 +171,7 @@ def test_a_graph_too_large_for_mermaid_is_said(urdftool, write):
         (SOUND, ["-o", "x.xyz"], "'x.xyz'"),
         (SOUND, ["-o", "x.urdf/x.svg"], "x.urdf/x.svg: "),
         ("<robot name='r'/>", [], "x.urdf:1:1: "),
-        ("<sdf/>", [], "x.urdf:1:1: the root element is <sdf>"),
+        ("<scene/>", [], "x.urdf:1:1: the root element is <scene>"),
         ("<robot", [], "x.urdf:1:1: "),
     ],
 )

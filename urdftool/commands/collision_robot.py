@@ -18,13 +18,12 @@ from ..configuration import find_configuration
 from ..console import Console
 from ..errors import UrdftoolError
 from ..lint.validate import require
-from ..model.load import robot_of
 from ..report import collision as report
 from .collision_options import cache_of, given_names, settings_of
 from .picture_file import check_picture, write_picture
 from .progress import Progress
 from .read_lax import take_world
-from .read_strict import read_strict
+from .read_other import read_any
 
 if TYPE_CHECKING:
     from ..collision.compute import Result, Task
@@ -145,8 +144,9 @@ def fleet(
 
 
 def _read(console: Console, path: str, arguments: dict[str, str], values: Values) -> Robot:
-    description = read_strict(console, (path, arguments), values["package"], values["package_path"])
-    return take_world(console, robot_of(description))
+    named, edit = (path, arguments), "" if values["check"] else "'collision' without --check"
+    robot = read_any(console, named, values["package"], values["package_path"], edit=edit)
+    return take_world(console, robot)
 
 
 def _wishes(ctx: click.Context, console: Console, path: str, values: Values) -> Wishes:

@@ -11,7 +11,7 @@ from ..console import Console
 from .grouped_help import GroupedCommand
 from .options import gltf_option, jobs_option, package_options, robot_argument
 from .progress import Progress
-from .read_strict import read_strict
+from .read_other import read_any
 
 if TYPE_CHECKING:
     from ..inertia.link_review import LinkReview
@@ -150,21 +150,21 @@ def command(
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
     from ..lint.validate import require
-    from ..model.load import robot_of
     from .read_lax import take_world
 
     path = robot[0]
     if write and path == "-" and output is None:
         raise click.UsageError("standard input cannot be edited in place; add -o OUT to --write")
     by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
-    description = read_strict(console, robot, package, package_path)
-    model = take_world(console, require(robot_of(description), "links"))
+    edit = "--write" if write else "--diff" if diff else ""
+    read = read_any(console, robot, package, package_path, edit=edit)
+    model = take_world(console, require(read, "links"))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
     wanted = Masses(by_link, density, total, all_links)
     with Progress(console, "meshes") as progress:
         found = review(
-            model, _reader(description, jobs, progress), masses=wanted, source=source, only=only
+            model, _reader(model.source, jobs, progress), masses=wanted, source=source, only=only
         )
     if lump:
         return _lump(console, model, found, pose, style, output)

@@ -2,17 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import Console
-from .read_strict import say_unknown
+from .read_strict import finder_of, read_strict, say_unknown
 
 if TYPE_CHECKING:
     from ..formats.registry import Format
     from ..model.elements import Robot
     from ..source.location import SourceFile
     from ..source.packages import Packages
+
+
+def read_any(
+    console: Console,
+    robot: tuple[str, Mapping[str, str]],
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+    *,
+    edit: str = "",
+) -> Robot:
+    """Read a robot of any format; malformed XML is an error.
+
+    Args:
+        console: Output for warnings, and source of the configuration file.
+        robot: Path, and values of its xacro arguments by name.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders that are searched for packages.
+        edit: What the command writes into the source, which must then be URDF or xacro; empty if
+            it only reads.
+
+    Raises:
+        UrdftoolError: The robot cannot be read, or not be edited.
+    """
+    from ..errors import ModelError
+    from ..formats.detect import format_of
+    from ..model.load import robot_of
+    from ..source.document import read_file
+
+    path, arguments = robot
+    file = read_file(path)
+    found = format_of(file)
+    if found.name == "urdf":
+        return robot_of(read_strict(console, robot, packages, package_paths, file=file))
+    if edit:
+        message = f"{edit} requires a URDF or xacro file; this is {found.title}"
+        raise ModelError(message, path=path)
+    finder = finder_of(console, file, packages, package_paths)
+    return read_other(console, found, file, arguments, finder)
 
 
 def read_other(

@@ -20,6 +20,8 @@ def read_strict(
     robot: tuple[str, Mapping[str, str]],
     packages: Mapping[str, Path],
     package_paths: Iterable[str],
+    *,
+    file: SourceFile | None = None,
 ) -> Description:
     """Read a description; malformed XML is an error.
 
@@ -28,12 +30,13 @@ def read_strict(
         robot: Path, and values of its xacro arguments by name.
         packages: Folders by package name, from the command line.
         package_paths: Folders that are searched for packages.
+        file: The file, if it has been read.
 
     Raises:
         SourceError: The file cannot be read, parsed or expanded.
     """
     path, arguments = robot
-    description = read_configured(console, path, arguments, packages, package_paths)
+    description = read_configured(console, path, arguments, packages, package_paths, file=file)
     say_unknown(console, description)
     say_assumed(console, description)
     return description

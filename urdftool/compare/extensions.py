@@ -28,8 +28,7 @@ def extension_changes(
 def _blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
     """Return blocks by their name or reference."""
     found: dict[str, list[Element]] = {}
-    root = robot.provenance if isinstance(robot.provenance, Element) else None
-    for element in () if root is None else root.all(tag):
+    for element in () if robot.xml is None else robot.xml.all(tag):
         name = element.get("reference" if tag == "gazebo" else "name") or ""
         found.setdefault(renamed.get(name, name), []).append(element)
     return found

@@ -42,8 +42,9 @@ def read_written(item: LinkReview) -> None:
     if inertial.inertia is None:
         missing.append("inertia")
     else:
-        attributes = inertial.inertia.element.attributes
-        missing += [name for name in COMPONENTS if name not in attributes]
+        tensor = inertial.inertia.xml
+        if tensor is not None:
+            missing += [name for name in COMPONENTS if name not in tensor.attributes]
         for name in COMPONENTS:
             _unreadable(inertial, "inertia", name, item)
     item.missing = tuple(missing)
@@ -63,7 +64,7 @@ def read_written(item: LinkReview) -> None:
 
 def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bool:
     """Tell whether an attribute is present but not a number, and add a fault if so."""
-    element = inertial.element.child(tag)
+    element = None if inertial.xml is None else inertial.xml.child(tag)
     text = element.get(name) if element is not None else None
     if element is None or text is None or number(text) is not None:
         return False

@@ -154,6 +154,13 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
 ``export:sdf`` and ``export:mjcf`` come on top of ``export``."""
 
 
+_FAMILIES = ("tree", "inertia")
+"""Families of rules that need no text of URDF, so that they check robots of any format."""
+
+_RULES = ("unknown-joint-type",)
+"""Further rules that need no text of URDF."""
+
+
 def validate(robot: Robot, purpose: str) -> list[Finding]:
     """Report what keeps a robot from being used for a purpose, as errors.
 
@@ -184,11 +191,14 @@ def find_problems(robot: Robot, purpose: str) -> Iterator[tuple[str, Problem]]:
     """Yield the problems that a purpose does not accept, each with the name of its rule.
 
     Args:
-        robot: Any robot.
+        robot: Any robot; one that was not read from URDF is checked by the rules that need no text,
+            because its reader has checked the values.
         purpose: A key of ``PURPOSES``.
     """
     for name, where, most in PURPOSES[purpose]:
         rule = get_rule(name)
+        if robot.xml is None and rule.family not in _FAMILIES and name not in _RULES:
+            continue
         check = rule.full_check or rule.check
         number = 0
         for problem in check(robot):

@@ -39,9 +39,22 @@ class Part:
         raise TypeError(f"this {type(self).__name__} was not read from URDF")
 
     @property
+    def xml(self) -> Element | None:
+        """Return the URDF element from which the part was read; None for another source."""
+        return self.provenance if isinstance(self.provenance, Element) else None
+
+    @property
     def sources(self) -> list[Provenance]:
         """Return the source in a list; an empty one for a generated part."""
         return [] if self.provenance is None else [self.provenance]
+
+    def child_xml(self, tag: str) -> Element | None:
+        """Return the first child with a tag of the URDF element; None without one."""
+        return None if self.xml is None else self.xml.child(tag)
+
+    def attribute_place(self, name: str) -> Place:
+        """Return the span of an attribute of the URDF element; of the part without one."""
+        return self.place if self.xml is None else self.xml.attribute_place(name)
 
     @property
     def place(self) -> Place:

@@ -154,11 +154,17 @@ class Problem:
     @property
     def kind(self) -> str:
         """``link``, ``joint``, … : the tag of the subject."""
+        subject = self.subject
+        if isinstance(subject, Part) and subject.xml is None:
+            return type(subject).__name__.lower()
         return self.element.tag
 
     @property
     def name(self) -> str:
         """The subject's name; empty where it has none."""
+        subject = self.subject
+        if isinstance(subject, Part) and subject.xml is None:
+            return getattr(subject, "name", "") or ""
         return self.element.attributes.get("name", "")
 
     @property

@@ -71,7 +71,7 @@ def _unsupported_joints(robot: Robot) -> Iterator[Finding]:
             f"joint '{joint.name}' is {joint.type}, which no engine here simulates; model it by "
             "prismatic and revolute joints"
             + (", or let the root float" * (joint.type == "floating")),
-            joint.element.attribute_place("type"),
+            joint.attribute_place("type"),
             "joint",
             joint.name,
         )

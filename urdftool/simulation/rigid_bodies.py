@@ -163,7 +163,8 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     """
     top = _top(robot)
     made = _lumps(robot, settings, top)
-    fixed_base = settings.fixed_base or _is_world(robot.link[top])
+    is_fixed = robot.base is not None and not robot.base.is_free
+    fixed_base = settings.fixed_base or is_fixed or _is_world(robot.link[top])
     positions, clamped = start_positions(robot, settings.pose)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
     poses = link_poses(robot, positions)

@@ -60,7 +60,8 @@ def _texts(robot: Robot, link: str, tags: Iterable[str], tag: str) -> Iterable[t
             text = block.value(word)
             if text is not None:
                 yield f"<{word}>", text
-    contact = robot.link[link].element.child("contact")
+    element = robot.link[link].xml
+    contact = None if element is None else element.child("contact")
     inner = None if contact is None else contact.child(tag)
     if inner is not None:
         yield f"<{tag}>", inner.get("value") or inner.text

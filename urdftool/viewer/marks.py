@@ -71,7 +71,7 @@ def _owners(robot: Robot) -> Owners:
         *((link, link.name) for link in robot.links),
         *((joint, joint.child) for joint in robot.joints),
     ):
-        for inner in part.element.walk():
+        for inner in () if part.xml is None else part.xml.walk():
             starts.setdefault((inner.file.path, inner.calls), []).append((inner.start, link))
     for rows in starts.values():
         rows.sort(key=itemgetter(0))

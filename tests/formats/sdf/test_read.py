@@ -316,6 +316,13 @@ BAD = {
         ),
         4,
     ),
+    "a mimic of nothing": (
+        MODEL.format(
+            '<link name="a"/><link name="b"/><joint name="j" type="revolute">'
+            '<parent>a</parent><child>b</child><axis>\n<mimic joint="x"/></axis></joint>'
+        ),
+        4,
+    ),
     "two links of a name": (MODEL.format('<link name="a"/>\n<link name="a"/>'), 4),
     "no such model": (MODEL.format("<include>\n<uri>model://none</uri></include>"), 3),
     "a model of the network": (

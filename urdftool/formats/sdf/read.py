@@ -22,6 +22,7 @@ from .read_joints import (
     add_frames,
     add_joint,
     add_world,
+    check_mimics,
     find_joints,
     order,
     set_shifts,
@@ -115,6 +116,7 @@ def _fill(context: Context, top: Scope) -> None:
         robot.links.append(read_link(context, scope, prefix, element))
     for joint in tree:
         add_joint(context, joint)
+    check_mimics(robot)
     if robot.base is None or (is_named and roots):
         robot.base = None
         add_world(context, robot, roots, top.is_static)

@@ -259,8 +259,8 @@ def _dynamics(element: Element | None) -> Dynamics | None:
     stiffness = number(holder, "spring_stiffness", 0.0) or None
     return Dynamics(
         Written(holder.place),
-        number(holder, "damping", 0.0),
-        number(holder, "friction", 0.0),
+        None if holder.child("damping") is None else number(holder, "damping", 0.0),
+        None if holder.child("friction") is None else number(holder, "friction", 0.0),
         None,
         stiffness,
         number(holder, "spring_reference", 0.0) if stiffness else None,
@@ -277,6 +277,18 @@ def _pitch(found: Found) -> float:
         return number(found.element, "screw_thread_pitch", 1.0)
     thread = number(found.element, "thread_pitch", 1.0)
     return -math.tau / thread if thread else 0.0
+
+
+def check_mimics(robot: Robot) -> None:
+    """Check that the leader of each mimic joint exists.
+
+    Raises:
+        ModelError: One does not.
+    """
+    for joint in robot.joints:
+        if joint.mimic is not None and joint.mimic.joint not in robot.joint:
+            text = f"joint '{joint.name}' mimics '{joint.mimic.joint}', which does not exist"
+            raise ModelError(text, at=joint.mimic.place)
 
 
 def add_closure(context: Context, found: Found) -> None:

@@ -87,7 +87,6 @@ def version_of(root: Element) -> Version:
     try:
         major, minor = (int(word) for word in text.split(".")[:2])
     except ValueError:
-        raise ModelError(
-            f"version '{text}' of <sdf> is not of the form 1.9", at=root.attribute_place("version")
-        ) from None
+        wrong = f"version '{text}' of <sdf> is not like 1.9" if text else "<sdf> has no version"
+        raise ModelError(wrong, at=root.attribute_place("version")) from None
     return major, minor

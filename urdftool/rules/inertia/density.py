@@ -53,7 +53,7 @@ def mass_out_of_line(
     if found is None:
         return
     link = found.link
-    mass = link.inertial.element.child("mass") if link.inertial is not None else None
+    mass = link.inertial.child_xml("mass") if link.inertial is not None else None
     yield Problem(
         link,
         f"mass of link '{link.name}' is {link.mass:g} kg: {found.denser:.2g} times as dense as the "

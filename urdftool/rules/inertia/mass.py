@@ -10,7 +10,7 @@ from ...model.attached import attached_links
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.millimeters import shapes_in_millimeters
-from ...source.document import Element
+from ...source.location import Place
 from ..fix import FixContext, Proposal, remove_sign, set_attribute, unsafe
 from ..mesh.outlines import Reaches, reaches
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
@@ -65,9 +65,9 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
 def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
     """Report each inertial that lacks an element or a number, also where one is misspelt."""
     for link in robot.links:
-        if link.inertial is None:
+        if link.inertial is None or link.inertial.xml is None:
             continue
-        found = {child.tag: child for child in link.inertial.element.children}
+        found = {child.tag: child for child in link.inertial.xml.children}
         missing = [f"<{tag}>" for tag in ("mass", "inertia") if tag not in found]
         lacks_element = bool(missing)
         if "inertia" in found:
@@ -164,7 +164,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             continue
         links = body.get(link.name, [link])
         joint = robot.tree.parent_joint(links[0].name)
-        mass = link.inertial.element.child("mass")
+        mass = link.inertial.child_xml("mass")
         at = mass.attribute_place("value") if mass is not None else None
         if mass_of(links) > 0:
             tensor = link.inertial.inertia
@@ -213,7 +213,7 @@ def every_zero_mass(robot: Robot) -> Iterator[Problem]:
 
     A part without an inertia is harmless, and so is a body that no joint moves.
     """
-    for link, value, element in _masses(robot):
+    for link, value, place in _masses(robot):
         if value != 0.0 or link.name == "world" or link.inertial is None:
             continue
         members = [one for one, _ in attached_links(robot, link)]
@@ -231,7 +231,7 @@ def every_zero_mass(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             link,
             f"mass of link '{link.name}' is 0{what}",
-            at=element.attribute_place("value"),
+            at=place,
             data={"is_harmless": is_harmless},
         )
 
@@ -267,12 +267,12 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
 
     It accelerates against the force. Gazebo and MuJoCo refuse it, PyBullet simulates it.
     """
-    for link, mass, element in _masses(robot):
+    for link, mass, place in _masses(robot):
         if mass < 0:
             yield Problem(
                 link,
                 f"mass of link '{link.name}' is {mass:g} kg; write {-mass:g}",
-                at=element.attribute_place("value"),
+                at=place,
                 data={"mass": mass},
             )
 
@@ -299,7 +299,7 @@ def implausible_mass(
     may weigh as little as its author wants: next to nothing is what a program asked for.
     """
     reach = reaches(robot)
-    for link, mass, element in _masses(robot):
+    for link, mass, place in _masses(robot):
         if not lightest <= mass <= heaviest and _density(reach.link(link), link, mass)[0]:
             continue  # its size tells more than its mass alone
         if mass > heaviest:
@@ -311,7 +311,7 @@ def implausible_mass(
         yield Problem(
             link,
             f"mass of link '{link.name}' is {what}",
-            at=element.attribute_place("value"),
+            at=place,
             data={"mass": mass},
         )
 
@@ -384,8 +384,8 @@ class _Density(NamedTuple):
     """A link whose mass does not go with its size."""
 
     link: Link
-    element: Element
-    """Its ``<mass>``."""
+    place: Place
+    """Place of its mass."""
     density: float
     """Density [kg/m³]."""
     in_box: bool
@@ -407,7 +407,7 @@ def _find_densities(
         of_body: Whether a mass that is right for the rigid body of its link is ignored.
     """
     reach = reaches(robot)
-    for link, mass, element in _masses(robot):
+    for link, mass, place in _masses(robot):
         density, in_box = _density(reach.link(link), link, mass)
         if any(shapes_in_millimeters(link)) or _is_incomplete(link):
             continue
@@ -426,7 +426,7 @@ def _find_densities(
             impossible = False
         if density < bounds.least and mass <= bounds.dummy and _is_fixed(robot, link):
             impossible = False
-        yield _Density(link, element, density, in_box, impossible, density > most)
+        yield _Density(link, place, density, in_box, impossible, density > most)
 
 
 def _of_density(found: _Density, also: str = "") -> Problem:
@@ -435,7 +435,7 @@ def _of_density(found: _Density, also: str = "") -> Problem:
         link,
         f"link '{link.name}' weighs {link.mass:g} kg and has a density of {found.density:.3g} kg/m³"
         f"{where}; water has 1000{also}",
-        at=found.element.attribute_place("value"),
+        at=found.place,
         severity=WARNING if found.impossible else INFO,
         alike=(found.in_box, bool(also)),
         data={"mass": link.mass, "density": found.density, "is_too_large": found.too_heavy},
@@ -497,10 +497,10 @@ def _is_incomplete(link: Link) -> bool:
     return link.inertial is not None and link.inertial.inertia is None
 
 
-def _masses(robot: Robot) -> Iterator[tuple[Link, float, Element]]:
-    """Links with a mass that is written and can be read, and its element."""
+def _masses(robot: Robot) -> Iterator[tuple[Link, float, Place]]:
+    """Links with a mass that is written and can be read, and its place."""
     for link in robot.links:
         if link.inertial is not None and link.inertial.mass is not None:
-            mass = link.inertial.element.child("mass")
-            if mass is not None:
-                yield link, link.inertial.mass, mass
+            mass = link.inertial.child_xml("mass")
+            if mass is not None or link.inertial.xml is None:
+                yield link, link.inertial.mass, (mass or link.inertial).attribute_place("value")

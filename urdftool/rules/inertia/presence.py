@@ -61,7 +61,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     for link in robot.links:
         if link.inertial is not None or link.is_frame or link.name == "world":
             continue
-        if "inertial" in misspelt_children(link.element).values():
+        if link.xml is not None and "inertial" in misspelt_children(link.xml).values():
             continue
         if tops is None:
             found = bodies(robot).values()
@@ -245,7 +245,8 @@ def _below(robot: Robot, name: str) -> str:
 def _is_bare(links: list[Link]) -> bool:
     """Whether no link of a body has an inertial, or needs one because it is seen or touches."""
     for link in links:
-        if not link.is_frame or "inertial" in misspelt_children(link.element).values():
+        misspelt = {} if link.xml is None else misspelt_children(link.xml)
+        if not link.is_frame or "inertial" in misspelt.values():
             return False
     return True
 

@@ -76,7 +76,7 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"{slip.name} of link '{link.name}' is off by a power of ten, so no rigid body has "
                 f"this inertia; write {value:.12g}",
-                at=inertial.inertia.element.attribute_place(slip.name),
+                at=inertial.inertia.attribute_place(slip.name),
                 data={"inertia": list(slip.tensor)},
                 effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             )
@@ -125,7 +125,7 @@ def _is_computed(inertial: Inertial) -> bool:
     """Whether an inertia is written as expressions of xacro."""
     if inertial.inertia is None:
         return False
-    place = inertial.inertia.element.place
+    place = inertial.inertia.place
     return b"${" in place.file.data[place.start : place.end]
 
 

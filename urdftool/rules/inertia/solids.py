@@ -19,6 +19,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.pose import matrix_product, pose_of, transpose
+from ...model.shapes import shape_name
 
 DENSITY = 1000.0
 """Density [kg/m³] of the shapes of a link whose mass is not written: that of water."""
@@ -151,5 +152,5 @@ def solid_text(link: Link) -> str:
     if moments is None or shape is None or shape.geometry is None:
         return ""
     x, y, z = moments
-    tag = shape.geometry.element.tag
+    tag = shape_name(shape.geometry)
     return f"; a solid {tag} of {link.mass:g} kg has ixx {x:.4g}, iyy {y:.4g}, izz {z:.4g}"

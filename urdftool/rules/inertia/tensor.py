@@ -444,4 +444,4 @@ def _component(inertial: Inertial, six: SymmetricTensor, moment: float) -> Place
         return None
     if six[1] or six[2] or six[4]:
         return inertial.inertia.place
-    return inertial.inertia.element.attribute_place(SIX[six.index(moment)])
+    return inertial.inertia.attribute_place(SIX[six.index(moment)])

@@ -32,9 +32,10 @@ def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
             continue
         six = inertial.inertia.six
         if 0.0 in six:
-            attributes = inertial.inertia.element.attributes
+            tensor = inertial.inertia.xml
+            attributes = {} if tensor is None else tensor.attributes
             zeros = (name for name, value in zip(SIX, six, strict=True) if value == 0.0)
-            if any(number(attributes.get(name)) is None for name in zeros):
+            if tensor is not None and any(number(attributes.get(n)) is None for n in zeros):
                 continue
         yield link, inertial, six
 
@@ -105,7 +106,8 @@ def rounding_of(inertia: Inertia) -> float:
 
     Each number may be off by half a unit of its last digit, and each moment by the norm of that.
     """
-    halves = [_half_a_digit(inertia.element.attributes.get(name, "")) for name in SIX]
+    written = {} if inertia.xml is None else inertia.xml.attributes
+    halves = [_half_a_digit(written.get(name, "")) for name in SIX]
     xx, xy, xz, yy, yz, zz = halves
     norm = math.hypot(xx, yy, zz, *(math.sqrt(2) * part for part in (xy, xz, yz)))
     return 2 * norm + xx + yy + zz

@@ -69,7 +69,7 @@ def every_unknown_type(robot: Robot) -> Iterator[Problem]:
 
 def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
     kind, word = joint.type, None
-    if "type" in joint.element.attributes:
+    if joint.xml is None or "type" in joint.xml.attributes:
         instead = _ELSEWHERE.get(kind)
         if instead is None:
             word = _SYNONYMS.get(kind) or meant(kind, JOINT_TYPES)
@@ -81,7 +81,7 @@ def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
     return Problem(
         joint,
         message,
-        at=joint.element.attribute_place("type"),
+        at=joint.attribute_place("type"),
         severity=INFO if loads else None,
         data={"write": word} if word else None,
     )
@@ -128,7 +128,7 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
                 f"joint '{joint.name}' is {joint.type}, which Gazebo rejects and "
                 "robot_state_publisher does not move; use revolute and prismatic joints, or "
                 "leave the root free",
-                at=joint.element.attribute_place("type"),
+                at=joint.attribute_place("type"),
                 effects=holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
             )
 

@@ -110,7 +110,7 @@ def _with_payload(link: Link, payload: float) -> Link:
     if payload:
         mass = link.mass + payload
         inertial = (
-            Inertial(link.element, None, mass)
+            Inertial(link.provenance, None, mass)
             if inertial is None or not link.mass
             else replace(inertial, mass=mass)
         )
