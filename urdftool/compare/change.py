@@ -13,7 +13,8 @@ class Change:
     """Difference between two robots.
 
     Attributes:
-        kind: ``link``, ``joint``, ``robot``, ``gazebo``, ``transmission`` or ``ros2_control``.
+        kind: ``link``, ``joint``, ``robot``, ``gazebo``, ``transmission`` or ``ros2_control``; or
+            what plain URDF lacks, such as ``closed loop``.
         name: Name of the object, in the second robot unless it was removed.
         what: ``added``, ``removed``, ``renamed``, or the property, such as ``mass``.
         before: Value in the first robot; None if absent.

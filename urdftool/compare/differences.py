@@ -10,6 +10,7 @@ from .closeness import TOLERANCE
 from .extensions import extension_changes
 from .joints import joint_changes
 from .links import link_changes
+from .mechanisms import mechanism_changes
 from .renames import find_renames
 
 
@@ -48,6 +49,7 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
         if new is not None:
             yield from joint_changes(joint, new, tolerance, renamed)
     yield from extension_changes(a, b, tolerance, renamed)
+    yield from mechanism_changes(a, b, tolerance, renamed)
 
 
 def _presence(

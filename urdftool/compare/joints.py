@@ -59,7 +59,13 @@ def _numbers(a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]) -
     here, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
     units = {
         "limit": {"lower": here, "upper": here, "effort": force, "velocity": rate},
-        "dynamics": {"damping": "N·s/m" if slides else "N·m·s/rad", "friction": force},
+        "dynamics": {
+            "damping": "N·s/m" if slides else "N·m·s/rad",
+            "friction": force,
+            "armature": "kg" if slides else "kg·m²",
+            "stiffness": "N/m" if slides else "N·m/rad",
+            "spring_reference": here,
+        },
         "mimic": {"joint": "", "multiplier": "", "offset": here},
         "safety_controller": {
             "soft_lower_limit": here,

@@ -119,7 +119,9 @@ def _sensors(robot: Robot) -> list[Named]:
         for block in robot.gazebo
         for sensor in block.sensors
     ]
-    return simulated + [
+    mounted = [Named(s.name, s.type, s.link or s.joint) for s in robot.mounted_sensors]
+    cameras = [Named(camera.name, "camera", camera.link) for camera in robot.cameras]
+    return [*simulated, *mounted, *cameras] + [
         Named(component.name, "ros2_control", None)
         for control in robot.ros2_controls
         for component in control.components

@@ -45,6 +45,10 @@ def _rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tuple[st
     else:
         roots = _listed(counts.roots)
         yield "tree", f"{counted(len(counts.roots), 'root')}{': ' * bool(roots)}{roots}"
+    if robot.closures:
+        yield "closed loops", _listed([closure.name or "no name" for closure in robot.closures])
+    if robot.joint_actuators:
+        yield "actuators", _listed([one.name or one.joint for one in robot.joint_actuators])
     without = f"; {counted(counts.massless, 'link')} without" if counts.massless else ""
     yield "mass", f"{counts.mass:.6g} kg{without}"
     yield "size at zero pose", _size(counts, measured)

@@ -1,0 +1,55 @@
+"""Differences of closed loops, actuators and other parts that URDF lacks."""
+
+from dataclasses import replace
+
+from tests.build import arm
+from urdftool.compare.differences import compare
+from urdftool.model.elements import Dynamics, Origin
+from urdftool.model.mechanism import Closure, Configuration, ContactExclusion, Frame, JointActuator
+
+LOOP = Closure(name="loop", type="weld", parent="link0", child="link2", origin=Origin(None))
+MOTOR = JointActuator(name="motor", joint="j1", gain=2.0, control_range=(-1.0, 1.0))
+
+
+def changed(one, two):
+    a, b = (arm(2, **parts) for parts in (one, two))
+    return [(c.kind, c.name, c.what) for c in compare(a, b)]
+
+
+def test_equal_parts_do_not_differ():
+    parts = {"closures": [LOOP], "joint_actuators": [MOTOR]}
+    again = {"closures": [replace(LOOP)], "joint_actuators": [replace(MOTOR, gain=2.0 + 1e-13)]}
+    assert changed(parts, again) == []
+    frames = [Frame(name="link1", link="link1", kind="body")]
+    assert changed({"frames": frames}, {}) == []
+
+
+def test_a_changed_value_is_named():
+    moved = replace(LOOP, origin=Origin(None, (0.0, 0.0, 1e-3)))
+    assert changed({"closures": [LOOP]}, {"closures": [moved]}) == [
+        ("closed loop", "loop", "origin")
+    ]
+    limited = replace(MOTOR, control_range=None, gain=3.0)
+    assert changed({"joint_actuators": [MOTOR]}, {"joint_actuators": [limited]}) == [
+        ("joint actuator", "motor", "gain"),
+        ("joint actuator", "motor", "control range"),
+    ]
+    home = Configuration(name="home", positions={"j1": 0.0})
+    other = replace(home, positions={"j1": 0.1})
+    assert changed({"configurations": [home]}, {"configurations": [other]}) == [
+        ("configuration", "home", "positions")
+    ]
+
+
+def test_added_and_removed_parts():
+    pair = ContactExclusion(link="link0", other="link2")
+    assert changed({"closures": [LOOP]}, {"exclusions": [pair]}) == [
+        ("closed loop", "loop", "removed"),
+        ("contact exclusion", "link0 – link2", "added"),
+    ]
+
+
+def test_armature_and_springs():
+    a, b = arm(1), arm(1)
+    a.joints[0].dynamics, b.joints[0].dynamics = Dynamics(), Dynamics(armature=0.1, stiffness=2.0)
+    assert [c.what for c in compare(a, b)] == ["dynamics armature", "dynamics stiffness"]

@@ -1,0 +1,98 @@
+"""Differences of what plain URDF lacks: closed loops, actuators, frames, cameras, sensors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
+from typing import Any
+
+from ..model.elements import Robot
+from ..model.part import Origin, Part
+from ..model.pose import pose_of
+from .change import Change
+from .closeness import all_close, close, same_pose
+from .links import pose_facts
+
+_REFERENCES = ("parent", "child", "link", "other", "joint")
+
+
+def mechanism_changes(
+    a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
+    """Yield the differences of parts that URDF lacks; their order is ignored.
+
+    Args:
+        a: The first robot.
+        b: The second.
+        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        renamed: New names of links and joints by their old names.
+    """
+    for kind, before, after in zip(_KINDS, _lists(a), _lists(b), strict=True):
+        one, two = _by_name(before, renamed), _by_name(after, {})
+        for name in dict.fromkeys((*one, *two)):
+            old, new = one.get(name), two.get(name)
+            if old is None or new is None:
+                part = old or new
+                what = "added" if old is None else "removed"
+                yield Change(kind, name, what, place=part[0].place if part else None)
+                continue
+            for field, value in new[1].items():
+                if not _same(old[1][field], value, tolerance):
+                    what, before_it = field.replace("_", " "), _shown(old[1][field])
+                    yield Change(kind, name, what, before_it, _shown(value), place=new[0].place)
+
+
+_KINDS = (
+    *("closed loop", "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
+    "mounted sensor",
+)
+
+
+def _lists(robot: Robot) -> tuple[Iterable[Part], ...]:
+    """Return the parts of each kind, without the frames of links, which the links have."""
+    frames = [frame for frame in robot.frames if frame.kind != "body"]
+    return (
+        *(robot.closures, frames, robot.joint_actuators, robot.exclusions),
+        *(robot.configurations, robot.cameras, robot.mounted_sensors),
+    )
+
+
+def _by_name(
+    parts: Iterable[Part], renamed: Mapping[str, str]
+) -> dict[str, tuple[Part, dict[str, Any]]]:
+    """Return each part and its values by name; parts without a name by their number."""
+    found: dict[str, tuple[Part, dict[str, Any]]] = {}
+    for number, part in enumerate(parts, 1):
+        values = {
+            field.name: getattr(part, field.name)
+            for field in fields(part)
+            if field.name not in ("provenance", "name")
+        }
+        for key in _REFERENCES:
+            if key in values:
+                values[key] = renamed.get(values[key], values[key])
+        if "positions" in values:
+            values["positions"] = {renamed.get(k, k): v for k, v in values["positions"].items()}
+        pair = f"{values.get('link', '')} – {values.get('other', number)}"
+        name = getattr(part, "name", "") or pair
+        found.setdefault(name, (part, values))
+    return found
+
+
+def _same(a: Any, b: Any, tolerance: float) -> bool:
+    if isinstance(a, Origin) or isinstance(b, Origin):
+        return same_pose(pose_of(a), pose_of(b), tolerance)
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(_same(a[key], b[key], tolerance) for key in a)
+    if isinstance(a, tuple) and isinstance(b, tuple):
+        return len(a) == len(b) and all_close(a, b, tolerance)
+    if isinstance(a, float) and isinstance(b, float):
+        return close(a, b, tolerance)
+    return bool(a == b)
+
+
+def _shown(value: Any) -> Any:
+    """Return a value as data."""
+    if isinstance(value, Origin):
+        return pose_facts(pose_of(value))
+    return value
