@@ -50,12 +50,12 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     for closure in robot.closures:
         yield Fault(
             "loop-open",
+            Severity.INFO,
             f"'{closure.name or closure.type}' closes a loop, and is not simulated; the joints of "
             "the loop are held one by one",
             closure.place,
             "joint",
             closure.name,
-            fails=False,
         )
     if not recording.capabilities.closes_loops:
         yield from _open_loops(robot)
