@@ -82,7 +82,7 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
     except OSError as error:
         if required:
             raise ConfigError(
-                f"cannot be read: {error.strerror}; name a TOML file with --config", path=path
+                f"cannot be read: {error.strerror}; pass a TOML file with --config", path=path
             ) from None
         return None
     in_pyproject = path.name == "pyproject.toml"
@@ -95,27 +95,27 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
     try:
         table: Any = tomllib.loads(data.decode("utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ConfigError(f"not valid TOML: {error}", path=path) from None
+        raise ConfigError(f"is not valid TOML: {error}", path=path) from None
     if in_pyproject or "tool" in table:
         table = table.get("tool", {}).get("urdftool", {})
     for name in table:
         if name not in (*TABLES, GLTF_UP):
             raise ConfigError(
-                f"no table is called '{name}'{_hint(name)}",
+                f"table '{name}' is unknown{_hint(name)}",
                 path=path,
             )
     packages = table.get("packages", {})
     lint = table.get("lint", {})
     if not isinstance(packages, dict) or not all(isinstance(v, str) for v in packages.values()):
-        raise ConfigError('[packages] wants lines like my_robot = "../my_robot"', path=path)
+        raise ConfigError('[packages] requires entries like my_robot = "../my_robot"', path=path)
     collision = table.get("collision", {})
     simulate = table.get("simulate", {})
     for name, value in (("lint", lint), ("collision", collision), ("simulate", simulate)):
         if not isinstance(value, dict):
-            raise ConfigError(f"[{name}] wants to be a table", path=path)
+            raise ConfigError(f"[{name}] is not a table", path=path)
     gltf_up = table.get(GLTF_UP, "y")
     if gltf_up not in ("y", "z"):
-        raise ConfigError(f'{GLTF_UP} is "y" or "z", the axis that is up in glTF files', path=path)
+        raise ConfigError(f'{GLTF_UP} must be "y" or "z", the up axis of glTF files', path=path)
     folder = Path(os.path.abspath(path)).parent
     return Configuration(
         str(path),
@@ -128,4 +128,4 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
 
 
 def _hint(name: str) -> str:
-    return did_you_mean(name, (*TABLES, GLTF_UP), 0.5) or f"; there are {', '.join(TABLES)}"
+    return did_you_mean(name, (*TABLES, GLTF_UP), 0.5) or f"; use {', '.join(TABLES)}"

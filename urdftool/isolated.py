@@ -1,4 +1,4 @@
-"""Separate process for one call of a library that may crash or hang."""
+"""Separate process for one call of a library that may crash or not return."""
 
 from __future__ import annotations
 
@@ -133,14 +133,14 @@ class IsolatedProcess:
         try:
             listener.start()
         except RuntimeError as error:  # thread limit of the system reached
-            raise ProcessDied(f"the process cannot be used: {error}") from None
+            raise ProcessDied(f"no thread can be started: {error}") from None
         self._listener = listener
         ends = monotonic() + min(time_limit, TIMEOUT_MAX)
         while True:
             try:
                 kind, value = received.get(timeout=max(0.0, ends - monotonic()))
             except Empty:
-                raise ProcessTimeout(f"was not done after {time_limit:g} s and was ended") from None
+                raise ProcessTimeout(f"stopped after the limit of {time_limit:g} s") from None
             if kind == _DIED or (kind == _ANSWER and self._process.wait()):
                 raise self._death()
             if kind == _ANSWER:

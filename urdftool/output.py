@@ -65,14 +65,14 @@ def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> No
     for source in inputs:
         if _same_file(source, target):
             raise OutputError(
-                f"is read as an input ({source}); write the output to another file", path=target
+                f"is an input ({source}); write the output to another file", path=target
             )
     path = Path(os.path.realpath(target))
     if path.is_dir():
-        raise OutputError("is a folder; the name of a file is wanted", path=target)
+        raise OutputError("is a folder, not a file", path=target)
     check_folder(path.parent, target)
     if path.is_file() and not os.access(path, os.W_OK):
-        raise OutputError("may not be written (it is read-only)", path=target)
+        raise OutputError("is read-only", path=target)
 
 
 def check_folder(folder: Path, target: str | Path) -> None:
@@ -92,10 +92,10 @@ def check_folder(folder: Path, target: str | Path) -> None:
         above = above.parent
     if not above.is_dir():
         raise OutputError(
-            f"the folder {folder} cannot be made: {above} is not a folder", path=target
+            f"folder {folder} cannot be created: {above} is not a folder", path=target
         )
     if not os.access(above, os.W_OK):
-        raise OutputError(f"the folder {folder} cannot be made: {above} is read-only", path=target)
+        raise OutputError(f"folder {folder} cannot be created: {above} is read-only", path=target)
 
 
 def check_targets(
@@ -117,7 +117,7 @@ def check_targets(
         check_target(target, inputs=sources)
         path = os.path.realpath(target)
         if path in seen and (os.path.isfile(path) or not os.path.exists(path)):
-            raise OutputError("is named for two outputs; give each its own", path=target)
+            raise OutputError("is the file of two outputs; use different files", path=target)
         seen.add(path)
 
 
@@ -158,19 +158,24 @@ def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> N
     for path in after:
         _check_unchanged(path, before[path])
         if before[path] is not None and not os.access(path, os.W_OK):
-            raise OutputError("is not fixed: it is read-only", path=path)
+            raise OutputError("not fixed, because the file is read-only", path=path)
     write_files({Path(path): data for path, data in after.items()})
 
 
 def _check_unchanged(path: str, data: bytes | None) -> None:
     if data is None:
         if os.path.lexists(path):
-            raise OutputError("is not written: it is there now; run again", path=path)
+            raise OutputError(
+                "not written, because another program created the file; run the command again",
+                path=path,
+            )
         return
     try:
         with open(path, "rb") as stream:
             now = stream.read()
     except OSError as error:
-        raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
+        raise OutputError(f"cannot be read before writing: {error.strerror}", path=path) from None
     if now != data:
-        raise OutputError("is not fixed: it was changed meanwhile; run again", path=path)
+        raise OutputError(
+            "not fixed, because another program changed the file; run the command again", path=path
+        )

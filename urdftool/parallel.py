@@ -1,7 +1,7 @@
 """Map a function over tasks in several processes, with time and memory limits.
 
 A task whose worker is killed or exceeds its time limit is reported; the others continue. For one
-call of a library that may crash or hang see :mod:`urdftool.isolated`.
+call of a library that may crash or not return see :mod:`urdftool.isolated`.
 """
 
 from __future__ import annotations
@@ -129,8 +129,8 @@ def in_order(results: Iterator[tuple[int, R]]) -> Iterator[R]:
 def _lost(task: T, loss: Loss, on_lost: Callable[[T, Loss], R] | None) -> R:
     if on_lost is not None:
         return on_lost(task, loss)
-    how = "took too long" if loss.timed_out else f"ended with exit code {loss.exit_code}"
-    raise UrdftoolError(f"a worker process {how}; use fewer workers if memory is short")
+    how = "exceeded its time limit" if loss.timed_out else f"ended with code {loss.exit_code}"
+    raise UrdftoolError(f"a worker process {how}; if memory is low, use fewer processes (-j)")
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def row(named: tuple[str, Path]) -> str:
         robot = load(path)
         (run,) = simulate(robot, Settings(), precompute=precompute_overlaps)
     except UrdftoolError as error:
-        said = error.message.partition("; what it names is in")[0]  # a path
+        said = error.message.partition("; the file exists in")[0]  # a path
         return f"| {name} | refused | {said[:110]} |"
     verdict = judge(robot, run)
     first: dict[str, str] = {}

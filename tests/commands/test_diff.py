@@ -149,10 +149,10 @@ def test_a_path_at_a_revision_may_be_from_the_current_folder(urdftool, repositor
 @pytest.mark.parametrize(
     ("word", "said"),
     [
-        ("nothing:urdf/arm.urdf.xacro", "no revision is called 'nothing' in the repository"),
-        ("HEAD:gone.urdf", "HEAD:gone.urdf: there is no file 'gone.urdf' at HEAD"),
+        ("nothing:urdf/arm.urdf.xacro", "revision 'nothing' does not exist"),
+        ("HEAD:gone.urdf", "HEAD:gone.urdf: file 'gone.urdf' does not exist"),
         ("--upload-pack=x:a.urdf", "No such option"),
-        (":a.urdf", "'' is no revision"),
+        (":a.urdf", "'' is not a git revision"),
     ],
 )
 def test_what_git_does_not_know_is_one_message(urdftool, repository, word, said):

@@ -118,7 +118,7 @@ def test_an_input_is_never_overwritten(urdftool, arm, tmp_path):
         for target in ("arm.urdf.xacro", "macros.xacro", "./macros.xacro"):
             result = urdftool("expand", arm, option, target)
             assert result.code == 2
-            assert "read as an input" in result.err
+            assert "is an input" in result.err
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 

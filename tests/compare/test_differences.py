@@ -82,7 +82,7 @@ def test_how_it_is_written_does_not_count(case):
 BODIED = of(BODY.format('<origin xyz="0 0 1"/>', 1, TENSOR.format(3)))
 CHANGED = {
     "mass": (BODIED, of(BODY.format('<origin xyz="0 0 1"/>', 2, TENSOR.format(3)))),
-    "centre of mass": (BODIED, of(BODY.format('<origin xyz="0 0 2"/>', 1, TENSOR.format(3)))),
+    "center of mass": (BODIED, of(BODY.format('<origin xyz="0 0 2"/>', 1, TENSOR.format(3)))),
     "inertia": (BODIED, of(BODY.format('<origin xyz="0 0 1"/>', 1, TENSOR.format(2.5)))),
     "inertial": (BODIED, of()),
     "visual geometry": (of(BOX.format(0, 1)), of(BOX.format(0, 2))),

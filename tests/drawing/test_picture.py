@@ -215,7 +215,7 @@ def test_collisions_over_visuals_let_them_through(tmp_path):
     assert mask(collisions).sum() == pytest.approx(100**2, rel=0.02)
     assert (mask(both) == mask(collisions)).all()
     assert visuals[100, 100, 2] > both[100, 100, 2] > collisions[100, 100, 2]
-    with pytest.raises(ValueError, match="show is one of"):
+    with pytest.raises(ValueError, match="show must be one of"):
         robot_shapes(robot, show="inertia")
 
 

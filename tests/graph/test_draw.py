@@ -91,7 +91,7 @@ def test_what_takes_too_long_is_stopped(monkeypatch):
     names = [f"l{i}" for i in range(3000)]
     text = to_dot(ros_figure(tree(names, [(f"j{b}", "l0", b) for b in names[1:]])))
     begin = time.monotonic()
-    with pytest.raises(DrawError, match=r"edges in 0.05 s, and was stopped; --fold-fixed"):
+    with pytest.raises(DrawError, match=r"edges in 0.05 s; .*--fold-fixed"):
         draw(text, "svg")
     assert time.monotonic() - begin < 2
 
@@ -100,7 +100,7 @@ def test_a_graphviz_that_crashes_is_one_message(tmp_path, monkeypatch):
     stand_in = "import os, signal\nAGraph = lambda **_: os.kill(os.getpid(), signal.SIGSEGV)\n"
     (tmp_path / "pygraphviz.py").write_text(stand_in)
     monkeypatch.syspath_prepend(tmp_path)
-    with pytest.raises(DrawError, match=r"Graphviz breaks on this graph \(SIGSEGV\)"):
+    with pytest.raises(DrawError, match=r"Graphviz crashed on this graph \(SIGSEGV\)"):
         draw("digraph {\n}", "svg")
 
 

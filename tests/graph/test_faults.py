@@ -27,11 +27,11 @@ CASES = {
     ),
     "an unknown parent": (
         tree("a", [("xa", "x", "a")]),
-        {"a": ["detached"], "xa": ["unknown parent"], "x": ["no such link"]},
+        {"a": ["detached"], "xa": ["unknown parent"], "x": ["missing link"]},
     ),
     "an unknown child": (
         tree("a", [("ax", "a", "x")]),
-        {"ax": ["unknown child"], "x": ["no such link"]},
+        {"ax": ["unknown child"], "x": ["missing link"]},
     ),
     "a joint to itself": (
         tree("a", [("aa", "a", "a")]),
@@ -39,7 +39,7 @@ CASES = {
     ),
     "twins": (
         tree("aab", [("j", "a", "b")]),
-        {"a": ["one of 2 of this name"]},
+        {"a": ["2 with this name"]},
     ),
 }
 

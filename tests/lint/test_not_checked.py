@@ -257,8 +257,8 @@ def test_a_folder_reports_the_xacro_files_that_it_skipped(xacro_file, write, urd
         "lint the robot that includes it",
         "urdf/base.xacro: skipped, may be a robot, since it has links or calls macros; "
         "give the file itself to check it",
-        "urdf/broken.xacro: skipped, the file ends while elements are open; is it truncated? "
-        "(<robot> of line 1 is)",
+        "urdf/broken.xacro: skipped, the file ends before all elements are closed; it may be "
+        "truncated (open: <robot> of line 1)",
         "urdf/unused.xacro: skipped, a part that none of the checked descriptions includes",
     ]
     assert "legs.xacro" not in result.err

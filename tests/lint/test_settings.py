@@ -76,9 +76,9 @@ def test_the_command_line_counts_more(robot, write):
         ('[lint.severity]\nzero-axis = "fatal"', "there are off, info"),
         ("[lint.zero-axis]\nsize = 1", "it has shortest"),
         ('[lint.zero-axis]\nshortest = "x"', "must be a number"),
-        ("[lnt]", "no table is called 'lnt'"),
+        ("[lnt]", "table 'lnt' is unknown"),
         ("[lint", "not valid TOML"),
-        ("[packages]\na = 1", "wants lines like"),
+        ("[packages]\na = 1", "requires entries like"),
     ],
 )
 def test_a_wrong_configuration_says_what_is_right(robot, write, urdftool, text, message):
@@ -103,7 +103,7 @@ def test_targets_are_inferred_and_said(robot, urdftool, write):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[lnit]", "no table is called 'lnit'; did you mean 'lint'?"),
+        ("[lnit]", "table 'lnit' is unknown; did you mean 'lint'?"),
         ("[lint]\nselct = []", "there is no option lint.selct; did you mean 'select'?"),
         ("[lint]\nselect = ['zero-axes']", "did you mean 'zero-axis'?"),
         ("[lint]\nextend-select = ['zero-axes']", "did you mean 'zero-axis'?"),

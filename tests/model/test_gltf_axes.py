@@ -83,7 +83,7 @@ def test_another_axis_in_the_configuration_is_refused(urdftool, write, parts, va
     write("urdftool.toml", f"gltf-up = {value}\n")
     done = urdftool("info", "y.urdf")
     assert done.code == 2
-    assert 'gltf-up is "y" or "z"' in done.err
+    assert 'gltf-up must be "y" or "z"' in done.err
 
 
 def test_mass_and_collisions_follow_the_file(urdftool, parts):
@@ -133,7 +133,7 @@ def test_gazebo_keeps_the_axes_so_the_pose_turns_what_is_turned(urdftool, parts,
     for name, words in (("y", ()), ("z", ("--gltf-up", "z"))):
         done = urdftool("export", "sdf", f"{name}.urdf", "-o", name, "--target", target, *words)
         assert done.code == 0
-        assert ("note: 'y.glb' is glTF, read with Y up" in done.err) is (name == "y")
+        assert ("note: 'y.glb' is glTF and read with Y up" in done.err) is (name == "y")
         assert ("a format that Gazebo Classic does not read" in done.err) is (target != "gz")
         visual = etree.parse(f"{name}/model.sdf").find(".//visual")
         pose = [float(number) for number in visual.findtext("pose").split()]
@@ -169,7 +169,7 @@ def test_mujoco_gets_what_is_up_turned(urdftool, parts):
 
 def test_the_picture_says_how_it_is_drawn(urdftool, tmp_path):
     file = robot(tmp_path, "one.glb")
-    assert gltf_note(load(file)).startswith("'one.glb' is glTF, read with Y up")
+    assert gltf_note(load(file)).startswith("'one.glb' is glTF and read with Y up")
     assert "--gltf-up z" in gltf_note(load(file))
     assert gltf_note(load(file, gltf_up="z")) == ""
     done = urdftool("view", file, "--picture", tmp_path / "p.png", "--size", "64x48")

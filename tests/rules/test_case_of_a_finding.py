@@ -230,9 +230,9 @@ XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" {}>{}<link name="a"/
 def test_a_file_that_an_argument_names_is_to_be_given(write):
     inside = '<xacro:arg name="part" default="none.xacro"/><xacro:include filename="$(arg part)"/>'
     path = write("r.urdf.xacro", XACRO.format('name="r"', inside))
-    assert "give part:=FILE" in one(path, "include-not-found").message
+    assert "pass part:=" in one(path, "include-not-found").message
     found = one(path, "include-not-found", args={"part": "gone.xacro"})
-    assert ":=FILE" not in found.message
+    assert "part:=" not in found.message
     fixed = XACRO.format('name="r"', '<xacro:include filename="gone.xacro"/>')
     assert ":=FILE" not in one(write("s.urdf.xacro", fixed), "include-not-found").message
 
@@ -240,7 +240,7 @@ def test_a_file_that_an_argument_names_is_to_be_given(write):
 def test_an_argument_of_the_root_cannot_be_declared_in_it(write):
     inside = '<xacro:arg name="who" default="x"/>'
     found = one(write("r.urdf.xacro", XACRO.format('name="$(arg who)"', inside)), "undeclared-arg")
-    assert "give who:=VALUE" in found.message
+    assert "pass who:=VALUE" in found.message
     assert "declare it" not in found.message
     (found,) = check("r.urdf.xacro", select=["undeclared-arg"], fixes=True)
     assert found.fix is None

@@ -117,7 +117,7 @@ _C = "c:\n  type: effort_controllers/JointPositionController\n"
     ("text", "where", "said"),
     [
         ("", "1", "is empty"),
-        ("- a\n", "1", "is no mapping"),
+        ("- a\n", "1", "is not a mapping"),
         ("a: [\n", "2:1", "is not valid YAML"),
         ("a: \x00\n", "c.yaml", "is not valid YAML"),
         ("a: 1\n", "1", "has no controller"),
@@ -126,9 +126,9 @@ _C = "c:\n  type: effort_controllers/JointPositionController\n"
         (_C + "  joint: [swing]\n", "2:9", "has no gains of joint 'swing'; write pid"),
         (_C + "  joint: swing\n  pid: 3\n", "4:8", "gains are '3'"),
         (_C + "  joint: swing\n  pid: {i: 3}\n", "4:8", "gains without a p"),
-        (_C + "  joint: swing\n  pid: {p: big}\n", "4:12", "p is 'big', which is no finite"),
-        (_C + "  joint: swing\n  pid: {p: '1'}\n", "4:12", "no finite number"),
-        (_C + "  joint: swing\n  pid: {p: .nan}\n", "4:12", "no finite number"),
+        (_C + "  joint: swing\n  pid: {p: big}\n", "4:12", "p is 'big', not a finite"),
+        (_C + "  joint: swing\n  pid: {p: '1'}\n", "4:12", "not a finite number"),
+        (_C + "  joint: swing\n  pid: {p: .nan}\n", "4:12", "not a finite number"),
         (_C + "  joint: {a: b}\n", "3:10", "joint is a mapping"),
         (_C, "2:9", "names no joint"),
         ("c:\n  type: diff_drive_controller/DiffDriveController\n", "2:9", "names no wheels"),
@@ -140,9 +140,9 @@ _C = "c:\n  type: effort_controllers/JointPositionController\n"
          "aliases"),
         ("a: &a [*a]\n", "", "deep"),
         ("[" * 5000, "", "nested too deeply"),
-        ("a: 1\n---\n- b\n", "1", "is no mapping"),
+        ("a: 1\n---\n- b\n", "1", "is not a mapping"),
         ("a: " + "x" * 300_000, "", "has 300003 bytes"),
-        ("!!python/object/apply:os.system [ls]\n", "1", "is no mapping"),
+        ("!!python/object/apply:os.system [ls]\n", "1", "is not a mapping"),
     ],
 )  # fmt: skip
 def test_a_wrong_file_is_one_message_with_its_place(arm, write, text, where, said):

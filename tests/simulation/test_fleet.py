@@ -171,7 +171,7 @@ def test_one_robot_is_a_junit_case_too(urdftool):
         (["--fleet"], "robots are wanted"),
         (["--fleet", "-"], "not read from standard input"),
         (["--fleet", "a.urdf", "--plot", "a.png"], "are of one robot, not a --fleet"),
-        (["a.urdf", "b.urdf"], "one robot is wanted, not 2"),
+        (["a.urdf", "b.urdf"], "a.urdf b.urdf"),
         (["--fleet", "empty"], "no .urdf or .urdf.xacro below empty"),
         (["a.urdf", "--junit", "file/a.xml"], "file is not a folder"),
     ],

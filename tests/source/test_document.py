@@ -90,10 +90,10 @@ def test_comments_are_kept_with_their_place():
         ("<robot>\n<link>\n</robot>", 3, 3, "</robot> closes"),
         ("<robot/>\n<robot/>", 2, 1, "one root element"),
         ("<!-- c -->\n<?xml version='1.0'?><robot/>", 2, 1, "move the declaration"),
-        ("<?xml?><robot/>", 1, 6, "declaration is wrong"),
+        ("<?xml?><robot/>", 1, 6, "XML declaration"),
         ("<robot>\n<!-- a -- b -->\n</robot>", 2, 10, "'--'"),
-        ('<robot a="1" a="2"/>', 1, 14, "stands twice"),
-        ("<robot>&nbsp;</robot>", 1, 8, "no such entity"),
+        ('<robot a="1" a="2"/>', 1, 14, "attribute twice"),
+        ("<robot>&nbsp;</robot>", 1, 8, "entity is not defined"),
         ("version https://git-lfs.github.com/spec/v1\noid sha256:1", 1, 1, "git lfs pull"),
     ],
 )

@@ -139,10 +139,8 @@ def test_a_package_under_a_former_name_is_offered(tmp_path):
     finder = Packages(robot(home / "urdf"))
     with pytest.raises(PackageNotFound) as caught:
         finder.resolve("package://arm_support/meshes/base.stl")
-    assert caught.value.message == (
-        f"package 'arm_support' is not found; what it names is in {home}; "
-        f"write --package arm_support={home} if that is meant"
-    )
+    assert "package 'arm_support'" in caught.value.message
+    assert caught.value.message.endswith(f"--package arm_support={home}")
     with pytest.raises(PackageNotFound, match="--package arm_support=DIR"):
         finder.resolve("package://arm_support/meshes/other.stl")
 
@@ -151,7 +149,7 @@ def test_a_package_is_offered_where_a_neighbour_has_the_file(tmp_path):
     home = package(tmp_path / "ws" / "arm", "arm")
     beside = package(tmp_path / "ws" / "meshes", "arm_meshes")
     (beside / "base.stl").write_text("")
-    with pytest.raises(PackageNotFound, match=f"arm_shapes={beside} "):
+    with pytest.raises(PackageNotFound, match=f"--package arm_shapes={beside}$"):
         Packages(robot(home / "urdf")).resolve("package://arm_shapes/base.stl")
 
 

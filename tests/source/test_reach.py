@@ -245,7 +245,7 @@ def test_a_sibling_folder_can_be_read(evaluate):
 
 @pytest.mark.parametrize("name", ["../elsewhere/private", "..", "/etc", "a/b"])
 def test_a_package_name_is_no_path(evaluate, outside, name):
-    with pytest.raises(UrdftoolError, match=r"no package name|--package"):
+    with pytest.raises(UrdftoolError, match=r"not a package name|--package"):
         expand(_write(evaluate.folder, f'<link name="$(find {name})"/>'))
 
 
@@ -262,7 +262,7 @@ def test_properties_that_double_are_stopped(evaluate):
         f'<xacro:property name="a{n + 1}" value="${{a{n}}}${{a{n}}}"/>' for n in range(60)
     )
     body = f'<xacro:property name="a0" value="ha"/>{doubled}<link name="${{a60}}"/>'
-    with pytest.raises(UrdftoolError, match="longer than any robot needs"):
+    with pytest.raises(UrdftoolError, match="exceeds the limit"):
         expand(_write(evaluate.folder, body))
 
 
@@ -292,7 +292,7 @@ LOOPS = [
 @pytest.mark.parametrize("text", LOOPS)
 def test_a_loop_without_end_is_ended(evaluate, monkeypatch, text):
     monkeypatch.setattr(patience, "SECONDS", 0.3)
-    with pytest.raises(UrdftoolError, match="of the processor"):
+    with pytest.raises(UrdftoolError, match="CPU time"):
         evaluate(text)
     assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
 
@@ -301,7 +301,7 @@ def test_a_loop_without_end_is_ended(evaluate, monkeypatch, text):
 def test_an_expansion_of_many_slow_expressions_is_ended(evaluate, monkeypatch):
     monkeypatch.setattr(patience, "TOTAL_SECONDS", 0.3)
     slow = "${len([0 for x in python.range(900000)])} "
-    with pytest.raises(UrdftoolError, match=r"the expansion takes longer than 0\.3 s"):
+    with pytest.raises(UrdftoolError, match=r"more than 0\.3 s"):
         evaluate(slow * 400)
     assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
 

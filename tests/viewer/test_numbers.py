@@ -35,16 +35,16 @@ def test_the_numbers_of_a_joint_and_a_link(tmp_path):
     robot = read(tmp_path / "r.urdf", text)
     rows = dict(link_rows(robot, robot.link["a"]))
     assert rows["mass"] == "2.5 kg"
-    assert rows["centre of mass"] == "0 0 0.1 m"
+    assert rows["center of mass"] == "0 0 0.1 m"
     assert rows["ixx iyy izz"] == "1 2 3 kg·m²"
     assert rows["children"] == "b"
-    assert rows["parent"] == "none, it is a root"
+    assert rows["parent"] == "none (root link)"
     moved = dict(joint_rows(robot.joint["j"]))
     assert moved["limits"] == "-1.5708 … 0 rad (−90° … 0°)"
     assert moved["axis"] == "0 1 0"
-    assert moved["from"] == "a"
-    assert moved["to"] == "b"
-    assert "mere frame" in dict(link_rows(robot, robot.link["b"]))["is"]
+    assert moved["parent"] == "a"
+    assert moved["child"] == "b"
+    assert "frame" in dict(link_rows(robot, robot.link["b"]))["note"]
 
 
 def test_a_finding_is_on_the_links_it_is_about():

@@ -65,14 +65,14 @@ def write_all(
     read = {os.path.realpath(name) for name in inputs}
     for path in files:
         if os.path.realpath(path) in read:
-            raise OutputError("is read as an input; write elsewhere", path=path)
+            raise OutputError("is an input; write the output to another file", path=path)
         _check(path, overwrite)
     write_files(files)
 
 
 def _check(path: Path, overwrite: bool) -> None:
     if path.is_dir():
-        raise OutputError("is a folder; the name of a file is wanted", path=path)
+        raise OutputError("is a folder, not a file", path=path)
     if path.exists() and not os.access(path, os.W_OK):
         raise OutputError("may not be written (it is read-only)", path=path)
     if overwrite or path.suffix.lower() not in (".stl", ".obj") or not path.is_file():

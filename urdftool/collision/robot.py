@@ -115,10 +115,10 @@ def check_place(robot: Robot, place: Place) -> None:
     if place.in_place or place.bare or robot.source is None:
         return
     if place.target.is_dir():
-        raise OutputError("is a folder; the name of a file is wanted", path=place.target)
+        raise OutputError("is a folder, not a file", path=place.target)
     real = os.path.realpath(place.target)
     if any(os.path.realpath(file.path) == real for file in robot.source.files):
-        raise OutputError("is read as an input; write elsewhere", path=place.target)
+        raise OutputError("is an input; write the output to another file", path=place.target)
 
 
 def _visual_meshes(robot: Robot) -> list[str]:

@@ -112,10 +112,10 @@ def _read(
     from .read_lax import read_lax
 
     path, arguments = side
-    wanted = None if path == "-" else named(path)
-    if wanted is None:
+    revision = None if path == "-" else named(path)
+    if revision is None:
         return read_lax(console, path, arguments, package, package_path)
-    with checked_out(wanted) as checkout, _at_revision(checkout):
+    with checked_out(revision) as checkout, _at_revision(checkout):
         robot = read_lax(
             console,
             str(checkout.path),

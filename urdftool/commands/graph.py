@@ -79,8 +79,10 @@ def command(
         path, arguments = robot
         model = read_lax(console, path, arguments, package, package_path)
         faults = list(find_faults(model))
-        wanted = style or ("ros" if suffix in (None, "", ".gv", ".dot", *PICTURES) else "detailed")
-        figure = _figure(console, model, faults, wanted, fold_fixed, linted)
+        drawn_style = style or (
+            "ros" if suffix in (None, "", ".gv", ".dot", *PICTURES) else "detailed"
+        )
+        figure = _figure(console, model, faults, drawn_style, fold_fixed, linted)
         if suffix in (None, ""):
             write_pair(console, model, figure, path, output, pencil)
         else:

@@ -161,17 +161,17 @@ def command(
     model = take_world(console, require(read, "links"))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
-    wanted = Masses(by_link, density, total, all_links)
+    amounts = Masses(by_link, density, total, all_links)
     with Progress(console, "meshes") as progress:
         found = review(
-            model, _reader(model.source, jobs, progress), masses=wanted, source=source, only=only
+            model, _reader(model.source, jobs, progress), masses=amounts, source=source, only=only
         )
     if lump:
         return _lump(console, model, found, pose, style, output)
     if diff:
-        return _diff(console, model, found, wanted)
+        return _diff(console, model, found, amounts)
     if write:
-        return _write(console, model, found, wanted, style, output)
+        return _write(console, model, found, amounts, style, output)
     return _show(console, model, found, style, output)
 
 
@@ -245,7 +245,7 @@ def _write(
     console: Console,
     model: Robot,
     found: list[LinkReview],
-    wanted: Masses,
+    amounts: Masses,
     style: str,
     output: str | None,
 ) -> int:
@@ -255,7 +255,7 @@ def _write(
     from .inertia_write import write_files
 
     assert model.source is not None
-    filling, edited = checked_filling(model, found, wanted, single=output is not None)
+    filling, edited = checked_filling(model, found, amounts, single=output is not None)
     files = write_files(model, edited, output)
     text = report.as_json(filling, model) if style == "json" else report.text(filling)
     if output == "-":
@@ -268,14 +268,14 @@ def _write(
     return int(bool(filling.refused) or filling.still_wrong)
 
 
-def _diff(console: Console, model: Robot, found: list[LinkReview], wanted: Masses) -> int:
+def _diff(console: Console, model: Robot, found: list[LinkReview], amounts: Masses) -> int:
     """Print the changes as a unified diff; return 1 if there are any."""
     from ..inertia.fill_check import checked_filling
     from ..report import inertia_fill as report
     from ..report.file_diff import file_diff
 
     assert model.source is not None
-    filling, edited = checked_filling(model, found, wanted)
+    filling, edited = checked_filling(model, found, amounts)
     before = {file.path: file.data for file in model.source.files}
     click.echo("".join(file_diff(path, before[path], edited[path]) for path in edited), nl=False)
     for line in report.remarks(filling):

@@ -165,26 +165,26 @@ def command(
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):
             raise click.UsageError(f"{option} requires --fix or --diff")
-    kept = cache_place("lint", cache_dir, no_cache)
+    folder = cache_place("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up, options.workspace = console.gltf_up, workspace
-    if kept is not None:
+    if folder is not None:
         from ..lint.cache import Cache
         from ..storage import DiskCache
 
-        options.cache = Cache(DiskCache(kept))
+        options.cache = Cache(DiskCache(folder))
     options.fixes = style is None or style in _WITH_FIXES
-    wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
-    wanted.paths, wanted.whole = paths, whole
+    output = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
+    output.paths, output.whole = paths, whole
     if fix or diff:
         from .lint_fix import Kinds, fix_files
 
         kinds = Kinds(unsafe_fixes, fix_meshes)
         return fix_files(
-            console, files, options, settings, wanted, jobs=jobs, kinds=kinds, diff=diff
+            console, files, options, settings, output, jobs=jobs, kinds=kinds, diff=diff
         )
     reports = with_parts(lint_files(files, options, jobs), paths)
-    return report(console, [*reports, *excluded], settings, wanted)
+    return report(console, [*reports, *excluded], settings, output)
 
 
 def _show_rules(explain: str | None) -> int:

@@ -38,7 +38,7 @@ def fix_files(
     files: Sequence[str],
     options: Options,
     settings: Settings,
-    wanted: Wanted,
+    output: Wanted,
     *,
     jobs: int | None,
     kinds: Kinds,
@@ -67,16 +67,16 @@ def fix_files(
     code = 0 if diff else _write(console, done, reports, options)
     _say_what_is_left(console, done.reports, kinds)
     if diff:
-        return _show(console, done, wanted)
+        return _show(console, done, output)
     _say(console, "Fixed", done)
     _say_where(console, done, files)
     if "-" in files:
-        wanted.to_stderr = wanted.output_file is None
+        output.to_stderr = output.output_file is None
         sys.stdout.flush()
         sys.stdout.buffer.write(done.after.get(STDIN, given))
         sys.stdout.buffer.flush()
-    whole = with_parts(done.reports, wanted.paths)
-    return max(report(console, whole, settings, wanted), code)
+    whole = with_parts(done.reports, output.paths)
+    return max(report(console, whole, settings, output), code)
 
 
 def _write(console: Console, done: FixResult, reports: Sequence[Report], options: Options) -> int:
@@ -188,7 +188,7 @@ def _say_where(console: Console, done: FixResult, files: Sequence[str]) -> None:
             console.note(f"{what}: {', '.join(sorted(paths))}")
 
 
-def _show(console: Console, done: FixResult, wanted: Wanted) -> int:
+def _show(console: Console, done: FixResult, output: Wanted) -> int:
     """Print the fixes as a unified diff; return 1 if there are any."""
     from ..output import write_result
     from ..report.file_diff import file_diff
@@ -196,6 +196,6 @@ def _show(console: Console, done: FixResult, wanted: Wanted) -> int:
     changed = [path for path, data in done.after.items() if data != done.before[path]]
     text = "".join(file_diff(path, done.before[path], done.after[path]) for path in changed)
     inputs = [path for path in done.after if os.path.exists(path)]
-    write_result(text, wanted.output_file, inputs=inputs)
+    write_result(text, output.output_file, inputs=inputs)
     _say(console, "Would fix", done)
-    return int(bool(changed) and not wanted.exit_zero)
+    return int(bool(changed) and not output.exit_zero)

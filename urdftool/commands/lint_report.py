@@ -49,7 +49,7 @@ class Wanted:
     whole: bool = False
 
 
-def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
+def report(console: Console, reports: Iterable[Report], settings: Settings, output: Wanted) -> int:
     """Print the report of a run, and return the exit code."""
     from ..diagnostic import Severity
     from ..lint.group import together
@@ -61,41 +61,41 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     from ..report.findings_words import skipped_rules
 
     outcome = gather(reports)
-    check_targets((wanted.output_file, wanted.write_baseline), inputs=_inputs(outcome))
-    if wanted.baseline or wanted.write_baseline:
-        outcome = _with_baseline(console, outcome, settings, wanted)
+    check_targets((output.output_file, output.write_baseline), inputs=_inputs(outcome))
+    if output.baseline or output.write_baseline:
+        outcome = _with_baseline(console, outcome, settings, output)
     outcome = together(outcome)
-    threshold = Severity[wanted.fail_on.upper()]
-    to_file = wanted.output_file not in (None, "-")
+    threshold = Severity[output.fail_on.upper()]
+    to_file = output.output_file not in (None, "-")
     at_terminal = not to_file and sys.stdout.isatty()
     many = len(outcome.findings) > MANY
-    style = wanted.style or ("concise" if at_terminal and many and not wanted.whole else "full")
+    style = output.style or ("concise" if at_terminal and many and not output.whole else "full")
     text = as_text(
         outcome,
         style,
         colors=console.colors(to_file=to_file),
         fail_on=threshold,
-        statistics=wanted.statistics,
-        whole=wanted.whole or to_file or (style == "concise" and not at_terminal),
+        statistics=output.statistics,
+        whole=output.whole or to_file or (style == "concise" and not at_terminal),
     )
-    if wanted.to_stderr:
+    if output.to_stderr:
         click.echo(text, err=True, nl=False)
     else:
-        write_result(text, wanted.output_file, inputs=_inputs(outcome) if to_file else [])
-    _report_skipped(console, outcome.reports, wanted.paths)
+        write_result(text, output.output_file, inputs=_inputs(outcome) if to_file else [])
+    _report_skipped(console, outcome.reports, output.paths)
     broken = _say_the_rest(console, outcome.reports)
     if any(report.checked or report.stopped for report in outcome.reports):
         console.note(summary(outcome))
         for line in skipped_rules(outcome):
             console.note(line)
-        people = style in ("full", "concise") and not wanted.statistics
+        people = style in ("full", "concise") and not output.statistics
         for line in advice(outcome.findings) if people else ():
             console.note(line)
     if broken:
         return broken
     worst = max((f.severity for f in outcome.findings), default=None)
     failed = worst is not None and worst >= threshold
-    return int(failed and not wanted.exit_zero)
+    return int(failed and not output.exit_zero)
 
 
 def _inputs(outcome: Outcome) -> list[str]:
@@ -107,15 +107,15 @@ def _inputs(outcome: Outcome) -> list[str]:
 
 
 def _with_baseline(
-    console: Console, outcome: Outcome, settings: Settings, wanted: Wanted
+    console: Console, outcome: Outcome, settings: Settings, output: Wanted
 ) -> Outcome:
     """Remove the findings of the baseline from a run; first write the baseline if requested."""
     from ..lint.baseline import compare, read_baseline
     from ..lint.stale import looked_for
 
-    old = read_baseline(wanted.baseline) if wanted.baseline else None
-    if wanted.write_baseline:
-        written = _write(console, outcome, settings, wanted.write_baseline)
+    old = read_baseline(output.baseline) if output.baseline else None
+    if output.write_baseline:
+        written = _write(console, outcome, settings, output.write_baseline)
         if written is not None:
             return compare(outcome, written)[0]
     if old is None:
@@ -138,12 +138,12 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     if not outcome.complete:
         console.say(f"{path}: not written, because a robot could not be checked")
         return None
-    kept = {}
+    entries = {}
     if os.path.exists(path):
         old = read_baseline(path)
         gone = set(looked_for(old.counts, old, outcome, settings))
-        kept = {entry: count for entry, count in old.counts.items() if entry not in gone}
-    written = baseline_of(path, outcome.findings, kept)
+        entries = {entry: count for entry, count in old.counts.items() if entry not in gone}
+    written = baseline_of(path, outcome.findings, entries)
     write_result(to_text(written), path, inputs=_inputs(outcome))
     number = len(written.counts)
     console.note(f"{path}: written, {number} {'entry' if number == 1 else 'entries'}")

@@ -36,9 +36,9 @@ def environment() -> list[str]:
             libraries = [extra_library()]
         names = [DISTRIBUTION_OF.get(library, library) for library in libraries]
         versions = {name: _version(name) for name in names}
-        said = ", ".join(f"{name} {version or 'missing'}" for name, version in versions.items())
+        text = ", ".join(f"{name} {version or 'missing'}" for name, version in versions.items())
         advice = "" if all(versions.values()) else f" ({install_command(extra)})"
-        lines.append(f"[{extra}]: {said}{advice}")
+        lines.append(f"[{extra}]: {text}{advice}")
     return lines
 
 

@@ -56,9 +56,9 @@ def same_pose(a: Pose, b: Pose, tolerance: float) -> bool:
 def moved(a: Pose, b: Pose) -> str:
     """Return the distance and angle between two poses as text."""
     far, turned = distance(a.translation, b.translation), angle(a.rotation, b.rotation)
-    said = []
+    parts = []
     if far > _NOTHING:
-        said.append(f"moved {far * 1000:.4g} mm")
+        parts.append(f"moved {far * 1000:.4g} mm")
     if turned > _NOTHING:
-        said.append(f"turned {math.degrees(turned):.4g}°")
-    return ", ".join(said)
+        parts.append(f"rotated {math.degrees(turned):.4g}°")
+    return ", ".join(parts)

@@ -86,7 +86,7 @@ def _by_tag(one: Flat, other: Flat) -> dict[str, list[str]]:
 
 
 def _move(flat: Flat, path: str, to: str) -> None:
-    """Change the path of an element and its descendants."""
+    """Replace the path of an element and its descendants."""
     for known in [known for known in flat if known == path or known.startswith(f"{path}/")]:
         flat[to + known.removeprefix(path)] = flat.pop(known)
 

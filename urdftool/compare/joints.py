@@ -43,7 +43,7 @@ def joint_changes(
         x, y = _axis(a), _axis(b)
         if not all_close(x, y, max(tolerance, 1e-12)):
             opposite = all_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
-            yield change("axis", x, y, "", "turned round" if opposite else "")
+            yield change("axis", x, y, "", "opposite direction" if opposite else "")
     yield from _numbers(a, b, tolerance, renamed)
 
 

@@ -61,7 +61,7 @@ def _inertial(a: Link, b: Link, tolerance: float) -> Iterator[Change]:
     before, after = pose_of(one.origin).translation, pose_of(two.origin).translation
     if distance(before, after) > tolerance:
         remark = moved(Pose(translation=before), Pose(translation=after))
-        yield Change("link", name, "centre of mass", before, after, "m", remark, place)
+        yield Change("link", name, "center of mass", before, after, "m", remark, place)
     if not all_close(_tensor(one), _tensor(two), tolerance):
         yield Change("link", name, "inertia", _tensor(one), _tensor(two), "kg·m²", "", place)
 
@@ -151,8 +151,8 @@ def _shape(
     one, two = pose_of(a.origin), pose_of(b.origin)
     if not same_pose(one, two, tolerance):
         what = f"{kind}{number} origin"
-        said = pose_facts(one), pose_facts(two)
-        yield Change("link", link.name, what, *said, "", moved(one, two), b.place)
+        facts = pose_facts(one), pose_facts(two)
+        yield Change("link", link.name, what, *facts, "", moved(one, two), b.place)
     if isinstance(a, Visual) and isinstance(b, Visual):
         old, new = _look(a.material, materials[0]), _look(b.material, materials[1])
         if old != new:

@@ -111,8 +111,8 @@ class Checkout:
         found: dict[str, Path] = {}
         above = self.top.parent
         if len(above.parts) > 2 and (self.top / "package.xml").exists():  # do not search / or /home
-            beside = packages_below(above)
-            found |= {n: p for n, p in beside.items() if self.top not in (p, *p.parents)}
+            packages = packages_below(above)
+            found |= {n: p for n, p in packages.items() if self.top not in (p, *p.parents)}
         for module in self.modules:
             found |= packages_below(self.top / module)
         return found
@@ -127,29 +127,31 @@ def named(word: str) -> Named | None:
 
 
 @contextmanager
-def checked_out(wanted: Named) -> Iterator[Checkout]:
+def checked_out(target: Named) -> Iterator[Checkout]:
     """Provide the files of a revision during a ``with`` block.
 
     Raises:
         SourceError: The repository, revision or file does not exist.
         MissingDependency: git is not installed.
     """
-    revision, path = wanted
+    revision, path = target
     if not revision or revision.startswith("-"):
         raise SourceError(
-            f"'{revision}' is no revision; write one before the colon, as HEAD:{path}"
+            f"'{revision}' is not a git revision; write REVISION:FILE, such as HEAD:{path}"
         )
     start = os.path.dirname(os.path.abspath(path)) if os.path.isabs(path) else os.getcwd()
     top = Path(os.fsdecode(_git(start, "rev-parse", "--show-toplevel").rstrip(b"\r\n")))
     tree = _git(
         start, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{tree}}",
-        fail=f"no revision is called '{revision}' in the repository {top}",
+        fail=f"revision '{revision}' does not exist in the git repository {top}",
     )  # fmt: skip
     listing = list(_listing(top, tree.decode().strip()))
     blobs = {entry.path: entry for entry in listing if 0 <= entry.size <= _MOST_BYTES}
     inner = _inner(path, top, blobs)
     if inner is None:
-        raise SourceError(f"there is no file '{path}' at {revision}", path=f"{revision}:{path}")
+        raise SourceError(
+            f"file '{path}' does not exist in revision {revision}", path=f"{revision}:{path}"
+        )
     with TemporaryDirectory(prefix="urdftool-") as name:
         folder = Path(os.path.realpath(name)) / (top.name or "repository")
         _write(top, {p: blob for p, blob in blobs.items() if p == inner or _is_read(p)}, folder)
@@ -211,9 +213,9 @@ def _git(
         done = subprocess.run(command, input=given, capture_output=True, check=False)
     except FileNotFoundError:
         raise MissingDependency(
-            "a revision is read by git, which is not installed; name a file instead"
+            "REVISION:FILE requires git, which is not installed; pass a file instead"
         ) from None
     if done.returncode:
-        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise SourceError(fail or f"git says: {said[-1] if said else 'nothing'} (in {folder})")
+        lines = done.stderr.decode("utf-8", "replace").strip().splitlines() or ["no message"]
+        raise SourceError(fail or f"git failed in {folder}: {lines[-1]}")
     return done.stdout

@@ -127,9 +127,11 @@ def contact_sheet(
     page = np.full((layout.height, layout.width, 3), 255, np.uint8)
     page[:] = _PAPER
     title = robot.name or "robot"
-    count = f"{len(sweeps)} joint{'' if len(sweeps) == 1 else 's'}" if sweeps else "no joint moves"
+    count = (
+        f"{len(sweeps)} joint{'' if len(sweeps) == 1 else 's'}" if sweeps else "no movable joints"
+    )
     if left_out:
-        count += f"; {left_out} more move{'s' if left_out == 1 else ''} no shape"
+        count += f"; {left_out} more without geometry"
     words = [
         Words(
             f"{title}: {count}", (_MARGIN, _MARGIN), layout.width - 2 * _MARGIN, layout.letter + 4
@@ -292,8 +294,8 @@ def _painted(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
 
 
 def _rows(shapes: Shapes, names: set[str]) -> Indices:
-    wanted = np.array([name in names for name in shapes.links], dtype=bool)
-    return np.flatnonzero(wanted[shapes.link]) if len(wanted) else np.zeros(0, dtype=np.int64)
+    selected = np.array([name in names for name in shapes.links], dtype=bool)
+    return np.flatnonzero(selected[shapes.link]) if len(selected) else np.zeros(0, dtype=np.int64)
 
 
 def _captions(sweep: Sweep, left: int, top: int, layout: Layout) -> list[Words]:

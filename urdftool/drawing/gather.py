@@ -107,7 +107,7 @@ def shape_surface(
     placed = _placed(surface, pose_of(shape.origin))
     if not (np.abs(placed.corners) < LARGEST).all():
         gathering.note(
-            f"the shape reaches beyond {LARGEST:g} m, or to no number; it is not drawn", shape
+            f"geometry extends beyond {LARGEST:g} m or is not finite; it is not drawn", shape
         )
         return None
     return _dressed(gathering, placed, shape, over=over)
@@ -126,7 +126,7 @@ def _surface(gathering: Gathering, shape: Visual | Collision) -> Surface | None:
         return None
     kind, size = sized
     if not np.isfinite(size).all():
-        gathering.note(f"the {kind} has a size that is not finite; it is not drawn", shape)
+        gathering.note(f"size of the {kind} is not finite; it is not drawn", shape)
         return None
     if not any(size) or (kind != "box" and not size[0]):
         return None
@@ -176,7 +176,7 @@ def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
     if key not in gathering.surfaces:
         source = gathering.robot.source
         if source is None:
-            raise MeshError("a robot that was not read from a file has no meshes")
+            raise MeshError("meshes require a robot that was read from a file")
         try:
             mesh = load_named(source, geometry.filename, geometry.scale)
         except UrdftoolError as error:

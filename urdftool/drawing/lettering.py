@@ -42,10 +42,10 @@ def lettered(image: Image, lines: Iterable[Words]) -> Image:
     for line in lines:
         font = fonts.setdefault(line.height, ImageFont.load_default(line.height))
         text = shown(line.text)
-        kept = len(text)
-        while kept > 1 and pen.textlength(text, font=font) > line.width:
-            kept -= 1 if kept < 40 else kept // 8
-            text = _shortened(shown(line.text), kept)
+        length = len(text)
+        while length > 1 and pen.textlength(text, font=font) > line.width:
+            length -= 1 if length < 40 else length // 8
+            text = _shortened(shown(line.text), length)
         pen.text(line.at, text, fill=line.color, font=font)
     return np.array(canvas)
 
@@ -60,6 +60,6 @@ def shown(text: str) -> str:
     return "".join(letter if letter.isprintable() else "·" for letter in plain)
 
 
-def _shortened(text: str, kept: int) -> str:
-    head = (kept + 1) // 2
-    return f"{text[:head]}…{text[len(text) - (kept - head) :]}"
+def _shortened(text: str, length: int) -> str:
+    head = (length + 1) // 2
+    return f"{text[:head]}…{text[len(text) - (length - head) :]}"

@@ -104,12 +104,12 @@ def _samples(
         np.maximum(begin, at, out=begin, where=sides < 0)
     first = np.clip(np.ceil(begin - 0.5), 0, width).astype(np.int64)
     counts = np.clip(np.floor(end - 0.5), -1, width - 1).astype(np.int64) - first + 1
-    kept = np.flatnonzero(counts > 0)
-    span, y, first, counts = span[kept], y[kept], first[kept], counts[kept]
+    filled = np.flatnonzero(counts > 0)
+    span, y, first, counts = span[filled], y[filled], first[filled], counts[filled]
     start = a[2][span] + (y - a[1][span]) * slope_y[span] + (0.5 - a[0][span]) * slope_x[span]
     start += slope_x[span] * first
     slope, owner = slope_x[span], triangles[span]
-    place = line[kept].astype(np.int64) * width + first
+    place = line[filled].astype(np.int64) * width + first
     ends = np.cumsum(counts)
     at_span = 0
     while at_span < len(counts):

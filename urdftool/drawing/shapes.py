@@ -127,19 +127,19 @@ def robot_shapes(
         ValueError: ``show`` is not one of the three.
     """
     if show not in SHOWS:
-        raise ValueError(f"show is one of {', '.join(SHOWS)}, not {show!r}")
+        raise ValueError(f"show must be one of {', '.join(SHOWS)}, not {show!r}")
     gathering = Gathering(robot, Materials(robot))
-    wanted = list(_wanted(robot, show))
+    selected = list(_wanted(robot, show))
     uris = dict.fromkeys(
-        shape.geometry.filename for _, shape in wanted if isinstance(shape.geometry, MeshGeometry)
+        shape.geometry.filename for _, shape in selected if isinstance(shape.geometry, MeshGeometry)
     )
     numbers = {uri: number for number, uri in enumerate(uris, 1)}
-    told: set[str] = set()
+    reported: set[str] = set()
     pieces: list[tuple[int, Surface]] = []
-    for row, shape in wanted:
+    for row, shape in selected:
         geometry = shape.geometry
-        if isinstance(geometry, MeshGeometry) and geometry.filename not in told:
-            told.add(geometry.filename)
+        if isinstance(geometry, MeshGeometry) and geometry.filename not in reported:
+            reported.add(geometry.filename)
             progress(numbers[geometry.filename], len(numbers), geometry.filename)
         surface = shape_surface(gathering, shape, over=show == "both")
         if surface is not None:

@@ -28,7 +28,7 @@ def read_texture(source: Path | bytes) -> Texels:
     from PIL import Image
 
     if isinstance(source, Path) and os.path.exists(source) and not os.path.isfile(source):
-        raise MeshError("this is no file; an image is needed", path=source)
+        raise MeshError("is not a file; a texture requires an image file", path=source)
     try:
         with Image.open(BytesIO(source) if isinstance(source, bytes) else source) as image:
             image.draft("RGB", (LARGEST, LARGEST))
@@ -39,7 +39,7 @@ def read_texture(source: Path | bytes) -> Texels:
     except Exception as error:
         path = None if isinstance(source, bytes) else source
         if isinstance(error, FileNotFoundError):
-            raise MeshError("there is no such image", path=path) from error
+            raise MeshError("image file does not exist", path=path) from error
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(f"the image cannot be read ({reason})", path=path) from error
     return np.ascontiguousarray(pixels[::-1])

@@ -12,7 +12,7 @@ def add_attached(
 ) -> None:
     """Add sensors, plugins and controllers, attached to their link or joint.
 
-    Those of the whole robot are attached to its root, or to its first link if there is no root.
+    Those of the whole robot are attached to its root, or to its first link if it has no root.
 
     Args:
         figure: Figure to extend.
@@ -28,7 +28,7 @@ def add_attached(
         if holder is None and (block.sensors or block.plugins):
             element = block.element
             missing = Node(f"missing:{name}", "missing", name or "", elements=[element])
-            missing.faults.append("no such link or joint")
+            missing.faults.append("missing link or joint")
             holder = figure.add(missing).key
         if holder is not None:
             if name is not None:
@@ -89,22 +89,22 @@ def _hang_control(
     if holder is not None:
         figure.edges.append(Edge(holder, node.key, "holds"))
     for component in control.components:
-        said = _interfaces(component)
+        summary = _interfaces(component)
         key = joints.get(component.name) if component.kind == "joint" else None
         if key is not None:
-            figure.nodes[key].lines.append(said)
+            figure.nodes[key].lines.append(summary)
             figure.nodes[key].elements.append(component.element)
         else:
-            where = "" if component.kind != "joint" else " (no such joint)"
+            where = "" if component.kind != "joint" else " (missing joint)"
             node.lines.append(f"{component.kind} {visible(component.name)}{where}")
 
 
 def _interfaces(component: ControlComponent) -> str:
-    said = []
+    parts = []
     for kind, interfaces in (
         ("command", component.command_interfaces),
         ("state", component.state_interfaces),
     ):
         if interfaces:
-            said.append(f"{kind} {', '.join(visible(interface.name) for interface in interfaces)}")
-    return "; ".join(said) or "controlled without interfaces"
+            parts.append(f"{kind} {', '.join(visible(interface.name) for interface in interfaces)}")
+    return "; ".join(parts) or "no interfaces"

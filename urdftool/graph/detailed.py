@@ -99,9 +99,9 @@ def _shapes(shapes: list[Visual] | list[Collision]) -> str:
     for shape in shapes:
         name = _shape(shape.geometry)
         counts[name] = counts.get(name, 0) + 1
-    said = [name if count == 1 else f"{count} × {name}" for name, count in counts.items()]
-    more = [f"{len(said) - _MOST_SHAPES + 1} more"] if len(said) > _MOST_SHAPES else []
-    return ", ".join([*said[: _MOST_SHAPES - len(more)], *more])
+    texts = [name if count == 1 else f"{count} × {name}" for name, count in counts.items()]
+    more = [f"{len(texts) - _MOST_SHAPES + 1} more"] if len(texts) > _MOST_SHAPES else []
+    return ", ".join([*texts[: _MOST_SHAPES - len(more)], *more])
 
 
 def _shape(geometry: Geometry | None) -> str:
@@ -153,9 +153,9 @@ def _joint(joint: Joint, transmissions: list[Transmission]) -> Node:
         interfaces = [name for member in transmission.joints for name in member.hardware_interfaces]
         for actuator in transmission.actuators:
             interfaces += actuator.hardware_interfaces
-        said = ", ".join(visible(name.rpartition("/")[2]) for name in dict.fromkeys(interfaces))
+        texts = ", ".join(visible(name.rpartition("/")[2]) for name in dict.fromkeys(interfaces))
         node.lines.append(
-            f"transmission {visible(transmission.name)}" + (f" ({said})" if said else "")
+            f"transmission {visible(transmission.name)}" + (f" ({texts})" if texts else "")
         )
     return node
 

@@ -98,8 +98,8 @@ def _detailed(figure: Figure, folder: str | None) -> Iterator[str]:
     yield 'edge [fontname="Helvetica", fontsize=9, fontcolor="#5a6b7d", color="#5a6b7d"];'
     for node in figure.nodes.values():
         attributes = {"label": f"<{_html(node)}>", **_look(node), **_links(node, folder)}
-        said = ", ".join(f"{name}={value}" for name, value in attributes.items())
-        yield f"{quoted(node.key)} [{said}];"
+        texts = ", ".join(f"{name}={value}" for name, value in attributes.items())
+        yield f"{quoted(node.key)} [{texts}];"
     for edge in figure.edges:
         yield f"{quoted(edge.tail)} -> {quoted(edge.head)}{_edge(edge)};"
     yield "}"
@@ -108,9 +108,9 @@ def _detailed(figure: Figure, folder: str | None) -> Iterator[str]:
 def _caption(figure: Figure) -> Iterator[str]:
     """Yield a caption with the findings that concern no node."""
     if figure.findings:
-        said = list(dict.fromkeys(f"{f.severity.label}: {f.code}" for f in figure.findings))
+        texts = list(dict.fromkeys(f"{f.severity.label}: {f.code}" for f in figure.findings))
         color = COLORS[max(finding.severity for finding in figure.findings)]
-        label = _several([shown(figure.name), *said])
+        label = _several([shown(figure.name), *texts])
         yield f'graph [label={label}, fontcolor="{color}"];'
 
 

@@ -56,13 +56,13 @@ class Artist:
         except ProcessTimeout:
             edges = text.count(" -> ")
             raise DrawError(
-                f"Graphviz has not laid out this graph of {edges} edges in {MAX_SECONDS:g} s, and "
-                "was stopped; --fold-fixed makes it smaller, and .gv, .mmd and .json need no layout"
+                f"Graphviz did not finish the layout of {edges} edges in {MAX_SECONDS:g} s; "
+                "reduce the graph with --fold-fixed, or write .gv, .mmd or .json"
             ) from None
         except ProcessDied as error:
             raise DrawError(
-                f"Graphviz breaks on this graph ({error.message}); --fold-fixed makes it smaller, "
-                "and .gv, .mmd and .json need no layout"
+                f"Graphviz crashed on this graph ({error.message}); reduce it with --fold-fixed, "
+                "or write .gv, .mmd or .json"
             ) from None
         return data
 
@@ -73,8 +73,8 @@ def render(text: str, format: str) -> bytes:
         from pygraphviz import AGraph
     except ModuleNotFoundError:
         raise MissingDependency(
-            f"{missing('pygraphviz', f'a graph as .{format}')}; .gv, .mmd, .json and the tree "
-            "at the terminal (-o -) require nothing",
+            f"{missing('pygraphviz', f'a graph as .{format}')}; .gv, .mmd, .json and '-' do not "
+            "require it",
             library="pygraphviz",
         ) from None
     except ImportError as error:
@@ -84,7 +84,7 @@ def render(text: str, format: str) -> bytes:
     except (ValueError, OSError) as error:
         raise DrawError(f"Graphviz cannot draw this graph: {error}") from error
     if not data:
-        raise DrawError(f"Graphviz draws nothing; it has no writer of {format} here")
+        raise DrawError(f"this installation of Graphviz cannot write {format}")
     return bytes(data)
 
 

@@ -33,7 +33,7 @@ class Fault(Diagnostic):
 
 
 def find_faults(robot: Robot) -> Iterator[Fault]:
-    """Every fault of a robot's tree, links first."""
+    """Find the defects of a robot's tree, those of links first."""
     found: dict[str, list[Problem]] = {}
     for rule, problem in find_problems(robot, "graph"):
         found.setdefault(rule, []).append(problem)
@@ -77,7 +77,7 @@ def _roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
 
 
 def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
-    """Links that are their own ancestors, each loop once; then the others that no root reaches."""
+    """Find the links of each loop, and other links that are not connected to a root."""
     reported: set[str] = set()
     for problem in problems:
         names: list[str] = problem.data["links"]
@@ -91,8 +91,8 @@ def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
     for link in robot.tree.detached:
         if link.name not in reported:
             message = (
-                f"link '{visible(link.name)}' is connected to no root; the joints above it end in "
-                "a loop or at a link that does not exist"
+                f"link '{visible(link.name)}' is not connected to a root link, because its parent "
+                "joints form a loop or refer to a missing link"
             )
             yield Fault("detached", Severity.ERROR, message, link.place, link, "detached")
 
@@ -108,14 +108,14 @@ def _parents(problems: list[Problem]) -> Iterator[Fault]:
 
 
 def _twins(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
-    """Parts that share a name: each joint, and the first link, which is drawn for all of them."""
+    """Find links or joints with the same name; of links, only the first, which is drawn."""
     by_name: dict[str, list[Problem]] = {}
     for problem in problems:
         by_name.setdefault(problem.name, []).append(problem)
     for name, same in by_name.items():
         joints = [joint for joint in robot.joints if joint.name == name]
         parts: list[Link | Joint] = [robot.link[name]] if kind == "link" else [*joints]
-        mark = f"one of {len(same) + 1} of this name"
+        mark = f"{len(same) + 1} with this name"
         for part in parts:
             place = same[0].element.place
             yield _fault(f"duplicate-{kind}-name", part, mark, same[0], same[0].message, place)

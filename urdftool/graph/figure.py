@@ -104,10 +104,10 @@ class Figure:
 
     def add(self, node: Node) -> Node:
         """Add a node; change its key if it is taken."""
-        wanted, count = node.key, 1
+        base, count = node.key, 1
         while node.key in self.nodes:
             count += 1
-            node.key = f"{wanted} ({count})"
+            node.key = f"{base} ({count})"
         self.nodes[node.key] = node
         return node
 

@@ -24,7 +24,7 @@ def ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, str]:
         if name and name in keys:
             found.append(keys[name])
             continue
-        mark = "no such link" if name else "not said"
+        mark = "missing link" if name else "not specified"
         node = figure.add(
             Node(
                 f"missing:{name}",

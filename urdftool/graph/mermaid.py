@@ -80,5 +80,5 @@ def _arrow(edge: Edge) -> str:
         return '-.->|"mimic"|'
     if edge.kind == "holds":
         return "-.-"
-    said = [f"{name} {text}" for name, text in (("xyz", edge.xyz), ("rpy", edge.rpy)) if text]
-    return f'-->|"{"<br>".join(map(label, said))}"|' if said else "-->"
+    labels = [f"{name} {text}" for name, text in (("xyz", edge.xyz), ("rpy", edge.rpy)) if text]
+    return f'-->|"{"<br>".join(map(label, labels))}"|' if labels else "-->"

@@ -27,7 +27,7 @@ def gltf_note(robot: Robot) -> str:
         return ""
     which = f"'{files.pop()}' is" if len(files) == 1 else f"{len(files)} meshes are"
     return (
-        f"{which} glTF, read with Y up, as the standard and RViz since 2025 have it; Gazebo, "
-        "SAPIEN and older RViz keep the axes of the file: a robot made for them falls apart here "
-        "unless --gltf-up z is given"
+        f"{which} glTF and read with Y up, as in the glTF standard and RViz since 2025; if the "
+        "robot was made for Gazebo, SAPIEN or older RViz, which keep the file's axes, use "
+        "--gltf-up z"
     )

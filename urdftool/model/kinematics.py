@@ -100,13 +100,16 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
         if name not in movable:
             if name in robot.joint:
                 kind = robot.joint[name].type
-                raise ModelError(f"joint '{name}' is {kind} and has no single position")
-            hint = did_you_mean(name, movable, 0.5) or f"; there are {', '.join(movable)}"
+                raise ModelError(
+                    f"joint '{name}' is {kind}; only joints with one degree of freedom "
+                    "have a position"
+                )
+            hint = did_you_mean(name, movable, 0.5) or f"; movable joints: {', '.join(movable)}"
             if not movable:
-                hint = "; no joint of it moves"
-            raise ModelError(f"the robot has no joint '{name}' that moves{hint}")
+                hint = "; the robot has no movable joints"
+            raise ModelError(f"movable joint '{name}' does not exist{hint}")
         if not math.isfinite(value):
-            raise ModelError(f"the position of joint '{name}' is {value:g}, not a finite number")
+            raise ModelError(f"position of joint '{name}' is {value:g}, not a finite number")
 
 
 def limits_of(joint: Joint) -> tuple[float, float]:

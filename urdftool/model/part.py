@@ -36,7 +36,7 @@ class Part:
         element = self.provenance
         if isinstance(element, Element):
             return element
-        raise TypeError(f"this {type(self).__name__} was not read from URDF")
+        raise TypeError(f"{type(self).__name__} was not read from URDF")
 
     @property
     def xml(self) -> Element | None:

@@ -10,7 +10,7 @@ from .kinematics import chain_of, limits_of, movable_joints, with_mimics
 
 
 def start_positions(
-    robot: Robot, wanted: Mapping[str, float] | None = None
+    robot: Robot, positions: Mapping[str, float] | None = None
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return an initial position for every joint that has one, consistent with ``<mimic>``.
 
@@ -19,12 +19,12 @@ def start_positions(
 
     Args:
         robot: The robot.
-        wanted: Positions by joint name [rad, m], used unchanged.
+        positions: Positions by joint name [rad, m], used unchanged.
 
     Returns:
         The positions [rad, m], and those that a limit moves away from zero.
     """
-    given = dict(wanted or {})
+    given = dict(positions or {})
     clamped = {}
     reaches = _reaches(robot)
     for name, (lower, upper) in reaches.items():

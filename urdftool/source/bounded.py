@@ -97,7 +97,7 @@ def kind(thing: Any, *more: Any) -> type:
         ForbiddenNameError: ``thing`` is a type, or more arguments are given.
     """
     if more or isinstance(thing, type):
-        raise ForbiddenNameError("type() is for values here")
+        raise ForbiddenNameError("type() of a type is not allowed in a description")
     return type(thing)
 
 
@@ -107,7 +107,7 @@ def no_vars(*_: Any) -> Any:
     Raises:
         ForbiddenNameError: Always.
     """
-    raise ForbiddenNameError("vars() is not there in a description")
+    raise ForbiddenNameError("vars() is not allowed in a description")
 
 
 def numbers(*bounds: Any) -> range:
@@ -179,7 +179,7 @@ class _Formatter(string.Formatter):
 
     def get_field(self, field_name: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
         if "__" in field_name or "." in field_name:
-            raise ForbiddenNameError(f"use of '{field_name}' in format()")
+            raise ForbiddenNameError(f"'{field_name}' is not allowed in format()")
         return super().get_field(field_name, args, kwargs)
 
     def format_field(self, value: Any, format_spec: str) -> str:
@@ -228,7 +228,7 @@ def method(owner: Any, name: str) -> Any:
     if owner is str:
         return function
     if isinstance(owner, bytes) or owner is bytes:
-        raise ForbiddenNameError(f"{name}() of bytes is not there in a description")
+        raise ForbiddenNameError(f"{name}() of bytes is not allowed in a description")
     return getattr(owner, name)
 
 
@@ -275,13 +275,13 @@ def _refuse_bits(bits: int) -> None:
 
 def _refuse_length(length: int) -> None:
     if length > MAX_LENGTH:
-        raise OverflowError("the text or list is longer than any robot needs")
+        raise OverflowError(f"the text or list exceeds the limit of {MAX_LENGTH} characters")
 
 
 def _refuse_width(spec: str) -> None:
     if _WIDE.search(spec):
-        raise OverflowError("the width is larger than any robot needs")
+        raise OverflowError("the format width exceeds the limit of 4 digits")
 
 
 def _too_large() -> OverflowError:
-    return OverflowError("the number is larger than any robot needs")
+    return OverflowError(f"the number exceeds the limit of {MAX_BITS} bits")

@@ -165,21 +165,21 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     except FileNotFoundError:
         raise SourceError("no such file", path=shown) from None
     except IsADirectoryError:
-        raise SourceError("is a folder; a .urdf or .xacro file is wanted", path=shown) from None
+        raise SourceError("is a folder, not a .urdf or .xacro file", path=shown) from None
     except PermissionError:
-        raise SourceError("may not be read (permission denied)", path=shown) from None
+        raise SourceError("cannot be read: permission denied", path=shown) from None
     except (OSError, ValueError) as error:
         raise SourceError(f"cannot be read: {_reason(error)}", path=shown) from None
     if len(data) > MAX_BYTES:
         limit = MAX_BYTES // (1024 * 1024)
         raise SourceError(
-            f"is larger than {limit} MiB, which no robot description is; "
-            "meshes belong in files of their own",
+            f"is larger than {limit} MiB, the limit of a robot description; "
+            "move meshes to separate files",
             path=shown,
             line=1,
         )
     if not data.strip():
-        raise SourceError("is empty; a <robot> element is wanted", path=shown, line=1)
+        raise SourceError("is empty; a description requires a <robot> element", path=shown, line=1)
     return SourceFile(shown, data)
 
 
@@ -210,7 +210,7 @@ def parse(file: SourceFile) -> Document:
         stack.append(element)
         if len(stack) > MAX_DEPTH:
             raise XmlError(
-                f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
+                f"elements are nested more than {MAX_DEPTH} deep, the limit of a robot description",
                 at=element.place,
             )
 

@@ -47,7 +47,7 @@ class Source:
         data = file.data
         self.document: Document = parse(file)
         if file.data != data or file.encoding.startswith(("utf-16", "utf-32")):
-            raise SourceError("is not edited in this encoding; save it as UTF-8", path=file.path)
+            raise SourceError("cannot be edited in this encoding; save it as UTF-8", path=file.path)
         self.elements: dict[int, Element] = {e.start: e for e in self.document.root.walk()}
         self.line_end = b"\r\n" if b"\r\n" in data else b"\n"
 

@@ -59,7 +59,7 @@ def _check_names(code: CodeType) -> None:
     """Check the names in an expression and in its nested functions and comprehensions."""
     hidden = [name for name in (*code.co_names, *code.co_varnames) if name.startswith("__")]
     if hidden:
-        raise ForbiddenNameError(f"use of invalid name(s) {', '.join(hidden)}")
+        raise ForbiddenNameError(f"names that begin with '__' are not allowed: {', '.join(hidden)}")
     for inner in code.co_consts:
         if isinstance(inner, CodeType):
             _check_names(inner)
@@ -69,7 +69,7 @@ def _check_attributes(tree: ast.AST) -> None:
     """Check for attributes that give access to frames and code, or create text of any size."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and node.attr in _HIDDEN:
-            raise ForbiddenNameError(f"use of .{node.attr} is not allowed in a description")
+            raise ForbiddenNameError(f"attribute .{node.attr} is not allowed in a description")
 
 
 class _Bounded(ast.NodeTransformer):
@@ -94,7 +94,7 @@ class _Bounded(ast.NodeTransformer):
         self.generic_visit(node)
         for part in getattr(node.format_spec, "values", []):
             if not isinstance(part, ast.Constant):
-                raise ForbiddenNameError("a width that is itself an expression")
+                raise ForbiddenNameError("a format width cannot be an expression")
             bounded.check_format(str(part.value))
         return node
 

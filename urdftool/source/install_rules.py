@@ -113,11 +113,11 @@ def installed_path(rules: list[InstallRule], relative: str, workspace: Workspace
         relative: A path below ``share/NAME``, with forward slashes.
         workspace: Access to files.
     """
-    wanted = Path(relative).parts
+    parts = Path(relative).parts
     for rule in rules:
         target = Path(rule.target).parts
-        if wanted[: len(target)] == target:
-            candidate = rule.source.joinpath(*wanted[len(target) :])
+        if parts[: len(target)] == target:
+            candidate = rule.source.joinpath(*parts[len(target) :])
             if workspace.exists(candidate):
                 return candidate
     return None

@@ -157,18 +157,19 @@ class Packages:
             return self.used[name]
         if name in ("", ".", "..") or "/" in name or os.sep in name:
             raise PackageNotFound(
-                f"'{name}' is no package name: names have no slashes", rule="package-not-found"
+                f"'{name}' is not a package name",
+                rule="package-not-found",
             )
         searched: list[str] = []
-        for said, folder in self._candidates(name):
+        for where, folder in self._candidates(name):
             if folder is not None and self.workspace.is_folder(folder):
                 self.used[name] = folder
                 return folder
-            searched.append(said)
+            searched.append(where)
         raise PackageNotFound(
-            f"package '{name}' is not found; say where it is with --package {name}=DIR "
+            f"package '{name}' is not found; set its folder with --package {name}=DIR "
             "or --package-path DIR",
-            notes=[f"searched {said}" for said in searched],
+            notes=[f"searched {where}" for where in searched],
             rule="package-not-found",
         )
 
@@ -181,8 +182,8 @@ class Packages:
         if own is None:
             return [self.file.parent]
         roots = self._workspace_roots(own[1])
-        beside = [folder for root in roots for folder in self._below(root).values()]
-        return list(dict.fromkeys([own[1], *beside]))
+        siblings = [folder for root in roots for folder in self._below(root).values()]
+        return list(dict.fromkeys([own[1], *siblings]))
 
     def folder_with(self, name: str, inner: str) -> Path | None:
         """Return a folder near the file that contains a file at a path below it; None if none does.
@@ -198,10 +199,10 @@ class Packages:
         own = self.own
         roots = self._workspace_roots(own[1] if own else None)
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]
-        beside = [folder for root in roots for folder in self._below(root).values()]
+        siblings = [folder for root in roots for folder in self._below(root).values()]
         parts = inner.split("/")
         named = [folder / name for folder in above[:2]]
-        for folder in (*above, *named, *beside) if inner and ".." not in parts else ():
+        for folder in (*above, *named, *siblings) if inner and ".." not in parts else ():
             if self.workspace.is_file(folder / inner):
                 return folder
         return None
@@ -227,7 +228,7 @@ class Packages:
     def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
         """Yield each searched place: its text for the notes, and the folder, if it exists."""
         if name in self.named:
-            yield f"--package {name}={self.named[name]} (no such folder)", self.named[name]
+            yield f"--package {name}={self.named[name]} (does not exist)", self.named[name]
         for path in self.paths:
             below = self._below(path)
             yield f"--package-path {path}", below.get(name) or self._child(path, name)
@@ -243,7 +244,7 @@ class Packages:
             yield f"packages below {root}", self._below(root).get(name)
         if name in self.configured:
             folder = Path(self.configured[name])
-            yield f"the configuration: {name} = {folder} (no such folder)", folder
+            yield f"the configuration: {name} = {folder} (does not exist)", folder
         for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
             value = self.workspace.variable(variable) or ""
             if not value:
@@ -345,4 +346,4 @@ class Packages:
 def has_it(name: str, folder: Path) -> str:
     """Return the remedy for a missing package whose file is in another folder."""
     shown = shown_path(folder)
-    return f"what it names is in {shown}; write --package {name}={shown} if that is meant"
+    return f"the file exists in {shown}; to use it, pass --package {name}={shown}"

@@ -69,10 +69,10 @@ class Patience:
             return
         if time.process_time() - self.since > SECONDS:
             self.since = None
-            raise TimeoutError(f"takes more than {SECONDS:g} s of the processor")
+            raise TimeoutError(f"the evaluation takes more than {SECONDS:g} s of CPU time")
         if _largest() - self._memory > MEMORY:
             self.since = None
-            raise OverflowError(f"takes more than {MEMORY >> 30} GiB of memory")
+            raise OverflowError(f"the evaluation requires more than {MEMORY >> 30} GiB of memory")
 
 
 def _largest() -> int:

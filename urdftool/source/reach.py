@@ -24,7 +24,7 @@ TRUST = "URDFTOOL_TRUST"
 OPEN_VARIABLES = frozenset(("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_NAMESPACE"))
 """Environment variables that any description may read."""
 
-_HOW = "pass --trust if you trust this description"
+_HOW = "pass --trust if the input is trusted"
 _PROJECT_MARKS = (".git", ".hg", "pyproject.toml", "CMakeLists.txt", "urdftool.toml")
 _MAX_CLIMB = 6
 
@@ -60,7 +60,7 @@ class Reach:
             raise _hidden(name)
         if value is None:
             raise XacroError(
-                f"the environment variable '{name}' is not set; set it, or write "
+                f"environment variable '{name}' is not set; set it, or use "
                 f"$(optenv {name} DEFAULT)",
                 rule="expansion-failed",
             )
@@ -91,16 +91,16 @@ class Reach:
         real = Path(files.real_path(path))
         if files.exists(real) and not files.is_file(real) and not files.is_folder(real):
             raise XacroError(
-                f"{path} is a device or a pipe; a file is wanted", at=at, rule="include-not-found"
+                f"{path} is a device or a pipe, not a file", at=at, rule="include-not-found"
             )
         if self.trusted:
             return
         if own_package(real, files) or any(_is_within(real, root) for root in self._roots()):
             return
-        led = "" if str(real) == os.path.abspath(path) else f" (a link to {real})"
+        linked = "" if str(real) == os.path.abspath(path) else f" (a link to {real})"
         raise XacroError(
-            f"{path}{led} is in no ROS package and outside the project of this description; "
-            f"say where its package is with --package NAME=DIR, or {_HOW}",
+            f"{path}{linked} is outside of the project and not in a ROS package; set the package "
+            f"with --package NAME=DIR, or {_HOW}",
             at=at,
             rule="include-not-found",
         )
@@ -185,7 +185,7 @@ def safe_eval(text: str, symbols: Mapping[str, Any]) -> Any:
 
 def _hidden(name: str) -> XacroError:
     return XacroError(
-        f"the environment variable '{name}' is not shown to descriptions; {_HOW}",
+        f"environment variable '{name}' is hidden from robot descriptions; {_HOW}",
         rule="expansion-failed",
     )
 

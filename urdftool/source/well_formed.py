@@ -41,8 +41,8 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
     def entity(name: str, *_: object) -> None:
         at = parser.CurrentByteIndex
         raise XmlError(
-            f"declares the entity '{name}'; entities are refused in robot descriptions "
-            "(write the text itself, or use a xacro property)",
+            f"entity '{name}' is declared, but entities are not allowed in robot descriptions; "
+            "write the text itself, or use a xacro property",
             at=Place(file, at, at),
         )
 
@@ -59,7 +59,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
         message, rule, case = _explain(file, error, offset)
         if stack and case == "an element that is not closed":
             line = file.position(stack[-1].start)[0]
-            message += f" (<{stack[-1].tag}> of line {line} is)"
+            message += f" (open: <{stack[-1].tag}> of line {line})"
         raise XmlError(
             message,
             at=Place(file, max(offset, 0), max(offset, 0)),
@@ -68,7 +68,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
         ) from None
     except (LookupError, UnicodeDecodeError, ValueError) as error:
         raise XmlError(
-            f"its text cannot be decoded: {error}; save it as UTF-8", at=Place(file, 0, 0)
+            f"the text cannot be decoded ({error}); save the file as UTF-8", at=Place(file, 0, 0)
         ) from None
 
 
@@ -106,41 +106,43 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
     if data.startswith(b"version https://git-lfs"):
         return (
-            "is a git-lfs pointer, not the file itself; run 'git lfs pull'",
+            "the file is a Git LFS pointer, not its content; run 'git lfs pull'",
             "not-well-formed",
             "no XML",
         )
     if b"<" not in data[:4096] and offset < 4096:
-        return "is not XML; a file that starts with <robot> is wanted", "not-well-formed", "no XML"
+        message = "the file is not XML; a robot description starts with <robot>"
+        return message, "not-well-formed", "no XML"
     if (at := data.find(b"<?xml")) > 0 and offset <= at + 5:
         before = data[:at].removeprefix(b"\xef\xbb\xbf")
         blank = not before.strip()
-        what = "a blank or line break" if blank else "something"
+        what = "whitespace" if blank else "text"
         return (
-            f"{what} stands before the <?xml …?> declaration, which must be the very first; "
+            f"{what} precedes the XML declaration <?xml …?>, which XML parsers reject; "
             "move the declaration to the start of the file",
             "content-before-declaration",
             "blanks" if blank else "a comment" if before.lstrip()[:4] == b"<!--" else "other text",
         )
     case = ""
     if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
-        reason = f'the XML declaration is wrong ({reason}); <?xml version="1.0"?> is right'
+        reason = f'the XML declaration is invalid ({reason}); use <?xml version="1.0"?>'
         case = "a wrong declaration"
     elif _in_comment(data, offset):
-        reason = "a comment holds '--', which XML does not allow; write '- -' or '-'"
+        reason = "a comment contains '--', which XML does not allow; use '- -' or '-'"
         case = "'--' in a comment"
     else:
         case = "an element that is not closed" if reason in _NOT_CLOSED else ""
         reason = {
             "mismatched tag": f"</{closing}> closes an element that is not open here",
-            "unbound prefix": "a prefix is used that is not declared; for xacro that is "
-            'xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
-            "no element found": "the file ends while elements are open; is it truncated?",
-            "unclosed token": "the file ends within a tag; is it truncated?",
-            "junk after document element": "something follows the end of the root element; "
-            "one root element is wanted",
-            "undefined entity": "there is no such entity; XML has &lt; &gt; &amp; &quot; &apos;",
-            "duplicate attribute": "an attribute stands twice in this tag",
+            "unbound prefix": "a namespace prefix is not declared; for xacro, add "
+            'xmlns:xacro="http://www.ros.org/wiki/xacro" to <robot>',
+            "no element found": "the file ends before all elements are closed; it may be truncated",
+            "unclosed token": "the file ends inside a tag; it may be truncated",
+            "junk after document element": "the file has content after the root element; "
+            "an XML file has one root element",
+            "undefined entity": "an entity is not defined; XML defines &lt; &gt; &amp; &quot; "
+            "&apos;",
+            "duplicate attribute": "the tag has the same attribute twice",
         }.get(reason, f"not well-formed XML ({reason})")
     rule = "missing-xmlns" if error.code == _UNBOUND_PREFIX else "not-well-formed"
     return reason, rule, case

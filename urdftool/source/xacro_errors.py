@@ -68,7 +68,7 @@ def _argument_of(include: XacroElement | None, result: Expansion) -> str:
     written = include.file.data[span[0] : span[1]].decode(include.file.encoding, "replace")
     names = re.findall(r"\$\(arg\s+([^\s)]+)\s*\)", written)
     missing = [name for name in names if name not in result.given]
-    return f"; it is the default of an argument: give {missing[0]}:=FILE" if missing else ""
+    return f"; the file name comes from an xacro argument: pass {missing[0]}:=…" if missing else ""
 
 
 def _missing(path: str, reason: str, at: Place, argument: str, workspace: Workspace) -> XacroError:
@@ -80,7 +80,7 @@ def _missing(path: str, reason: str, at: Place, argument: str, workspace: Worksp
         there = []
         above = reversed(Path(path).parents)
         missing = next((p for p in above if not workspace.exists(p)), None)
-        reason = f"there is no folder {missing}" if missing else reason
+        reason = f"folder {missing} does not exist" if missing else reason
     right = nearest(name, there, 0.75)
     hint = f"; did you mean '{right}'?" if right else ""
     return XacroError(

@@ -244,7 +244,8 @@ class Run:
             self.elements += 1
             if self.elements > MAX_ELEMENTS:
                 raise XacroError(
-                    f"expands to more than {MAX_ELEMENTS} elements; a macro multiplies itself",
+                    f"the expansion has more than {MAX_ELEMENTS} elements; check macros that "
+                    "call each other repeatedly",
                     at=node.place._replace(calls=node.calls[:3]),
                     rule="endless-expansion",
                 )
@@ -307,8 +308,8 @@ class Run:
                 return bool(original(node, macros, symbols))
             if len(node.calls) > MAX_CALLS:
                 raise XacroError(
-                    f"macro '{tag[6:]}' calls itself without end "
-                    f"(more than {MAX_CALLS} calls deep)",
+                    f"macro '{tag[6:]}' calls itself more than {MAX_CALLS} times; "
+                    "add a condition that ends the recursion",
                     at=node.place._replace(calls=node.calls[:3]),
                     rule="endless-expansion",
                 )
@@ -363,7 +364,7 @@ class Run:
         joined = "".join(map(str, results))
         self.produced += len(joined)
         if self.produced > 10 * MAX_LENGTH:
-            raise OverflowError("the text is longer than any robot needs")
+            raise OverflowError(f"the text exceeds the limit of {10 * MAX_LENGTH} characters")
         return joined
 
     def evaluate(self, expression: str, symbols: Any) -> Any:
@@ -395,7 +396,7 @@ class Run:
     def too_long(self, seconds: float) -> XacroError:
         """Make the error for an expansion that was stopped after a time [s]."""
         return XacroError(
-            f"the expansion takes longer than {seconds:g} s, and was stopped",
+            f"the expansion was stopped because it takes more than {seconds:g} s of CPU time",
             at=self.place,
             path=self.result.file.path,
             rule="endless-expansion",

@@ -58,7 +58,7 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
             document.documentElement = element
         elif len(stack) > MAX_DEPTH:
             raise XmlError(
-                f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
+                f"elements are nested more than {MAX_DEPTH} deep, the limit of a robot description",
                 at=element.place,
             )
         inside().appendChild(element)

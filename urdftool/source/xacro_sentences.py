@@ -35,7 +35,7 @@ _TAGS = (
     *("property", "unless"),
 )
 """Tags of xacro itself; all others are macro calls."""
-_WANTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
+_ARGUMENTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
 
 
 def causes_of(error: BaseException) -> list[BaseException]:
@@ -91,7 +91,8 @@ def sentence_of(failure: Failure) -> Explanation:
     error = failure.error
     if isinstance(error, RecursionError) or isinstance(error.__cause__, RecursionError):
         return Explanation(
-            "endless-expansion", "the expansion does not end: a macro or property uses itself"
+            "endless-expansion",
+            "the expansion does not end, because a macro or property uses itself",
         )
     for speak in (_of_names, _of_macros, _of_blocks, _of_writing, _of_files):
         if found := speak(failure):
@@ -99,7 +100,7 @@ def sentence_of(failure: Failure) -> Explanation:
     text = re.sub(r"\s*when evaluating expression '(?:.*)'$", "", failure.text)
     text = re.sub(r"^<class '[\w.]+'>: | \(<expression>, line 1\)", "", text)
     if isinstance(_inner(error), KeyError):
-        text = f"there is no key {text}"
+        text = f"key {text} does not exist"
     return Explanation("expansion-failed", f"{text}{_in_expression(failure.failed_text)}")
 
 
@@ -124,18 +125,18 @@ def _of_names(failure: Failure) -> Explanation | None:
         name = match[1]
         known = ", ".join(result.arguments) or "none"
         given, near = nearest(name, sorted(result.given)), nearest(name, sorted(result.arguments))
-        hint = f"; was it meant by '{given}'?" if given else ""
+        hint = f"; did you pass it as '{given}'?" if given else ""
         hint = hint or (f"; did you mean '{near}'?" if near else "")
         data = {"name": name, "suggestion": near, "given": given}
         if failure.node is not None and failure.node.tagName == "robot":
             message = (
-                f"the argument '{name}' has no value; give {name}:=VALUE, for xacro expands the "
-                f"attributes of <robot> before it reads the default of an <xacro:arg>{hint}"
+                f"xacro argument '{name}' has no value, because xacro expands the attributes of "
+                f"<robot> before it reads <xacro:arg>; pass {name}:=VALUE{hint}"
             )
         else:
             message = (
-                f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
-                f"give {name}:=VALUE, or declare it with a default (declared: {known}){hint}"
+                f"xacro argument '{name}' has no value and no <xacro:arg> before this element "
+                f"(declared: {known}); pass {name}:=VALUE, or declare it with a default{hint}"
             )
         return Explanation("undeclared-arg", message, data)
     if "circular variable definition" in text:
@@ -157,7 +158,8 @@ def _of_macros(failure: Failure) -> Explanation | None:
         missing = ", ".join(f"'{name}'" for name in match[1].split(","))
         return Explanation(
             "macro-arguments-mismatch",
-            f"macro '{macro}' is called without {missing}, which has no default",
+            f"macro '{macro}' is called without {missing}, which "
+            f"{'have' if ',' in missing else 'has'} no default",
         )
     if match := _ODD_PARAMETER.search(text):
         called = next(iter(getattr(failure.error, "macros", None) or ()), None)
@@ -170,19 +172,19 @@ def _of_macros(failure: Failure) -> Explanation | None:
         name = match[1]
         return Explanation(
             "macro-arguments-mismatch",
-            f"macro '{macro}' takes '{name}' from where it is called ({name}:=^), and there is no "
-            f'such property; write <xacro:{macro} {name}="…"> or a default, {name}:=^|VALUE',
+            f"macro '{macro}' forwards property '{name}' ({name}:=^), which is not defined where "
+            f'the macro is called; pass {name}="…", or add a default: {name}:=^|VALUE',
         )
     if "Invalid use of macro name 'call'" in text:
         return Explanation(
             "expansion-failed",
-            "a macro cannot be named 'call': <xacro:call> is xacro's own; write another name",
+            "a macro cannot be named 'call', because <xacro:call> is a xacro element; rename it",
         )
     if match := _MACRO_NAME.search(text):
         return Explanation(
             "expansion-failed",
-            f"macro '{match[1]}' has a dot in its name, which parts a namespace from a macro; "
-            f"write {match[1].replace('.', '_')}",
+            f"the name of macro '{match[1]}' contains a dot, which separates a namespace from a "
+            f"name; rename it to {match[1].replace('.', '_')}",
         )
     return None
 
@@ -193,23 +195,24 @@ def _of_blocks(failure: Failure) -> Explanation | None:
     few = "Not enough blocks" in text
     if node is not None and (few or text.startswith('Unused block "')):
         macro = getattr(failure.error, "macros", [None])[0]
-        wanted = [name for name in getattr(macro, "params", ()) if name.startswith("*")]
+        parameters = [name for name in getattr(macro, "params", ()) if name.startswith("*")]
         given = [f"<{child.tagName}>" for child in _children(node)]
-        names = ", ".join(f"'{name.lstrip('*')}'" for name in wanted)
+        names = ", ".join(f"'{name.lstrip('*')}'" for name in parameters)
         called = node.tagName
-        wants = f"macro '{called[6:]}' takes {_blocks(len(wanted))}"
-        has = f"{_blocks(len(given))} ({', '.join(given)})" if given else "none"
+        expected = f"macro '{called[6:]}' has {_blocks(len(parameters))}"
+        has = f"{_elements(len(given))} ({', '.join(given)})" if given else "no child elements"
         if few:
-            rest = ", ".join(f"'{name.lstrip('*')}'" for name in wanted[len(given) :])
-            advice = f"write an element for {rest} inside <{called}>"
-        elif wanted:
-            advice = f"take {', '.join(given[len(wanted) :])} out; one element can hold several"
+            rest = ", ".join(f"'{name.lstrip('*')}'" for name in parameters[len(given) :])
+            advice = f"add an element for {rest} inside <{called}>"
+        elif parameters:
+            surplus = ", ".join(given[len(parameters) :])
+            advice = f"remove {surplus}, or wrap several elements in one"
         else:
             block = given[0].strip("<>").rpartition(":")[2]
-            advice = f'take it out, or let the macro have params="*{block}" and insert it'
-        names = f" ({names})" if wanted else ""
+            advice = f'remove it, or add params="*{block}" to the macro and insert it there'
+        names = f" ({names})" if parameters else ""
         return Explanation(
-            "macro-arguments-mismatch", f"{wants}{names} and is given {has}; {advice}"
+            "macro-arguments-mismatch", f"{expected}{names}, but the call has {has}; {advice}"
         )
     if match := _NO_BLOCK.search(text):
         calls = node.calls if node is not None else ()
@@ -219,14 +222,14 @@ def _of_blocks(failure: Failure) -> Explanation | None:
         if not inside:
             return Explanation(
                 "undefined-name",
-                f"there is no block '{match[1]}' here; <xacro:property name=\"{match[1]}\"> with "
-                f'elements in it makes one, and so does a macro\'s params="*{match[1]}"{near}',
+                f"block '{match[1]}' is not defined; define it as <xacro:property "
+                f'name="{match[1]}"> with child elements{near}',
             )
         known = ", ".join(sorted(blocks)) or "none"
         return Explanation(
             "undefined-name",
-            f"macro '{inside}' has no block '{match[1]}' (its blocks: {known}); declare it with "
-            f'params="*{match[1]}"{_nearest(match[1], blocks)}',
+            f"macro '{inside}' has no block parameter '{match[1]}' (block parameters: {known}); "
+            f'add params="*{match[1]}"{_nearest(match[1], blocks)}',
         )
     return None
 
@@ -235,63 +238,62 @@ def _of_writing(failure: Failure) -> Explanation | None:
     """Explain syntax errors."""
     text, error, failed_text = failure.text, failure.error, failure.failed_text
     if match := _NO_ATTRIBUTE.search(text):
-        return Explanation("expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'")
+        return Explanation("expansion-failed", f"<{match[1]}> has no attribute '{match[2]}'")
     if match := _EMPTY_NAME.search(text):
-        return Explanation(
-            "expansion-failed", f"<{match[1]}> makes something without a name; its name is empty"
-        )
+        return Explanation("expansion-failed", f"<{match[1]}> has an empty name; add a name")
     if match := _TWO_VALUES.search(text):
         return Explanation(
             "expansion-failed",
-            (f"property '{match[1]}' has more than one of value, default and remove; keep one"),
+            f"property '{match[1]}' has more than one of value, default and remove; keep only one",
         )
     if match := _PROPERTY_NAME.search(text):
         name = re.sub(r"\W", "_", match[1]).lstrip("_")
         name = f"p{name}" if not name or name[0].isdigit() else name
         return Explanation(
             "expansion-failed",
-            f"'{match[1]}' is no name for a property, which is of letters, digits and _ and "
-            f"starts with a letter; write {name}",
+            f"'{match[1]}' is not a valid property name, because names start with a letter and "
+            f"contain letters, digits and _; rename it to {name}",
         )
     if match := _NOT_BOOLEAN.search(text):
         value = match[2] if match[1] == match[2] else f"{match[1]}, which is {match[2]!r},"
         return Explanation(
             "non-boolean-conditional",
-            f"the condition {value} is neither true nor false; write true, false, 1, 0 or ${{…}}",
+            f"the condition {value} is not a boolean; use true, false, 1, 0 or ${{…}}",
         )
     if isinstance(getattr(error, "exc", None), MemoryError):
         return Explanation(
-            "endless-expansion", f"needs more memory than there is{_in_expression(failed_text)}"
+            "endless-expansion",
+            f"the expansion requires too much memory{_in_expression(failed_text)}",
         )
     if match := re.search(r"invalid expression: (\$[{(].*)", text):
-        return Explanation("unclosed-expression", f"{match[1]} lacks its closing bracket")
+        return Explanation("unclosed-expression", f"{match[1]} has no closing bracket")
     if match := re.search(r"Unknown substitution command \[(.*?)\]", text):
         return Explanation(
             "bad-substitution-command",
-            f"$({match[1]}) is no substitution of xacro; "
-            "there are find, arg, env, optenv, dirname, cwd and eval",
+            f"$({match[1]}) is not a substitution of xacro; "
+            "use find, arg, env, optenv, dirname, cwd or eval",
         )
     if match := _ODD_CHARACTER.search(text):
         return Explanation(
             "bad-substitution-command",
-            f"'{'$' if match[1] == 'Dollar signs' else '('}' cannot stand inside {match[2]}; "
-            "write ${…} where a property is meant",
+            f"'{'$' if match[1] == 'Dollar signs' else '('}' is not allowed inside {match[2]}; "
+            "use ${…} for a property",
         )
     if match := _SUBSTITUTION.search(text):
         return Explanation(
             "bad-substitution-command",
-            f"$({match[2]}) does not have the words that {match[1]} takes; "
-            f"write $({match[1]} {_WANTS.get(match[1], '')})",
+            f"$({match[2]}) has the wrong number of arguments; "
+            f"use $({match[1]} {_ARGUMENTS.get(match[1], '')})",
         )
     if "no attribute '_setitem'" in text:
         return Explanation(
             "expansion-failed",
-            "a property with scope 'parent' has no parent here; it stands at the global scope",
+            "a property at the global scope has no parent scope; remove scope='parent'",
         )
     inner = _inner(error)
     if isinstance(inner, SyntaxError) and failed_text:
         return Explanation(
-            "expansion-failed", f"${{{failed_text}}} is no expression of Python: {inner.msg}"
+            "expansion-failed", f"${{{failed_text}}} is not a Python expression: {inner.msg}"
         )
     return None
 
@@ -318,7 +320,12 @@ def _children(node: XacroElement) -> Iterator[XacroElement]:
 
 
 def _blocks(count: int) -> str:
-    return {0: "no block", 1: "one block"}.get(count, f"{count} blocks")
+    names = {0: "no block parameters", 1: "one block parameter"}
+    return names.get(count, f"{count} block parameters")
+
+
+def _elements(count: int) -> str:
+    return "one child element" if count == 1 else f"{count} child elements"
 
 
 def _in_expression(failed_text: str | None) -> str:

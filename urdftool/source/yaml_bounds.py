@@ -32,7 +32,7 @@ def bounded(stream: Any, loader: Any) -> Any:
     name = str(getattr(stream, "name", "YAML"))
     text = stream.read(MAX_BYTES + 1)
     if len(text) > MAX_BYTES:
-        raise _beyond(name, f"is longer than {MAX_BYTES} letters")
+        raise _beyond(name, f"the file has more than {MAX_BYTES} characters")
     sizes: dict[str, int] = {}
     open_ones: list[tuple[str | None, int]] = []
     count = 0
@@ -44,7 +44,10 @@ def bounded(stream: Any, loader: Any) -> Any:
         where = f"{name}:{mark.line + 1}:{mark.column + 1}"
         if isinstance(event, yaml.AliasEvent):
             if any(anchor == around for around, _ in open_ones):
-                raise _beyond(where, f"*{anchor} stands in what it names")
+                raise XacroError(
+                    f"{where}: alias *{anchor} refers to the value that contains it",
+                    rule="expansion-failed",
+                )
             count += sizes.get(anchor or "", 1)
         elif isinstance(event, yaml.ScalarEvent):
             count += 1 + len(event.value)
@@ -54,16 +57,18 @@ def bounded(stream: Any, loader: Any) -> Any:
             open_ones.append((anchor, count))
             count += 1
             if len(open_ones) > MAX_DEPTH:
-                raise _beyond(where, f"is more than {MAX_DEPTH} deep")
+                raise _beyond(where, f"values are nested more than {MAX_DEPTH} deep")
         elif isinstance(event, (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
             around, before = open_ones.pop()
             if around:
                 sizes[around] = count - before
         if count > MAX_VALUES:
-            raise _beyond(where, f"has more than {MAX_VALUES} values once aliases are followed")
+            raise _beyond(where, f"the file has more than {MAX_VALUES} values with its aliases")
     again.seek(0)
     return again
 
 
 def _beyond(where: str, what: str) -> XacroError:
-    return XacroError(f"{where}: {what}, which no robot needs", rule="expansion-failed")
+    return XacroError(
+        f"{where}: {what}, the limit of YAML in a description", rule="expansion-failed"
+    )

@@ -101,7 +101,7 @@ class Node:
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            raise self.wrong(f"{what} is {self.said}, which is no finite number")
+            raise self.wrong(f"{what} is {self.said}, not a finite number")
         return value
 
     def truth(self, what: str) -> bool:
@@ -113,7 +113,7 @@ class Node:
         word = (self.text or "").lower()
         if word in _YES or word in _NO:
             return word in _YES
-        raise self.wrong(f"{what} is {self.said}; write true or false")
+        raise self.wrong(f"{what} is {self.said}, not a boolean; use true or false")
 
     def names(self, what: str) -> list[Node]:
         """Return the scalars of a list of names, or a single name as a list.
@@ -124,7 +124,7 @@ class Node:
         nodes = [self] if self.items is None else self.items
         for node in nodes:
             if not node.text:
-                raise node.wrong(f"{what} is {node.said}; the name of a joint is wanted")
+                raise node.wrong(f"{what} is {node.said}, not the name of a joint")
         return nodes
 
     @property
@@ -163,17 +163,17 @@ def yaml_of(file: SourceFile) -> Node:
     path = file.path
     if len(file.data) > MOST_BYTES:
         raise ConfigError(
-            f"has {len(file.data)} bytes; parameters of controllers have at most {MOST_BYTES}",
+            f"has {len(file.data)} bytes; the limit of a controller file is {MOST_BYTES}",
             path=path,
         )
     text = file.data.decode("utf-8", "replace")
     try:
         roots = [root for root in yaml.compose_all(text, Loader=yaml.SafeLoader) if root]
     except RecursionError:
-        raise ConfigError("is nested too deeply", path=path) from None
+        raise ConfigError("values are nested too deeply", path=path) from None
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
-        problem = getattr(error, "problem", None) or "a letter that YAML forbids"
+        problem = getattr(error, "problem", None) or "it contains a character that YAML forbids"
         line = None if mark is None else mark.line + 1
         column = None if mark is None else mark.column + 1
         raise ConfigError(
@@ -181,9 +181,11 @@ def yaml_of(file: SourceFile) -> Node:
         ) from None
     roots = [root for root in roots if not _is_empty(root)]
     if not roots or not all(isinstance(root, yaml.MappingNode) for root in roots):
-        what = "is no mapping" if roots else "is empty"
+        what = "is not a mapping" if roots else "is empty"
         raise ConfigError(
-            f"{what}; controllers by name are wanted, each with its type", path=path, line=1
+            f"{what}; a controller file maps names of controllers to their parameters",
+            path=path,
+            line=1,
         )
     reader = _Reader(file, text)
     first, *others = [reader.node(root, "", 0) for root in roots]
@@ -214,7 +216,7 @@ class _Reader:
         start, end = self._byte(node.start_mark.index), self._byte(node.end_mark.index)
         if self.count > MOST_NODES or depth > _DEEP:
             raise ConfigError(
-                f"has more than {MOST_NODES} values once its aliases are followed, or is more than "
+                f"has more than {MOST_NODES} values (with aliases), or values nested more than "
                 f"{_DEEP} deep",
                 path=self.file.path,
                 line=node.start_mark.line + 1,

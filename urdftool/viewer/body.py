@@ -43,7 +43,7 @@ class Body:
     """A robot in a scene.
 
     Parts that are hidden at first are created when first shown. Links are nodes below their
-    parents, so a joint motion takes one message, whatever the number of descendants.
+    parents, so a joint motion takes one message, regardless of the number of descendants.
     """
 
     def __init__(
@@ -148,21 +148,21 @@ class Body:
             self.shapes[kind] = self._load(kind)
         return self.shapes[kind]
 
-    def show(self, kind: str, wanted: bool) -> None:
+    def show(self, kind: str, visible: bool) -> None:
         """Show or hide one of ``KINDS``."""
         if kind not in self._nodes:
-            if not wanted:
+            if not visible:
                 return
             self._nodes[kind] = list(getattr(self, f"_make_{kind}")())
         for _, node in self._nodes[kind]:
-            node.visible = wanted
+            node.visible = visible
 
-    def see_through(self, wanted: bool) -> None:
+    def see_through(self, transparent: bool) -> None:
         """Make visual geometry see-through or restore it; textured meshes are unchanged."""
         for _, node in self._nodes.get("visual", []):
             if hasattr(node, "opacity"):
                 before = self._opacity.setdefault(node.name, node.opacity)
-                node.opacity = min(before or 1.0, CLEAR) if wanted else before
+                node.opacity = min(before or 1.0, CLEAR) if transparent else before
 
     def mark(self, findings: Mapping[str, list[Finding]], shown: Iterable[str]) -> None:
         """Mark each link with its findings.

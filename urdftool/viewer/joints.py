@@ -48,7 +48,7 @@ class Joints:
         with tab:
             self._buttons = gui.add_button_group("all joints", WHERE)
             self._buttons.on_click(lambda event: safely(self.put, event.target.value))
-            self._none = gui.add_html(panels.box("No joint of this robot moves."), visible=False)
+            self._none = gui.add_html(panels.box("The robot has no movable joints."), visible=False)
 
     @property
     def positions(self) -> dict[str, float]:
@@ -77,8 +77,8 @@ class Joints:
                 self._handles = {slider.name: self._slider(slider) for slider in sliders}
         self._buttons.visible, self._none.visible = bool(sliders), not sliders
         zero = {slider.name: slider.zero for slider in self._free()}
-        kept = {slider.name: slider for slider in self._free() if slider.name in self._positions}
-        stay = {name: slider.meant(self._positions[name]) for name, slider in kept.items()}
+        same = {slider.name: slider for slider in self._free() if slider.name in self._positions}
+        stay = {name: slider.meant(self._positions[name]) for name, slider in same.items()}
         self._positions = {}
         self.move({**zero, **stay})
 
@@ -112,17 +112,17 @@ class Joints:
         if handle.value != slider.shown(self._positions.get(slider.name, 0.0)):
             self.move({slider.name: slider.meant(handle.value)}, leader=slider.name)
 
-    def move(self, wanted: Mapping[str, float], leader: str = "") -> None:
+    def move(self, requested: Mapping[str, float], leader: str = "") -> None:
         """Move joints [rad or m] and the joints that mimic them; the others stay.
 
         Args:
-            wanted: Positions by name.
+            requested: Positions by name.
             leader: The joint whose slider is already updated.
         """
         if self._robot is None:
             return
         free = {slider.name for slider in self._free()}
-        given = {name: at for name, at in {**self._positions, **wanted}.items() if name in free}
+        given = {name: at for name, at in {**self._positions, **requested}.items() if name in free}
         positions = with_mimics(self._robot, given)
         self._positions = {slider.name: positions[slider.name] for slider in self._sliders}
         self._moved(positions)

@@ -26,6 +26,8 @@ from ..model.pose import Pose, pose_of, rpy_of_rotation
 from ..model.shapes import shape_name
 from .sliders import in_words
 
+_MISSING = "not specified"
+
 LONGEST = 60
 """Maximum length of a displayed name; a longer one is shortened in its middle."""
 
@@ -69,14 +71,14 @@ def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Ro
     joint = robot.tree.parent_joint(link.name)
     below = robot.tree.child_joints(link.name)
     if joint is None:
-        yield "parent", "none, it is a root"
+        yield "parent", "none (root link)"
     else:
         yield "parent", f"{joint.parent} by {joint.name} ({joint.type})"
     if below:
         yield "children", ", ".join(child.child for child in below)
     if pose is not None:
         yield (
-            "now at",
+            "current pose",
             f"{_lengths(pose.translation)}, rpy {_angles(rpy_of_rotation(pose.rotation))}",
         )
     yield from _mass_rows(link)
@@ -84,20 +86,20 @@ def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Ro
         for shape in shapes:
             yield label, shape_words(shape)
     if link.is_frame:
-        yield "is", "a mere frame: nothing is seen of it, touches or weighs"
+        yield "note", "frame without geometry and mass"
 
 
 def _mass_rows(link: Link) -> Iterator[Row]:
     inertial = link.inertial
     if inertial is None:
-        yield "mass", "none is written"
+        yield "mass", _MISSING
         return
-    yield "mass", "none is written" if inertial.mass is None else f"{inertial.mass:.6g} kg"
-    yield "centre of mass", _lengths(pose_of(inertial.origin).translation)
+    yield "mass", _MISSING if inertial.mass is None else f"{inertial.mass:.6g} kg"
+    yield "center of mass", _lengths(pose_of(inertial.origin).translation)
     if inertial.origin is not None and any(inertial.origin.rpy):
-        yield "inertia turned", f"rpy {_angles(inertial.origin.rpy)}"
+        yield "inertia frame", f"rpy {_angles(inertial.origin.rpy)}"
     if inertial.inertia is None:
-        yield "inertia", "none is written"
+        yield "inertia", _MISSING
         return
     yield "ixx iyy izz", f"{_numbers(inertial.inertia.moments)} kg·m²"
     yield "ixy ixz iyz", f"{_numbers(inertial.inertia.products)} kg·m²"
@@ -106,12 +108,12 @@ def _mass_rows(link: Link) -> Iterator[Row]:
 def joint_rows(joint: Joint) -> Iterator[Row]:
     """Yield the properties of a joint."""
     turns = joint.type != "prismatic"
-    yield "type", joint.type or "none is written"
-    yield "from", joint.parent or "none is written"
-    yield "to", joint.child or "none is written"
-    yield "at", _origin(joint.origin)
+    yield "type", joint.type or _MISSING
+    yield "parent", joint.parent or _MISSING
+    yield "child", joint.child or _MISSING
+    yield "origin", _origin(joint.origin)
     if joint.has_axis:
-        yield "axis", _numbers(joint.axis.xyz) if joint.axis else "1 0 0, as none is written"
+        yield "axis", _numbers(joint.axis.xyz) if joint.axis else "1 0 0 (default)"
     limit = joint.limit
     if limit is not None and joint.is_limited:
         low, high = limit.lower or 0.0, limit.upper or 0.0
@@ -121,7 +123,7 @@ def joint_rows(joint: Joint) -> Iterator[Row]:
             f"{low:g} … {high:g} {unit} ({in_words(low, turns)} … {in_words(high, turns)})",
         )
     elif joint.is_limited:
-        yield "limits", "none are written"
+        yield "limits", _MISSING
     if limit is not None:
         if limit.effort is not None:
             yield "effort", f"{limit.effort:g} {'N·m' if turns else 'N'}"
@@ -143,28 +145,28 @@ def shape_words(shape: Visual | Collision) -> str:
     """Format a shape with its dimensions and its name, if any."""
     geometry = shape.geometry
     if isinstance(geometry, Box):
-        said = f"box {_lengths(geometry.size)}"
+        text = f"box {_lengths(geometry.size)}"
     elif isinstance(geometry, Sphere):
-        said = f"sphere, radius {in_words(geometry.radius, False)}"
+        text = f"sphere, radius {in_words(geometry.radius, False)}"
     elif isinstance(geometry, Ellipsoid):
-        said = f"ellipsoid, radii {_lengths(geometry.radii)}"
+        text = f"ellipsoid, radii {_lengths(geometry.radii)}"
     elif isinstance(geometry, Plane):
-        said = "plane"
+        text = "plane"
     elif isinstance(geometry, Cylinder | Capsule | Cone):
-        said = f"{shape_name(geometry)}, radius {in_words(geometry.radius, False)}"
-        said += f", length {in_words(geometry.length, False)}"
+        text = f"{shape_name(geometry)}, radius {in_words(geometry.radius, False)}"
+        text += f", length {in_words(geometry.length, False)}"
     elif isinstance(geometry, Mesh):
-        said = geometry.filename or "a mesh without a file"
+        text = geometry.filename or "mesh without a file"
         if geometry.scale != (1.0, 1.0, 1.0):
-            said += f", scaled {_numbers(geometry.scale)}"
+            text += f", scale {_numbers(geometry.scale)}"
     else:
-        said = "no shape that is known"
-    return f"{said} ({shape.name})" if shape.name else said
+        text = "unknown geometry"
+    return f"{text} ({shape.name})" if shape.name else text
 
 
 def _origin(origin: Origin | None) -> str:
     if origin is None:
-        return "the parent's frame"
+        return "0 0 0 m (default)"
     turn = rpy_of_rotation(pose_of(origin).rotation) if origin.quaternion else origin.rpy
     return _lengths(origin.xyz) + (f", rpy {_angles(turn)}" if any(turn) else "")
 

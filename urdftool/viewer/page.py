@@ -41,14 +41,14 @@ LABELS = {
     "frames": "link frames",
     "names": "names",
     "axes": "joint axes",
-    "com": "centres of mass",
+    "com": "centers of mass",
     "inertia": "inertia boxes",
     "errors": "errors",
     "warnings": "warnings",
 }
 SHOWN = ("visual", "errors")
 MARKS = ("errors", "warnings")
-NOBODY = "none"
+NO_LINK = "none"
 
 Read = Callable[[], Robot]
 Load = Callable[[Robot, str], "Shapes"]
@@ -121,12 +121,12 @@ class Page:
             for kind in KINDS:
                 self._boxes[kind] = gui.add_checkbox(LABELS[kind], kind in shown)
                 self._boxes[kind].on_update(lambda _, kind=kind: self._safely(self.refresh, kind))
-            self._clear_box = gui.add_checkbox("see through", False)
+            self._clear_box = gui.add_checkbox("transparent visuals", False)
             self._clear_box.on_update(lambda _: self._safely(self._clear))
             self._grid_box = gui.add_checkbox("ground", True)
             self._grid_box.on_update(lambda _: self._safely(self._ground))
         with tabs.add_tab("Parts"):
-            self._chooser: Any = gui.add_dropdown("link", (NOBODY,))
+            self._chooser: Any = gui.add_dropdown("link", (NO_LINK,))
             self._chooser.on_update(lambda _: self._safely(self._chosen))
             self._one = gui.add_html("")
             self._all = gui.add_html("")
@@ -168,11 +168,13 @@ class Page:
         """Update the notices, the summary, the tables and the marks of findings."""
         robot, body = self.robot, self.body
         lost = [link.name for link in robot.links if link.name not in body.links]
-        said = [str(problem) for part in shapes for problem in part.problems]
-        said += [f"link {name} hangs on no root and is not shown" for name in lost]
-        said += unmovable(robot)
-        said += filter(None, [gltf_note(robot)])
-        self._set(self._notices, panels.notices(dict.fromkeys(said)))
+        messages = [str(problem) for part in shapes for problem in part.problems]
+        messages += [
+            f"link '{name}' is not connected to the root and is not shown" for name in lost
+        ]
+        messages += unmovable(robot)
+        messages += filter(None, [gltf_note(robot)])
+        self._set(self._notices, panels.notices(dict.fromkeys(messages)))
         self._set(self._summary, panels.summary(robot, self._findings))
         self._set(self._all, panels.all_parts(robot, self._found))
         self._set(self._list, panels.list_of(self._findings if self._check else [], self._found))
@@ -228,10 +230,10 @@ class Page:
         for link in self.body.links:
             label = base = shortened(link) or "(no name)"
             number = 2
-            while label in self._links or label == NOBODY:
+            while label in self._links or label == NO_LINK:
                 label, number = f"{base} ({number})", number + 1
             self._links[label] = link
-        options = (NOBODY, *self._links)
+        options = (NO_LINK, *self._links)
         if self._chooser.options != options:
             self._chooser.options = options
 
@@ -244,7 +246,7 @@ class Page:
         """Highlight a link and show its properties; None for none."""
         self._selected = link
         self.body.select(link)
-        label = next((label for label, name in self._links.items() if name == link), NOBODY)
+        label = next((label for label, name in self._links.items() if name == link), NO_LINK)
         if self._chooser.value != label:
             self._chooser.value = label
         self._tell()
@@ -252,7 +254,7 @@ class Page:
     def _tell(self) -> None:
         """Show the properties of the selected link at its current pose."""
         if self._selected is None:
-            self._set(self._one, panels.box("Click a link, or choose one, to see its numbers."))
+            self._set(self._one, panels.box("Click a link, or choose one, to show its properties."))
             return
         pose = link_poses(self.robot, self.joints.positions).get(self._selected)
         link = self.robot.link[self._selected]
@@ -340,7 +342,7 @@ def worthy(robot: Robot) -> Robot:
         raise ModelError("the robot has no links; there is nothing to view", at=robot.place)
     if not robot.tree.roots:
         raise ModelError(
-            "every link is the child of another, so none is the root; the joints form a loop",
+            "the robot has no root link, because its joints form a loop; remove a joint",
             at=robot.place,
         )
     return robot

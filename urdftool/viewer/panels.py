@@ -34,14 +34,14 @@ def broken(error: UrdftoolError) -> str:
         f"from {call.file.path}:{call.line}:{call.column}: {call.what}" for call in error.calls
     ]
     lines += error.notes
-    said = "<br>".join(safe(line) for line in lines)
-    return _alert(f"{said}<br><i>Shown is the robot as it was read last.</i>", "#e03131")
+    text = "<br>".join(safe(line) for line in lines)
+    return _alert(f"{text}<br><i>The page shows the last valid version.</i>", "#e03131")
 
 
 def bug(error: BaseException) -> str:
     """Format an exception of the page itself."""
     what = safe(f"{type(error).__name__}: {error}")
-    return _alert(f"This is a bug in urdftool, not in your robot: {what}", "#e03131")
+    return _alert(f"Bug in urdftool (not in the robot): {what}", "#e03131")
 
 
 def notices(messages: Iterable[str]) -> str:
@@ -71,7 +71,7 @@ def summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
         f"{mass:.4g} kg",
     ]
     if findings is not None:
-        words.append(counted(findings) or "lint finds nothing")
+        words.append(counted(findings) or "no lint findings")
     return box(safe(" · ".join(words)))
 
 
@@ -111,8 +111,8 @@ def _link_hint(mass: float, findings: list[Finding]) -> str:
     severity = worst(finding for finding in findings if finding.severity > Severity.INFO)
     if severity is None:
         return words
-    said = counted(finding for finding in findings if finding.severity > Severity.INFO)
-    return f"{words} <span style='color:{COLORS[severity]}'>{said}</span>"
+    text = counted(finding for finding in findings if finding.severity > Severity.INFO)
+    return f"{words} <span style='color:{COLORS[severity]}'>{text}</span>"
 
 
 def _unfolding(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
@@ -128,7 +128,7 @@ def list_of(findings: list[Finding] | None, found: Mapping[str, list[Finding]]) 
     if findings is None:
         return box("linting …")
     if not findings:
-        return box("lint finds nothing")
+        return box("no lint findings")
     on: dict[int, list[str]] = {}
     for link, those in found.items():
         for finding in those:

@@ -55,25 +55,25 @@ def address(host: str, port: int) -> str:
     return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
 
 
-def choose_port(host: str, wanted: int | None) -> int:
+def choose_port(host: str, requested: int | None) -> int:
     """Return a free port: the requested one, or the first from ``PORT`` on.
 
     Raises:
         AddressError: The requested port or all tried ports are taken, or the host is not an address
             of this computer.
     """
-    if wanted is not None:
-        if not is_free(host, wanted):
+    if requested is not None:
+        if not is_free(host, requested):
             raise AddressError(
-                f"port {wanted} of {host} is taken; choose another with --port, "
-                "or leave --port out for the next free one"
+                f"port {requested} of {host} is in use; choose another one, or omit --port for the "
+                "next free port"
             )
-        return wanted
+        return requested
     for port in range(PORT, PORT + TRIED):
         if is_free(host, port):
             return port
     raise AddressError(
-        f"the ports {PORT} to {PORT + TRIED - 1} of {host} are all taken; choose one with --port"
+        f"ports {PORT} to {PORT + TRIED - 1} of {host} are in use; choose another one with --port"
     )
 
 
@@ -95,11 +95,11 @@ def is_free(host: str, port: int) -> bool:
             return False
         if error.errno in (errno.EACCES, errno.EPERM):
             raise AddressError(
-                f"port {port} of {host} may not be used; choose one above 1023 with --port"
+                f"port {port} of {host} requires privileges; choose a port above 1023 with --port"
             ) from None
         raise AddressError(
-            f"'{host}' is no address of this computer ({error.strerror}); "
-            f"--host {LOOPBACK} is the loopback, --host 0.0.0.0 every network it is in"
+            f"'{host}' is not an address of this computer ({error.strerror}); use --host {LOOPBACK}"
+            " for this computer only, or --host 0.0.0.0 for all networks"
         ) from None
     return True
 
@@ -127,14 +127,14 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
         """viser's server without its tunnel."""
 
         def request_share_url(self, verbose: bool = True) -> None:
-            """Do nothing, so that no tunnel to the internet is opened."""
+            """Skip the request, so that no tunnel to the internet is opened."""
 
     rich.reconfigure(quiet=True)  # viser prints its address and more on standard output
     logging.getLogger("websockets").setLevel(logging.CRITICAL)
     server = Server(host=host, port=port, verbose=False)
     try:
         if server.get_port() != port:
-            raise AddressError(f"port {port} of {host} was taken just now; try again")
+            raise AddressError(f"another program now uses port {port} of {host}; try again")
         _guard(server, host, title)
     except BaseException:
         server.stop()
@@ -180,9 +180,9 @@ def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
         guarded.set()
         inner.disconnect_all_clients()
         if not _refuses_others(here, port):
-            raise AddressError("the page cannot be kept from other sites by this version of viser")
+            raise AddressError("this version of viser cannot refuse requests of other websites")
     except (AttributeError, Empty, OSError, WebSocketException) as error:
-        raise AddressError(f"the page cannot be served by this version of viser: {error}") from None
+        raise AddressError(f"this version of viser cannot serve the page: {error}") from None
 
 
 def _refuses_others(host: str, port: int) -> bool:
@@ -200,14 +200,14 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
     asked = request.headers.get("Host", "")
     origin = request.headers.get("Origin")
     if is_loopback(host) and not is_loopback(urlsplit(f"//{asked}").hostname or ""):
-        return connection.respond(403, f"This is served for {host} alone.\n")
+        return connection.respond(403, f"This page is served for {host} only.\n")
     if origin is not None and urlsplit(origin).netloc != asked:
-        return connection.respond(403, "Another site may not talk to this page.\n")
+        return connection.respond(403, "Requests of other websites are refused.\n")
     if request.headers.get("Upgrade", "").lower() == "websocket":
         return answer(connection, request)
     path = unquote(request.path.partition("?")[0]).replace("\\", "/")
     if ".." in path.split("/") or not path.isprintable():
-        return connection.respond(404, "There is no such page.\n")
+        return connection.respond(404, "Page not found.\n")
     while "Accept-Encoding" in request.headers:
         del request.headers["Accept-Encoding"]
     response = answer(connection, request)

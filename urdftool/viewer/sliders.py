@@ -133,7 +133,7 @@ def sliders_of(
 def unmovable(robot: Robot) -> list[str]:
     """List messages on the joints without a single position: floating and planar ones."""
     return [
-        f"{joint.name} is {joint.type}: it has no single position, and stays where it is"
+        f"joint '{joint.name}' is {joint.type} and cannot be moved with a slider"
         for joint in robot.joints
         if joint.type in ("floating", "planar")
     ]
@@ -143,14 +143,14 @@ def _bounds(joint: Joint, reach: float) -> tuple[float, float, str]:
     """Return the bounds of a joint and a hint for the user."""
     free = TURN if joint.type != "prismatic" else reach
     if joint.type == "continuous":
-        return -free, free, "turns without end"
+        return -free, free, "continuous, no limits"
     lower, upper = limits_of(joint)
     if not (abs(lower) <= FARTHEST and abs(upper) <= FARTHEST):
-        return -free, free, "no limit is written"
+        return -free, free, "limits not specified"
     if lower > upper:
-        return upper, lower, f"its lower limit {lower:g} is above its upper limit {upper:g}"
+        return upper, lower, f"lower limit {lower:g} is above upper limit {upper:g}"
     if lower == upper:
-        return lower, upper, f"its limits leave no room: both are {lower:g}"
+        return lower, upper, f"locked: lower and upper limit are {lower:g}"
     return lower, upper, ""
 
 
@@ -173,6 +173,6 @@ def _formula(joint: Joint) -> str:
     mimic = joint.mimic
     if mimic is None:
         return ""
-    times = "" if mimic.multiplier == 1.0 else f", {mimic.multiplier:g} times"
-    shift = f", {mimic.offset:+g}" if mimic.offset else ""
-    return f"follows {mimic.joint}{times}{shift}"
+    times = "" if mimic.multiplier == 1.0 else f" × {mimic.multiplier:g}"
+    shift = f" {mimic.offset:+g}" if mimic.offset else ""
+    return f"mimics {mimic.joint}{times}{shift}"

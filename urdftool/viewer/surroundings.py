@@ -95,6 +95,6 @@ def lay_ground(scene: viser.SceneApi, size: float, height: float, shown: bool) -
 
 def cell_for(size: float) -> float:
     """Return a round number between a seventh and a third of a robot's size [m]."""
-    wanted = max(size, 1e-6) / 3
-    power = 10.0 ** math.floor(math.log10(wanted))
-    return float(power * max(step for step in (1, 2, 5) if step * power <= wanted * 1.0000001))
+    largest = max(size, 1e-6) / 3
+    power = 10.0 ** math.floor(math.log10(largest))
+    return float(power * max(step for step in (1, 2, 5) if step * power <= largest * 1.0000001))

@@ -32,10 +32,10 @@ class Watch:
         A file that was watched already keeps its recorded state, so that a write during reading
         counts as a change.
         """
-        wanted = {os.path.abspath(path) for path in paths}
+        watched = {os.path.abspath(path) for path in paths}
         self._seen = {
             path: self._seen[path] if path in self._seen else _state(path)
-            for path in sorted(wanted)
+            for path in sorted(watched)
         }
         self._moving = None
 
