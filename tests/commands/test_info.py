@@ -127,7 +127,8 @@ def test_a_file_of_macros_is_said_to_be_one(urdftool, write):
     )
     done = urdftool("info", path)
     assert done.code == 0
-    assert done.err == f"{path}:1:1: the robot has no links; use a file that calls its macros\n"
+    assert done.err.startswith(f"{path}:1:1: ")
+    assert "has no link" in done.err
     assert urdftool("-q", "info", path).err == ""
 
 

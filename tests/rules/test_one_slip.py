@@ -179,5 +179,5 @@ def test_a_marker_gets_no_mass(tmp_path, urdftool, size, weighed):
 def test_an_srdf_is_sent_to_its_robot(tmp_path):
     path = tmp_path / "arm.srdf"
     path.write_text('<robot name="arm"><group name="all"><joint name="a"/></group></robot>')
-    with pytest.raises(SourceError, match="is an SRDF, which is checked with the robot"):
+    with pytest.raises(SourceError, match="is an SRDF, which is checked"):
         check(path)
