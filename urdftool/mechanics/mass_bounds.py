@@ -46,7 +46,7 @@ class Misfit(NamedTuple):
         sentence: The fact without its subject: ``is 0.3 m outside its shapes along x …``.
         axis: Axis of the largest deviation: 0, 1 or 2.
         amount: Distance outside the box [m], or the least factor by which the geometry would have
-            to be longer, wherever the center of mass is.
+            to be longer, for any center of mass.
         certain: Whether it is physically impossible; if not, a mesh may omit heavy parts.
     """
 
