@@ -67,7 +67,7 @@ VERBS = frozenset(
         """
         abort accept accumulate add adjust advance align allow announce append apply
         approximate ask assemble assert assign average begin bind blend block blur bound build
-        cache call cap cast check choose clamp clear clip close cluster collect color combine
+        cache call cap cast change check choose clamp clear clip close cluster collect color combine
         compact compare compile complete compose compress compute concatenate configure
         connect consider construct convert copy correct count cover create cut decide decimate
         declare decode decompose decorate deduplicate delete describe deserialize detach
@@ -88,7 +88,7 @@ VERBS = frozenset(
         query quote raise rank read rebuild receive recenter recognize recompute record
         redirect reduce refer refine refit refresh refuse register reject relate release
         reload remove rename render repair repeat replace report represent request require
-        reset resize resolve restore restrict resume retag retrieve return reuse review
+        reset resize resolve restore restrict resume retag retrieve return reuse reverse review
         rewrite rotate round route run sample sanitize save scale scan schedule score search
         select send separate serialize serve set settle shade shift shorten show shrink
         simplify simulate skip slice smooth snap solve sort spawn split spread start state

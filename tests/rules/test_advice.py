@@ -32,10 +32,24 @@ def one(path, rule, *targets):
 @pytest.mark.parametrize(
     ("root", "mass", "kind", "targets", "remedy", "in_pybullet"),
     [
-        ("base", 5, "continuous", (), "put a link without one above it, on a fixed joint", True),
+        (
+            "base",
+            5,
+            "continuous",
+            (),
+            "add a root link without one above it, on a fixed joint",
+            True,
+        ),
         ("base", 5, "continuous", ("ros2", "pybullet"), "", False),
         ("base", 1e-4, "fixed", (), "remove its <inertial>", True),
-        ("base", 1e-4, "continuous", (), "put a link without one above it, on a fixed joint", True),
+        (
+            "base",
+            1e-4,
+            "continuous",
+            (),
+            "add a root link without one above it, on a fixed joint",
+            True,
+        ),
         ("world", 5, "continuous", ("ros2", "pybullet"), "remove its <inertial>", False),
     ],
     ids=["body", "pybullet", "frame of a body", "frame", "world"],
@@ -156,7 +170,7 @@ def test_a_radius_of_gyration_is_called_so(write, moment, radius, in_mm, has_fix
 
 def test_the_radius_of_gyration_of_a_placeholder(write):
     found = one(write("r.urdf", _arm(1, 1, 1, mass=0.1)), "placeholder-inertia")
-    assert "its 0.1 kg has a radius of gyration of 3.2 m" in found.message
+    assert "0.1 kg with a radius of gyration of 3.2 m" in found.message
 
 
 @pytest.mark.parametrize(
@@ -194,7 +208,10 @@ def test_each_moment_of_a_mirror_image_is_compared(write):
     )
     path = write("r.urdf", LONE.format(link="".join(sides), more="", joint="".join(joints)))
     found = one(path, "left-right-asymmetry")
-    assert "in ascending order, are 1.5 to 2 times those of 'left_arm'" in found.message
+    assert (
+        "in ascending order, are 1.5 to 2 times those of its mirror image 'left_arm'"
+        in found.message
+    )
 
 
 ROD = SHAPE.format("collision", '<cylinder radius="0.02" length="0.4"/>', "0 0 0.2")
@@ -205,12 +222,17 @@ ABOUT_COM, ABOUT_FRAME = (0.01343, 0.01343, 0.0002), (0.05343, 0.05343, 0.0002)
     ("moments", "shapes", "words", "changes"),
     [
         (ABOUT_COM, ROD, "as the <origin> of its <inertial>", ["0 0 0.2"]),
-        (ABOUT_FRAME, ROD, 'about it: ixx="0.01343"', ["0 0 0.2", "0.01343", "0.01343"]),
-        ((0.03, 0.03, 0.0002), ROD, "and the inertia about it", None),
+        (
+            ABOUT_FRAME,
+            ROD,
+            'only about the link frame: ixx="0.01343"',
+            ["0 0 0.2", "0.01343", "0.01343"],
+        ),
+        ((0.03, 0.03, 0.0002), ROD, "and the inertia about that point", None),
         (
             ABOUT_FRAME,
             ROD + SHAPE.format("collision", '<sphere radius="0.03"/>', "0 0 0.37"),
-            "only about the frame",
+            "only about the link frame",
             ["0 0 0.2", "0.01343", "0.01343"],
         ),
     ],
@@ -300,15 +322,20 @@ def test_a_velocity_that_means_no_limit_is_called_so(write, velocity, words):
 @pytest.mark.parametrize(
     ("attributes", "remedy", "fixed", "has_effects"),
     [
-        ('ixy="0" iyx="0.0"', "take it out", True, True),
-        ('ixy="0" iyx="0.001"', "it differs from ixy, which is read; write one", False, True),
+        ('ixy="0" iyx="0.0"', "remove it", True, True),
+        (
+            'ixy="0" iyx="0.001"',
+            "its value differs from ixy, which is read; write one of them",
+            False,
+            True,
+        ),
         ('iyx="0"', "rename it to ixy, which is missing", False, False),
     ],
 )
 def test_what_the_lower_half_of_an_inertia_repeats(write, attributes, remedy, fixed, has_effects):
     text = _arm(0.01, 0.01, 0.01).replace('ixy="0"', attributes)
     found = _fixed(write("r.urdf", text), "redundant-inertia-attributes")
-    assert found.message.endswith(f"is not read; {remedy}")
+    assert found.message.endswith(f"; {remedy}")
     assert (found.fix is not None, bool(found.effects)) == (fixed, has_effects)
 
 
@@ -316,7 +343,7 @@ def test_what_the_lower_half_of_an_inertia_repeats(write, attributes, remedy, fi
     ("root", "kind", "fix"),
     [
         ("base", "fixed", "remove its <inertial>"),
-        ("base", "continuous", "put a link 'base_root' without <inertial> above it"),
+        ("base", "continuous", "add a link 'base_root' without <inertial> above it"),
         ("world", "continuous", "remove its <inertial>"),
     ],
 )

@@ -28,22 +28,22 @@ def lint(write):
 def test_casters_on_both_sides_lift_the_wheels(lint):
     (message,) = lint((FRONT, 'xyz="0.15 0 -0.095"'), (BACK, 'xyz="-0.15 0 -0.095"'))
     assert message == (
-        "caster 'front_caster' ends 20 mm below the lowest point of the driven wheels, so the "
-        "wheels hang 20 mm in the air; write z = -0.075 for its joint"
+        "caster 'front_caster' ends 20 mm below the driven wheels, so the wheels are 20 mm above "
+        "the ground; write z = -0.075 for its joint"
     )
 
 
 def test_one_that_is_lower_lifts_them_as_far_as_the_other_lets_it(lint):
-    assert "hang 10.5 mm in the air" in lint((FRONT, 'xyz="0.15 0 -0.095"'))[0]
+    assert "wheels are 10.5 mm above the ground" in lint((FRONT, 'xyz="0.15 0 -0.095"'))[0]
     high = (BACK, 'xyz="-0.15 0 -0.05"')
-    assert "lies tilted by 7.6°" in lint((FRONT, 'xyz="0.15 0 -0.095"'), high)[0]
+    assert "is tilted by 7.6°" in lint((FRONT, 'xyz="0.15 0 -0.095"'), high)[0]
     assert lint(high) == []
 
 
 def test_a_robot_between_casters_that_are_too_high_lies_tilted(lint):
     (message,) = lint((FRONT, 'xyz="0.15 0 -0.06"'), (BACK, 'xyz="-0.15 0 -0.05"'))
     assert "ends 15 mm above" in message
-    assert "lies tilted by 5.7°; write z = -0.075 for its joint" in message
+    assert "is tilted by 5.7°; write z = -0.075 for its joint" in message
 
 
 def test_casters_on_one_side_tilt_it(lint):

@@ -51,10 +51,10 @@ def effects_of(tmp_path, rule, text):
 @pytest.mark.parametrize(
     ("robot", "gazebo", "mujoco"),
     [
-        (_robot(VISUAL + COLLISION), "leave out", "mass of water"),
-        (_robot(VISUAL), "leave out", "rejects"),
-        (_robot(VISUAL, kind="fixed"), "one link", ""),
-        (_robot(VISUAL + COLLISION, kind="fixed"), "one link", "mass of water"),
+        (_robot(VISUAL + COLLISION), "omit", "density of water"),
+        (_robot(VISUAL), "omit", "rejects"),
+        (_robot(VISUAL, kind="fixed"), "lump", ""),
+        (_robot(VISUAL + COLLISION, kind="fixed"), "lump", "density of water"),
         (_robot(HEAVY, base=VISUAL + COLLISION), "load nothing", ""),
     ],
     ids=["moves", "moves without collision", "fixed", "fixed with collision", "root"],
@@ -127,8 +127,8 @@ def test_limit_in_degrees(tmp_path, upper, says):
         (
             '<material name="m"><color rgba="1 0 0 1"/></material>',
             MATERIAL.format(box=BOX, rgba="0 1 0 1"),
-            "at the top level",
-            "at the visual",
+            "of the top level",
+            "of the visual",
         ),
         (
             "",

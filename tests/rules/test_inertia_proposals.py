@@ -50,7 +50,6 @@ def test_square_millimetres(tmp_path):
 def test_about_the_origin(tmp_path):
     found = of_link(tmp_path, 2.0333, 0, 0, 2.0283, 0, 0.00833, xyz="0 0 1")
     text = found["inertia-about-link-frame"]
-    assert "only if it is about the link frame" in text
     assert 'ixx="0.0333" ' in text
     assert "inertia-exceeds-geometry" not in found
 
@@ -82,7 +81,7 @@ def test_what_nothing_explains_is_told_with_the_solid(tmp_path):
 @pytest.mark.parametrize("size", ["1e-12", "-1e-13"])
 def test_noise_is_no_inertia(tmp_path, size):
     found = of_link(tmp_path, size, 0, 0, "1e-13", 0, "1e-14")
-    assert "as good as zero, though it weighs 2 kg" in found["zero-inertia"]
+    assert "almost zero" in found["zero-inertia"]
     assert not found.keys() & {"inertia-triangle-inequality", "inertia-not-positive-definite"}
 
 

@@ -57,20 +57,20 @@ DRAKE = '<drake:joint name="j" type="ball"><parent link="{}"/><child link="{}"/>
             DRAKE.format("a", "b") + DRAKE.format("b", "c"),
             [
                 "links 'b' and 'c' are roots, because only Drake reads the <drake:joint> that "
-                "joins them; write <joint> for the other readers"
+                "connects them; write <joint> for other readers"
             ],
         ),
         (
             DRAKE.format("a", "b"),
             [
-                "link 'b' is a root, because only Drake reads the <drake:joint> that joins it; "
-                "write <joint> for the other readers",
-                "link 'c' is the child of no joint, as is 'a'; join them by joints",
+                "link 'b' is a root, because only Drake reads the <drake:joint> that connects "
+                "it; write <joint> for other readers",
+                "link 'c' and root 'a' have no parent joint; connect them with joints",
             ],
         ),
         (
             DRAKE.format("world", "a"),
-            ["links 'b', 'c' are children of no joint, as is 'a'; join them by joints"],
+            ["links 'b', 'c' and root 'a' have no parent joint; connect them with joints"],
         ),
     ],
 )

@@ -87,4 +87,4 @@ def test_the_size_of_a_mesh_in_millimetres_is_measured_whole(tmp_path):
     file = tmp_path / "robot.urdf"
     file.write_text(f'<robot name="r">{LINK.format(0, "arm.stl")}</robot>')
     (finding,) = check(file, select=["mesh-in-millimetres"])
-    assert "is 544 m large" in finding.message
+    assert "is 544 m long" in finding.message

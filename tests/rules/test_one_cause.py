@@ -107,8 +107,8 @@ def test_dense_visual_meshes_that_collide_are_one_finding_that_names_the_links(w
     path = write("r.urdf", meshes(5, "dense.stl"))
     (finding,) = check(path, select=("visual-mesh-as-collision",))
     assert finding.severity.label == "warning"
-    assert "'l0' collides" in finding.message
-    assert "so do 'l1', 'l2', 'l3', 'l4' with theirs" in finding.message
+    assert finding.name == "l0"
+    assert "so do 'l1', 'l2', 'l3', 'l4'" in finding.message
 
 
 def test_a_link_of_a_dense_mesh_is_not_named_again_for_another_mesh(write):
@@ -153,7 +153,7 @@ def test_files_of_a_folder_of_another_machine_are_one_finding_with_one_fix(write
         robot = robot.replace("NUMBER", str(number), 2)
     path = write("cart/r.urdf", robot)
     (finding,) = check(path, select=("absolute-path",), fixes=True)
-    assert "5 more are wanted from /home/me/cart/meshes" in finding.message
+    assert "5 more meshes refer to folder /home/me/cart/meshes" in finding.message
     assert len(finding.fix.replacements) == 12
 
 

@@ -31,14 +31,14 @@ def test_a_joint_the_wrong_way_round_is_told_as_that(tmp_path):
     links = "".join(map(_link, "abc"))
     joints = _joint("one", "a", "b") + _joint("two", "c", "b")
     (found,) = _found(tmp_path, links + joints, "multiple-parents")
-    assert found.message.endswith("; is 'c' meant to be the child, and 'b' the parent?")
+    assert found.message.endswith("; swap parent 'c' and child 'b' if they are reversed")
 
 
 def test_the_link_that_was_meant_is_asked_for(tmp_path):
     links = "".join(map(_link, "abc"))
     joints = _joint("one", "a", "b") + _joint("two", "a", "b")
     (found,) = _found(tmp_path, links + joints, "multiple-parents")
-    assert found.message.endswith("; is 'c' meant, which hangs on no joint?")
+    assert found.message.endswith("; did you mean 'c', which has no parent joint?")
 
 
 @pytest.mark.parametrize(("y", "count"), [("0.2", 1), ("-0.2", 0)])

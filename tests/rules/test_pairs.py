@@ -33,7 +33,7 @@ def test_the_sweep_finds_the_pairs_that_are_near(write, spread):
     all_pairs = {
         frozenset(pair)
         for pair in combinations(known.bodies, 2)
-        if frozenset(pair) not in known.neighbours and known.near(*pair)
+        if frozenset(pair) not in known.neighbors and known.near(*pair)
     }
     assert len(found) > 10
     assert {frozenset(pair) for pair in found} == all_pairs

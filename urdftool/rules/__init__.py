@@ -1,8 +1,8 @@
 """Look up rules by name, family and file.
 
-A family follows from the stage at which its rules can look: the bytes (xml), the xacro source
-(xacro), the expanded robot (tree to name), its files (mesh, package), the simulators (gazebo,
-control, simulation), and the linter itself (lint). A rule is imported when it is needed.
+A family follows from the stage at which its rules run: the bytes (xml), the xacro source (xacro),
+the expanded robot (tree to name), its files (mesh, package), the simulators (gazebo, control,
+simulation), and the linter itself (lint). Rules are imported on demand.
 """
 
 from __future__ import annotations

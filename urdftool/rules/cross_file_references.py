@@ -1,4 +1,4 @@
-"""Whether files around a description name something of it, so that it is not changed alone."""
+"""Check whether other files refer to a part of a description, which then must not change alone."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ _MOST_FILES, _MOST_BYTES = 10_000, 2_000_000
 
 
 def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection[str] = ()) -> None:
-    """Make sure that no file of the package names a word, but the description's own.
+    """Make sure that only the description's own files of the package refer to a word.
 
     Args:
         context: The robot and its description.
-        word: What is looked for, as a whole word.
-        robots: Whether other descriptions count, which have links of the same names.
-        but: Files that are changed with it.
+        word: The word, as a whole.
+        robots: Whether to search other descriptions, which have links of the same names.
+        but: Files that are changed too.
 
     Raises:
-        RefusedError: One does.
+        RefusedError: Another file refers to it.
     """
     real_path = context.workspace.real_path
     mine = {real_path(file.path) for file in context.description.files}
@@ -36,30 +36,30 @@ def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection
     for number, file in enumerate(context.nearby(_files)):
         if number >= _MOST_FILES:
             raise RefusedError(
-                f"there are too many files around it to know that none names '{word}'"
+                f"too many files around the description to search them for references to '{word}'"
             )
         path = file.path
         named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
         if named and file.names(word) and real_path(path) not in mine:
-            raise RefusedError(f"{shown_path(path)} names '{word}', too")
+            raise RefusedError(f"{shown_path(path)} refers to '{word}' too")
 
 
 _PLAIN = re.compile(rb"[\w-]+")
 
 
 class _File:
-    """A file around the description, and its words, which are looked up once."""
+    """A file near the description, and its words, which are read once."""
 
     __slots__ = ("_found", "path", "workspace")
 
     def __init__(self, workspace: Workspace, path: str) -> None:
-        """Read nothing yet."""
+        """Store the path; the file is read later."""
         self.workspace = workspace
         self.path = path
         self._found: frozenset[bytes] | None = None
 
     def names(self, word: str) -> bool:
-        """Tell whether a word is in the file."""
+        """Tell whether the file contains a word."""
         sought = word.encode()
         try:
             if _PLAIN.fullmatch(sought) is not None:
@@ -78,7 +78,7 @@ def _words_of(workspace: Workspace, path: str) -> frozenset[bytes]:
     """List the words of a file.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
     """
     return frozenset(_PLAIN.findall(workspace.read_bytes(path)[:_MOST_BYTES]))
 
@@ -87,16 +87,16 @@ _INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']*)[
 
 
 def check_not_included(context: FixContext) -> None:
-    """Make sure that no other robot includes the description, which would get what is added.
+    """Make sure that no other robot includes the description, and so would get an added element.
 
-    The packages of its workspace are looked at. A gripper that is a robot by itself for tests is
-    part of an arm in another package.
+    It searches the packages of the workspace: a gripper that is a robot by itself for tests is
+    often part of an arm in another package.
 
     Args:
         context: The robot and its description.
 
     Raises:
-        RefusedError: One does.
+        RefusedError: Another robot includes it.
     """
     file = context.description.packages.file
     own = context.description.packages.own
@@ -111,7 +111,7 @@ def check_not_included(context: FixContext) -> None:
                 is_this = "$" in said or real_path(there) == real_path(file)
             if is_this:
                 raise RefusedError(
-                    f"{shown_path(user)} includes {file.name}, and would get it as well"
+                    f"{shown_path(user)} includes {file.name}, and would get the element too"
                 )
 
 
@@ -120,7 +120,7 @@ _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
 
 @memoized
 def _included(workspace: Workspace, folder: str) -> dict[str, list[tuple[str, str]]]:
-    """List what xacro files below a folder include, by file name: who does, and in which words."""
+    """List the includes of xacro files in a folder, by file name: the including file and words."""
     found: dict[str, list[tuple[str, str]]] = {}
     for number, path in enumerate(_below(workspace, folder)):
         if number >= _MOST_FILES:
@@ -138,7 +138,7 @@ def _included(workspace: Workspace, folder: str) -> dict[str, list[tuple[str, st
 
 
 def _files(context: FixContext) -> list[_File]:
-    """The files of the description's package, or of its folder, as many as are looked at."""
+    """List the files of the description's package, or of its folder, up to a limit."""
     own = context.description.packages.own
     root = own[1] if own is not None else context.description.packages.file.parent
     found = islice(_below(context.workspace, root), _MOST_FILES + 1)

@@ -1,7 +1,7 @@
-"""How the sentences about readers are known: run, or read in the source.
+"""Get the evidence for sentences about readers: runs, or their source code.
 
-The data beside this module is made by ``python -m tests.effects --write`` of the table in
-``fixtures/effects``, and read only where a rule's page is shown.
+``python -m tests.effects --write`` writes the data next to this module from the table in
+``fixtures/effects``; it is read only to show the page of a rule.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ def _sources() -> dict[str, dict[str, str]]:
 
 
 def effect_source(rule: str, readers: str) -> str:
-    """Return how the effect of a rule on readers is known.
+    """Get the evidence for the effect of a rule on readers.
 
     Args:
         rule: Name of the rule, such as ``zero-axis``.
         readers: The key of the effect, such as ``mujoco, drake``.
 
     Returns:
-        Such as ``run: MuJoCo 4.0.0`` or ``source: REPOSITORY FILE``; empty where it is not known.
+        Such as ``run: MuJoCo 4.0.0`` or ``source: REPOSITORY FILE``; empty if there is none.
     """
     return _sources().get(rule, {}).get(readers, "")

@@ -1,4 +1,4 @@
-"""Compute the bytes of mesh files that a fix writes, from those of the file that is there."""
+"""Compute the bytes of mesh files that a fix writes, from those of the original files."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from ..errors import MeshError
 from ..geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
 from ..workspace import Workspace
 
-BINARY, TURNED, WITHOUT_COLLAPSED = "binary STL", "turned inside out", "without its flat triangles"
-MIRRORED, HEADED, COPIED = "mirrored, as STL, along ", "with another word at its head", "a copy"
+BINARY, TURNED, WITHOUT_COLLAPSED = "binary STL", "reversed", "without degenerate triangles"
+MIRRORED, HEADED, COPIED = "mirrored, as STL, along ", "with another header", "a copy"
 
 _RECORD = struct.Struct("<12fH")
 
 Record = tuple[Any, ...]
-"""Normal, three corners and the attribute of a triangle, in a row."""
+"""Normal, three corners and the attribute of a triangle, in one row."""
 
 
 def rewritten_bytes(workspace: Workspace, rewrite: FileRewrite) -> bytes:
-    """Compute what is written to a file.
+    """Compute the new content of a file.
 
     Raises:
         MeshError: The original cannot be read.
@@ -60,18 +60,18 @@ def _is_text(path: Path) -> bool:
 
 
 def _text_as_binary(path: Path) -> bytes:
-    """Write an STL text as the same triangles in the binary form."""
+    """Convert ASCII STL to binary STL with the same triangles."""
     data = path.read_bytes()
     rows = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data, re.IGNORECASE)
     numbers = [float(word) for row in rows for word in row]
     facets = len(re.findall(rb"\bendfacet\b", data, re.IGNORECASE))
     if len(numbers) != 9 * facets or not re.search(rb"\bendsolid\b", data[-1024:], re.IGNORECASE):
-        raise MeshError("the STL text is not whole", path=path)
+        raise MeshError("the ASCII STL file is incomplete", path=path)
     return _written(numbers[at : at + 9] for at in range(0, len(numbers), 9))
 
 
 def _as_stl(path: Path, scale: tuple[float, float, float]) -> bytes:
-    """Write the triangles of any mesh file as STL, in its own frame, scaled by 1 or -1."""
+    """Convert the triangles of any mesh file to STL, in its own frame, scaled by 1 or -1."""
     from ..geometry.load import load_mesh
 
     mesh = load_mesh(path, scale)
@@ -96,10 +96,10 @@ def _normal(corners: list[float]) -> tuple[float, float, float]:
 
 
 def _records(path: Path) -> tuple[bytes, Iterator[Record]]:
-    """Read the head and the triangles of a binary STL file."""
+    """Read the header and the triangles of a binary STL file."""
     facts = read_stl_header(path)
     if facts.kind != "binary" or not facts.size_agrees:
-        raise MeshError("is no binary STL file", path=path)
+        raise MeshError("is not a binary STL file", path=path)
     data = path.read_bytes()
     whole = HEADER_BYTES + TRIANGLE_BYTES * (facts.triangles or 0)
     return data[:HEADER_BYTES], _RECORD.iter_unpack(data[HEADER_BYTES:whole])
@@ -111,7 +111,7 @@ def _turned(record: Record) -> bytes:
 
 
 def count_collapsed(workspace: Workspace, path: Path) -> int:
-    """Count the triangles of a binary STL file that have two corners in one place.
+    """Count the triangles of a binary STL file with two coinciding corners.
 
     Raises:
         MeshError: It is not a binary STL file.
@@ -121,6 +121,6 @@ def count_collapsed(workspace: Workspace, path: Path) -> int:
 
 
 def _is_collapsed(record: Record) -> bool:
-    """Tell whether two corners of a triangle are one, so that it leaves no hole if removed."""
+    """Tell whether two corners of a triangle coincide, so that removing it leaves no hole."""
     a, b, c = record[3:6], record[6:9], record[9:12]
     return a == b or b == c or c == a

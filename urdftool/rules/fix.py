@@ -1,19 +1,19 @@
 """Describe fixes as changes to elements of the expanded robot.
 
-A fix stands beside its rule::
+A fix follows its rule in the same file::
 
     @zero_axis.fix(UNSAFE)
     def write_z_axis(problem: Problem, context: FixContext) -> Proposal | None:
 
-It takes its values from ``problem.data``, never from the message, and returns None where this case
-is not fixed. Changes name elements of the expanded robot; :mod:`urdftool.lint.fix_settle` works
-out which bytes of the source they are, and whether they may change. Helpers that look at the source
-as it is written (:func:`is_computed`, :func:`may_vary`) parse it only when called.
+It takes its values from ``problem.data``, never from the message, and returns None for cases that
+it does not fix. Changes name elements of the expanded robot; :mod:`urdftool.lint.fix_settle`
+determines their bytes in the source, and whether they may change. Helpers that read the source as
+written (:func:`is_computed`, :func:`may_vary`) parse it only when called.
 
-A fix is *safe* if everything that reads the robot has the same kinematics, masses, inertia,
-collision shapes, limits and control afterwards, or could not read them before;
-``tests/lint/test_fix_safe.py`` loads robots before and after. All others are *unsafe*: they invent
-or remove physics, guess what was meant, change what one reader loads, or remove comments.
+A fix is *safe* if all readers of the robot have the same kinematics, masses, inertia, collision
+geometry, limits and control afterwards, or could not read them before;
+``tests/lint/test_fix_safe.py`` loads robots before and after. All others are *unsafe*: they add or
+remove physical properties, guess the intention, change what one reader loads, or remove comments.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Change(NamedTuple):
 
 
 class RefusedError(Exception):
-    """A change cannot be made; the text says why."""
+    """A change cannot be made; the text is the reason."""
 
 
 class OutsideError(RefusedError):
@@ -84,7 +84,7 @@ class OutsideError(RefusedError):
 
 
 class Span(NamedTuple):
-    """Bytes of a file to replace, where no element is concerned."""
+    """Bytes of a file to replace, without reference to an element."""
 
     file: SourceFile
     start: int
@@ -109,15 +109,15 @@ class Proposal:
 
 @dataclass
 class FixContext:
-    """What a fix may look at besides its problem.
+    """Information for fixes in addition to the problem.
 
     Attributes:
         robot: The robot.
         description: The description with its files.
         targets: Active targets.
-        document: File of the source, for rules that look at each.
-        compute_inertia: Computes mass properties of links from their meshes; None where mesh sizes
-            are in doubt.
+        document: Source file, for rules that check each file.
+        compute_inertia: Computes mass properties of links from their meshes; None if mesh sizes
+            are unreliable.
         severity: Severity of the finding.
     """
 
@@ -132,11 +132,11 @@ class FixContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Return what reads the files of the description."""
+        """The reader of the description's files."""
         return self.description.workspace
 
     def nearby(self, look: Callable[[FixContext], list[Any]]) -> list[Any]:
-        """List the files around the description, once."""
+        """List the files near the description; cached."""
         if self._nearby is None:
             self._nearby = look(self)
         return self._nearby
@@ -212,7 +212,7 @@ def prepend_child(parent: Element, *lines: str) -> Change:
 
 
 def insert_after(element: Element, *lines: str) -> Change:
-    """Add an element behind another."""
+    """Add an element after another."""
     return Change("after", element, blocks=(lines,))
 
 
@@ -235,7 +235,7 @@ def attribute_at(problem: Problem, root: Element | None = None) -> tuple[Element
     """Find the element and attribute that a problem points at.
 
     Returns:
-        None where it points at no attribute.
+        None if it points at no attribute.
     """
     found = element_at(problem, root)
     if found is None:
@@ -269,7 +269,7 @@ def element_at(problem: Problem, root: Element | None = None) -> Element | None:
 
 
 def remove_sign(problem: Problem) -> Proposal | None:
-    """Propose the attribute that a problem points at without its minus sign."""
+    """Propose to remove the minus sign of the attribute that a problem points at."""
     found = attribute_at(problem)
     if found is None:
         return None
@@ -279,7 +279,7 @@ def remove_sign(problem: Problem) -> Proposal | None:
 
 
 def suggestion_of(problem: Problem, wrong: str) -> str:
-    """Get the name a rule suggests (``data["suggestion"]``), if it is near enough for a fix."""
+    """Get the name that a rule suggests (``data["suggestion"]``), if it is close enough."""
     right: str = problem.data.get("suggestion", "")
     return right if right and is_close_enough(right, wrong) else ""
 
@@ -302,7 +302,7 @@ def append_number(problem: Problem, taken: Container[str | None]) -> Proposal | 
 
     Args:
         problem: The problem.
-        taken: Names that are in use.
+        taken: Names in use.
     """
     found = attribute_at(problem)
     if found is None:
@@ -311,13 +311,13 @@ def append_number(problem: Problem, taken: Container[str | None]) -> Proposal | 
     while f"{name}_{number}" in taken:
         number += 1
     change = substitute(*found, r"(?<=\S)(?=\s*$)", f"_{number}")
-    return unsafe(f"call it '{name}_{number}'", change)
+    return unsafe(f"rename it to '{name}_{number}'", change)
 
 
 def is_close_enough(right: str, wrong: str) -> bool:
-    """Tell whether a suggested word is near enough to be written by a fix.
+    """Tell whether a suggested word is close enough for a fix.
 
-    It must be nearer than for a question: a slip or two, and none in a digit.
+    It must be closer than for a question: at most two typos, and none in a digit.
     """
     from .xml.vocabulary_table import meant
 
@@ -347,7 +347,7 @@ def write_inside(
 
 
 def format_numbers(values: Iterable[float], digits: int = 9) -> str:
-    """Format numbers with at most so many significant digits, and without ``-0``."""
+    """Format numbers with a maximum of significant digits, and without ``-0``."""
     return " ".join(f"{value + 0.0:.{digits}g}" for value in values)
 
 
@@ -367,18 +367,18 @@ def written_value(element: Element, name: str) -> str:
 
 
 def is_computed(element: Element, name: str = "name") -> bool:
-    """Tell whether an attribute comes from an expression, so that arguments may change it."""
+    """Tell whether an attribute comes from an expression, which arguments may change."""
     return "$" in written_value(element, name)
 
 
 def may_vary(element: Element) -> bool:
-    """Tell whether other arguments may put other children into an element than it has now."""
+    """Tell whether other arguments may give an element other children."""
     raw = element.file.editable().elements.get(element.start)
     return raw is None or any(one.tag.startswith("xacro:") for one in raw.walk())
 
 
 def is_always_there(element: Element) -> bool:
-    """Tell whether an element is there whatever the arguments are, and once."""
+    """Tell whether an element exists exactly once for all arguments."""
     raw = element.file.editable().elements.get(element.start)
     if raw is None or any(call.macro for call in element.calls):
         return False
@@ -389,17 +389,17 @@ def is_always_there(element: Element) -> bool:
 
 
 def is_written_inside(inner: Element, outer: Element) -> bool:
-    """Tell whether an element is written inside another, and not put there by a call."""
+    """Tell whether an element is written inside another, not inserted by a macro call."""
     raw = outer.file.editable().elements.get(outer.start)
     return raw is not None and inner.file is outer.file and raw.start <= inner.start < raw.end
 
 
 def depends_on_arguments(element: Element, *parts: str) -> bool:
-    """Tell whether an element comes from a macro, and its content from the arguments of the call.
+    """Tell whether an element comes from a macro, and its content from the call's arguments.
 
     Args:
         element: The element.
-        parts: Tags of the children that matter, with all below them; every child if none.
+        parts: Tags of the children that matter, with their descendants; all children if none.
     """
     if not any(call.macro for call in element.calls):
         return False
@@ -427,7 +427,7 @@ def written_lines(element: Element) -> Iterator[str]:
     """Get the lines of an element as written, comments and expressions included.
 
     Yields:
-        Lines, indented by one tab a level.
+        Lines, indented by one tab per level.
     """
     source = element.file.editable()
     raw = source.elements[element.start]

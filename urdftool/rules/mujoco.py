@@ -1,4 +1,4 @@
-"""What a robot tells MuJoCo's compiler."""
+"""Read the compiler settings of a robot for MuJoCo."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ..model.mesh_formats import READ_BY, ending_of
 
 
 def keeps_visuals(robot: Robot) -> bool:
-    """Return whether MuJoCo compiles the visuals of a robot, which it discards otherwise."""
+    """Tell whether MuJoCo keeps the visuals of a robot, which it discards by default."""
     return any(
         (compiler.get("discardvisual") or "").strip() == "false"
         for mujoco in robot.element.all("mujoco")
@@ -16,7 +16,7 @@ def keeps_visuals(robot: Robot) -> bool:
 
 
 def reads_collisions(robot: Robot) -> bool:
-    """Return whether MuJoCo has a decoder for every collision mesh, by the names of the files."""
+    """Tell whether MuJoCo has a decoder for every collision mesh, by file suffix."""
     return all(
         ending_of(shape.geometry.filename) in READ_BY["mujoco"]
         for link in robot.links

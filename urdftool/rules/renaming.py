@@ -1,6 +1,6 @@
 """Rename a link, joint or material with every reference in the description and its SRDF.
 
-It is refused where another file of the package refers to the old name, such as a list of
+It is refused if another file of the package refers to the old name, such as a list of
 controllers.
 """
 
@@ -19,10 +19,10 @@ _LINK_AT = {"link": "name", "parent": "link", "child": "link"}
 
 
 def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal | None:
-    """Rename a link or joint; None where the new name is taken, or the old one is worth more.
+    """Rename a link or joint; None if the new name is taken, or the old one is in wide use.
 
-    Controllers, launch files and programs of other packages refer to the joints that move; an info
-    is not worth breaking them.
+    Controllers, launch files and programs of other packages refer to moving joints; an info does
+    not justify breaking them.
 
     Raises:
         RefusedError: Another file of the package refers to it.
@@ -33,7 +33,7 @@ def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal |
     if not new or new == old or new in robot.link or new in robot.joint:
         return None
     if old in robot.link and old in robot.joint and robot.extensions.get(old):
-        return None  # the link or the joint may be meant
+        return None  # it is unknown whether the link or the joint is meant
     kind = "link" if isinstance(part, Link) else "joint"
     namings = (find_link_references if kind == "link" else find_joint_references)(
         robot.element, old
@@ -48,7 +48,7 @@ def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal |
             if element.get(attribute) == old:
                 changes.append(set_attribute(element, attribute, new))
     check_alone(context, old, robots=False, but=[d.file.path for d in documents])
-    return unsafe(f"call it '{new}', here and where it is named", *changes)
+    return unsafe(f"rename it to '{new}', with all references", *changes)
 
 
 def find_link_references(root: Element, name: str) -> Iterator[tuple[Element, str]]:
@@ -83,9 +83,9 @@ def part_of(problem: Problem) -> Link | Joint | None:
 
 
 def rename_material(robot: Robot, old: str, new: str) -> Proposal | None:
-    """Rename a material wherever it is named; None where the new name is taken."""
+    """Rename a material in all places; None if the new name is taken."""
     found = [e for e in robot.element.walk() if e.tag == "material" and e.get("name") == old]
     if any(e.tag == "material" and e.get("name") == new for e in robot.element.walk()):
         return None
     changes: list[Change] = [set_attribute(element, "name", new) for element in found]
-    return unsafe(f"call it '{new}', here and where it is named", *changes)
+    return unsafe(f"rename it to '{new}', with all references", *changes)

@@ -1,7 +1,7 @@
-"""What a rule is: a function that looks at a robot and yields what is wrong with it.
+"""Define rules: functions that check a robot and yield problems.
 
-The function's name is the rule's, with hyphens. Its docstring is the rule's page: the first line a
-fact, then why it hurts. What it wants to see it names as parameters:
+The function's name is the rule's, with hyphens. Its docstring is the rule's page: the first line is
+a fact; the consequences and the remedy follow. Its parameters name what it needs:
 
 ``robot``
     The robot as read (``urdftool.model.elements.Robot``).
@@ -14,38 +14,36 @@ fact, then why it hurts. What it wants to see it names as parameters:
 
 Keyword-only parameters are thresholds; the configuration sets them by name.
 
-Two arguments of the decorator say how findings are reported together:
+Arguments of the decorator control how findings are reported together:
 
 ``group="robot"``
     The findings of the rule about one robot are reported as one, with their count and names;
-    ``group="repository"`` does so over all robots of one repository. Each finding stays a fact of
-    its own for comments, baselines, fixes and variants. ``Problem(group=…)`` gives the sentence
-    for several: ``"{count} links have a visual and no collision: {names}"``. Without a sentence,
-    the first message is followed by the other names. Problems of the same severity and effects are
-    one finding. Where their sentences differ in more than names and numbers,
-    ``Problem(alike=…)`` tells them apart.
+    ``group="repository"`` does so over all robots of one repository. Comments, baselines, fixes
+    and variants still treat each finding by itself. ``Problem(group=…)`` is the message for
+    several: ``"{count} links have a visual but no collision: {names}"``. Without it, the other
+    names follow the first message. Problems with the same severity, effects and
+    ``Problem(alike=…)`` are one finding.
 
 ``caused_by=("placeholder-inertia",)``
     A finding of one of these rules about the same element explains a finding of this rule, which
-    is then listed under it. ``Problem(cause=…)`` names another element to look at, and
+    is then listed under it. ``Problem(cause=…)`` names another element, and
     ``Problem(caused_by=…)`` other rules, or none.
 
 ``of_motion=True``
-    What is found matters only for what can move, such as an inertia that is too large: of a link
-    that is fixed to the world, and of a fixed joint, a warning becomes an info. Errors stay,
-    because readers reject the robot all the same.
+    The problem matters only for moving parts, such as an inertia that is too large: for links that
+    are fixed to the world, and for fixed joints, a warning becomes an info. Errors stay, because
+    readers reject the robot anyway.
 
-A fix is a function below its rule, ``@zero_axis.fix(UNSAFE)``; see :mod:`urdftool.rules.fix`. It
-takes what it needs from ``Problem(data=…)``.
+A fix is a function after its rule, ``@zero_axis.fix(UNSAFE)``; see :mod:`urdftool.rules.fix`. It
+takes its values from ``Problem(data=…)``.
 
-A second function, ``@no_root.full``, is asked by ``lint.validate`` in place of the check, where the
-check leaves out what keeps a robot from being used: what another rule reports with its cause.
+``lint.validate`` calls a second function, ``@no_root.full``, in place of a check that skips cases
+in which a robot cannot be used, because another rule reports these with their cause.
 
-A file of rules that can find something only in robots with certain elements names these in
-``APPLIES_TO``, and is not imported for other robots; ``APPLIES_TO = ()`` where the rules look at
-nothing themselves, because readers of files report them. ``FILES`` of a family are its files in
-reading order. ``python -m tests.rule_table`` writes what is known without importing rules, from
-their decorators, to ``table.py``.
+A file of rules that apply only to robots with certain elements lists these in ``APPLIES_TO``, and
+is not imported for other robots; ``APPLIES_TO = ()`` if readers of files report the problems
+themselves. ``FILES`` of a family lists its files in reading order. ``python -m tests.rule_table``
+writes the facts about rules that are known without importing them to ``table.py``.
 """
 
 from __future__ import annotations
@@ -72,7 +70,7 @@ Check = Callable[..., Iterable["Problem"]]
 CheckRobot = Callable[["Robot"], Iterable["Problem"]]
 
 SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
-"""Applicability of the fixes of a rule; ``BOTH`` where it depends on the case."""
+"""Applicability of the fixes of a rule; ``BOTH`` if it depends on the case."""
 
 if TYPE_CHECKING:
     from .fix import MakeFix, MakeFixOfFile, Proposal
@@ -83,24 +81,24 @@ else:
 
 
 class Problem:
-    """One thing a rule has found.
+    """A problem that a rule found.
 
     Attributes:
-        subject: What it is about: a link, a joint, the robot, or an element.
-        message: One sentence: what is wrong, with what would be right.
-        at: Where; the subject's start tag if None.
-        hint: What would mend it, where the message does not say it.
-        severity: Instead of the rule's, where it depends on the case.
-        group: The sentence for several such problems, with ``{count}`` and ``{names}``, for a rule
+        subject: The link, joint, robot or element that has the problem.
+        message: One sentence: the fact, its consequence and the remedy.
+        at: Its place; the subject's start tag if None.
+        hint: The remedy, if the message does not give it.
+        severity: Replaces the rule's, if it depends on the case.
+        group: The message for several such problems, with ``{count}`` and ``{names}``, for a rule
             that groups them; see the module's docstring.
-        cause: The element that a finding which explains this one is about; None for the subject.
-        caused_by: Instead of the rule's, where it depends on the case.
-        effects: Which of the rule's effects hold, by their keys, where that depends on the case;
-            None for those whose key names no case.
-        alike: What problems that are reported as one have in common, where their sentences differ
-            in more than names and numbers: a text, number, bool or tuple of these.
-        data: Values that the rule knows, by name, for fixes and other programs: texts, numbers and
-            lists of these. Nothing reads them out of the message.
+        cause: The subject of the finding that explains this one; None for the same subject.
+        caused_by: Replaces the rule's, if it depends on the case.
+        effects: Keys of the rule's effects that hold, if that depends on the case; None for those
+            whose key names no case.
+        alike: Key of problems that may be reported as one, if their messages differ in more than
+            names and numbers: a text, number, bool or tuple of these.
+        data: Values by name for fixes and other programs: texts, numbers and lists of these. No
+            code extracts them from the message.
     """
 
     __slots__ = (
@@ -132,7 +130,7 @@ class Problem:
         alike: object = None,
         data: Mapping[str, Any] | None = None,
     ) -> None:
-        """Keep what was found; the place is worked out when it is reported."""
+        """Store the problem; its place is computed when it is reported."""
         self.subject = subject
         self.message = message
         self.at = at
@@ -147,13 +145,13 @@ class Problem:
 
     @property
     def place(self) -> Place:
-        """The bytes it is about."""
+        """The bytes of the problem."""
         at = self.subject if self.at is None else self.at
         return at if isinstance(at, Place) else at.place
 
     @property
     def kind(self) -> str:
-        """``link``, ``joint``, … : the tag of the subject."""
+        """Tag of the subject, such as ``link``."""
         subject = self.subject
         if isinstance(subject, Part) and subject.xml is None:
             return type(subject).__name__.lower()
@@ -161,7 +159,7 @@ class Problem:
 
     @property
     def name(self) -> str:
-        """The subject's name; empty where it has none."""
+        """The subject's name; empty if it has none."""
         subject = self.subject
         if isinstance(subject, Part) and subject.xml is None:
             return getattr(subject, "name", "") or ""
@@ -185,7 +183,7 @@ class Problem:
 
     @property
     def cause_element(self) -> Element:
-        """The element that a finding which explains this one is about."""
+        """The subject of the finding that explains this one."""
         return _element_of(self.subject if self.cause is None else self.cause)
 
 
@@ -200,8 +198,8 @@ class FixTraits(NamedTuple):
         applicability: ``SAFE``, ``UNSAFE`` or ``BOTH``.
         of_file: Whether it edits the bytes of a file that could not be read or expanded, and takes
             the finding in place of a problem.
-        writes_meshes: Whether it writes mesh files, which ``--fix-meshes`` asks for.
-        renames: Whether it changes names that other fixes refer to; it is tried apart from them.
+        writes_meshes: Whether it writes mesh files, which requires ``--fix-meshes``.
+        renames: Whether it changes names that other fixes refer to; it is tried separately.
     """
 
     applicability: str
@@ -227,29 +225,29 @@ class FixTraits(NamedTuple):
 
 @dataclass
 class Rule:
-    """A rule, as the engine sees it.
+    """A rule for the engine.
 
     Attributes:
         name: Such as ``zero-axis``.
         family: Such as ``joint``.
         check: The function.
-        severity: How much it matters where no target says otherwise.
-        on: Targets it is on for; None means always.
-        raised: Severity by target, where it matters more there.
-        effects: What a reader does with the defect, by target or reader, with a case in
-            parentheses where another case of the same reader differs.
-        default: Whether it is on without being selected.
-        needs: The names of the parameters it wants.
+        severity: Severity for targets that are not in ``raised``.
+        on: Targets for which it is enabled; None means always.
+        raised: Severity by target, if it is higher there.
+        effects: Behavior of a reader on the defect, by target or reader, with a case in
+            parentheses if another case of the same reader differs.
+        default: Whether it is enabled without being selected.
+        needs: Names of the parameters that it requires.
         thresholds: Its thresholds with their defaults.
-        group: What its findings are reported once for; None where each is reported.
+        group: Scope in which its findings are reported as one; None if each is reported.
         caused_by: Rules whose finding about the same element explains one of this rule.
-        of_motion: Whether it matters only for what can move: of a link that is fixed to the world,
-            or of a fixed joint, a warning of it is an info.
-        make_fix: Proposes changes for a problem, or None where this case is not fixed; None where
+        of_motion: Whether it matters only for moving parts: for a link that is fixed to the world,
+            or for a fixed joint, a warning is an info.
+        make_fix: Proposes changes for a problem, or None for cases that it does not fix; None if
             the rule has no fix.
-        fix_traits: Facts about that.
-        full_check: A check of a robot that reports every case, each at its own part; None where
-            ``check`` does.
+        fix_traits: Facts about the fix.
+        full_check: Check of a robot that reports every case, each at its own part; None if
+            ``check`` does so.
     """
 
     name: str
@@ -272,8 +270,8 @@ class Rule:
     def full(self, check: CheckRobot) -> CheckRobot:
         """Make a function the full check of this rule.
 
-        It takes the robot alone, and leaves out neither the cases that another rule reports with
-        their cause nor the parts that one finding of ``lint`` stands for. ``lint.validate`` asks it
+        It takes only the robot. It includes the cases that another rule reports with their cause,
+        and all parts that one finding of ``lint`` summarizes. ``lint.validate`` uses it to decide
         whether a robot can be used.
         """
         self.full_check = check
@@ -298,11 +296,11 @@ class Rule:
 
     @property
     def fact(self) -> str:
-        """The first line of its page."""
+        """First line of its page."""
         return (self.check.__doc__ or "").partition("\n")[0].strip()
 
     def keys_in(self, keys: Collection[str] | None) -> list[str]:
-        """Select the keys of its effects that hold.
+        """Select the keys of the effects that hold.
 
         Args:
             keys: Keys of the effects; None for all whose key names no case.
@@ -310,7 +308,7 @@ class Rule:
         return [key for key in self.effects if (" (" not in key if keys is None else key in keys)]
 
     def effects_in(self, keys: Collection[str] | None) -> dict[str, str]:
-        """Select the effects with these keys, and leave the case out of them.
+        """Select the effects with these keys, without the case in the key.
 
         Args:
             keys: Keys of the effects; None for all that hold in every case.
@@ -318,21 +316,21 @@ class Rule:
         return {key.partition(" (")[0]: self.effects[key] for key in self.keys_in(keys)}
 
     def severity_for(self, targets: frozenset[str]) -> Severity:
-        """How much it matters for a set of targets."""
+        """Get the severity for a set of targets."""
         raised = [severity for target, severity in self.raised.items() if target in targets]
         return max([self.severity, *raised])
 
     def is_on_for(self, targets: frozenset[str]) -> bool:
-        """Whether it speaks of any of the targets."""
+        """Tell whether the rule is enabled for any of the targets."""
         return self.on is None or not targets.isdisjoint(self.on)
 
 
 def holding(effects: Iterable[str], *conditions: str) -> list[str]:
-    """Select the keys of effects that hold: those in whose parentheses is no other condition.
+    """Select the keys of effects that hold: without other conditions in parentheses.
 
     Args:
         effects: Keys such as ``mujoco (in a joint, too many numbers)``.
-        conditions: What holds in a case: ``in a joint``.
+        conditions: Conditions that a case satisfies: ``in a joint``.
     """
     found = []
     for key in effects:

@@ -1,4 +1,4 @@
-"""Change the shapes of links, and the origins of shapes and joints."""
+"""Change the geometry of links, and the origins of geometry and joints."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from .fix import (
 
 
 def copy_shape(shape: Visual | Collision, tag: str) -> Change | None:
-    """Add an element with the origin and geometry of a shape behind it.
+    """Add an element with the origin and geometry of a shape after it.
 
     Args:
         shape: The shape.
         tag: ``visual`` or ``collision``.
 
     Returns:
-        None where the geometry is missing, or not written inside the shape.
+        None if the geometry is missing, or not written inside the shape.
     """
     geometry = shape.geometry
     if geometry is None or not is_written_inside(geometry.element, shape.element):
@@ -40,7 +40,7 @@ def copy_shape(shape: Visual | Collision, tag: str) -> Change | None:
 
 
 def copy_origin(shape: Visual | Collision, model: Visual | Collision) -> Change:
-    """Give a shape the ``<origin>`` of another as written, or none where that has none."""
+    """Copy the ``<origin>`` of a shape as written to another, or remove it if it has none."""
     lines = _origin_lines(model)
     if shape.origin is None:
         return prepend_child(shape.element, *lines)
@@ -50,7 +50,7 @@ def copy_origin(shape: Visual | Collision, model: Visual | Collision) -> Change:
 
 
 def set_in_origin(part: Visual | Collision | Joint, name: str, value: str) -> Change:
-    """Set an attribute of the ``<origin>``, which is added where there is none."""
+    """Set an attribute of the ``<origin>``, which is added if it is missing."""
     if part.origin is None:
         return prepend_child(part.element, f'<origin {name}="{value}"/>')
     return set_attribute(part.origin.element, name, value)

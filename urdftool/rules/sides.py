@@ -1,4 +1,4 @@
-"""The left and the right of a robot, told by the names of its links, and the plane between them."""
+"""Find the left and right side of a robot by link names, and the plane between them."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ _END = re.compile(r"(?i)front|rear|back|hind|middle|mid|[flrhbm]{1,2}(?![a-z])|l
 
 
 def twins_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str]:
-    """The names that may be that of the right one to a left one's, the likeliest first.
+    """List the names of the right counterparts of a left name, the most likely first.
 
     A name with two side words has several: front_leftL may be the mirror image of front_rightR.
     """
     matches = list(_WORD.finditer(name))
     found: list[str] = []
-    if len(matches) > 1:  # front_leftL: its mirror image has the other of both, front_rightR
+    if len(matches) > 1:  # front_leftL: both words are swapped, front_rightR
         all_turned = _WORD.sub(lambda match: _OTHER.get(match[0]) or _BACK[match[0]], name)
         if all_turned in names:
             if matches[0][0] not in _OTHER:
@@ -46,12 +46,12 @@ def twins_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str]:
 
 
 def is_clear(name: str) -> bool:
-    """Whether a name has one side word, so that it can be paired in one way only."""
+    """Tell whether a name has one side word, so that it can be paired in one way only."""
     return len(_WORD.findall(name)) < 2
 
 
 class Pair(NamedTuple):
-    """A left link and the right one, with the joints they hang on."""
+    """A left link and its right counterpart, with their parent joints."""
 
     left: Link
     right: Link
@@ -60,17 +60,17 @@ class Pair(NamedTuple):
 
 
 class Sides:
-    """The pairs of a robot and how they mirror each other, all joints being at zero.
+    """The pairs of a robot and their symmetry, with all joints at zero.
 
     Attributes:
-        pairs: Those that hang on one link, or on a pair, by joints of one type.
-        normal: Along which axis of the root's frame left and right lie: 0, 1 or 2; None where the
-            robot is not symmetric.
-        off: Pairs whose joints are not where the mirror has them, with the distance [m].
+        pairs: Those with the same parent, or with a pair as parents, on joints of one type.
+        normal: Axis of the root frame from left to right: 0, 1 or 2; None if the robot is not
+            symmetric.
+        off: Pairs whose joints are not mirror images, with the distance [m].
     """
 
     def __init__(self, robot: Robot) -> None:
-        """Find the pairs, and the plane by which most of them mirror."""
+        """Find the pairs, and the plane that mirrors most of them."""
         self.pairs = list(_pairs(robot))
         self.poses: dict[str, Pose] = link_poses(robot) if self.pairs else {}
         self.normal: int | None = None
@@ -94,11 +94,11 @@ class Sides:
         self.off = [found for found in self.off if is_clear(found[0].left.name)]
 
     def is_displaced(self, pair: Pair) -> bool:
-        """Whether the joints of a pair are not where the mirror has them."""
+        """Tell whether the joints of a pair are not mirror images."""
         return id(pair.left) in self._displaced
 
     def _steps(self, pair: Pair) -> tuple[Vector, Vector] | None:
-        """From each one's parent to it, in the frame of the root [m]."""
+        """Compute the vectors from the parents to the links, in the root frame [m]."""
         ends = (pair.left.name, pair.right.name)
         begins = (pair.left_joint.parent, pair.right_joint.parent)
         if not all(name in self.poses for name in (*ends, *begins)):
@@ -108,9 +108,9 @@ class Sides:
         return (g - a, h - b, i - c), (j - d, k - e, m - f)
 
     def turns_alike(self, pair: Pair) -> bool | None:
-        """Whether the two joints mirror each other at the same position, rather than the opposite.
+        """Tell whether the two joints mirror each other at equal, not at opposite positions.
 
-        None where one has no axis, or the axes are no mirror images.
+        None if one has no axis, or if the axes are not mirror images.
         """
         if self.normal is None:
             return None
@@ -126,11 +126,11 @@ class Sides:
         )
         if abs(product) < 0.95:
             return None
-        # a turn is mirrored like a vector, and backwards besides
+        # a rotation axis is a pseudovector: mirrored and reversed
         return (product > 0) == (pair.left_joint.type == "prismatic")
 
     def axis(self, link: Link, joint: Joint) -> Vector | None:
-        """The axis of a joint in the frame of the root, of unit length."""
+        """Get the axis of a joint in the root frame, of unit length."""
         return self._axis(link, joint)
 
     def _axis(self, link: Link, joint: Joint) -> Vector | None:
@@ -145,9 +145,9 @@ class Sides:
 
 
 def twin_links(robot: Robot) -> dict[str, str]:
-    """The right link to each left one, by their names.
+    """Map each left link to its right counterpart, by their names.
 
-    Where a name has several, it is the one whose place mirrors that of the left one.
+    If a name has several, the one whose position mirrors that of the left link counts.
     """
     links = robot.link
     several = {name: others for name in links if (others := twins_of(name, links))}
@@ -173,7 +173,7 @@ def _pairs(robot: Robot) -> Iterator[Pair]:
 
 
 def _mirrored(robot: Robot, poses: dict[str, Pose], name: str, other: str) -> bool:
-    """Whether two links are each other's mirror images by their steps from their parents."""
+    """Tell whether the offsets of two links from their parents are mirror images."""
     steps: list[Vector] = []
     for link in (name, other):
         above = robot.tree.parent_joint(link)
@@ -192,7 +192,7 @@ def _mirrored(robot: Robot, poses: dict[str, Pose], name: str, other: str) -> bo
 
 
 def _moves(robot: Robot, pair: Pair) -> bool:
-    """Whether a pair is moved, or carries what is; sensors and frames may be where they like."""
+    """Tell whether a pair moves or carries moving links; sensors and frames may be asymmetric."""
     if not pair.left_joint.is_fixed:
         return True
     below = (pair.left.name, *robot.tree.descendants(pair.left.name))
@@ -200,11 +200,11 @@ def _moves(robot: Robot, pair: Pair) -> bool:
 
 
 def _gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
-    """How far the step on the right is from the mirror image of that on the left [m]."""
+    """Compute the distance of the right offset from the mirror image of the left one [m]."""
     shared = pair.left_joint.parent == pair.right_joint.parent
     return math.hypot(
         *(
-            # where their common parent stands between the two is not known
+            # the plane between the two is unknown
             (0.0 if shared else b + a) if i == normal else b - a
             for i, (a, b) in enumerate(zip(left, right, strict=True))
         )
@@ -212,21 +212,21 @@ def _gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
 
 
 def _in_one_place(pair: Pair, left: Vector, right: Vector) -> bool:
-    """Whether both hang off to one side of their parent, in the same place, as no two limbs do."""
+    """Tell whether both are offset to one side of their parent, at the same position."""
     shared = pair.left_joint.parent == pair.right_joint.parent
     turns = pair.left_joint.type in ("revolute", "continuous")
     return shared and turns and max(map(abs, left)) > 0.01 and math.dist(left, right) < 0.001
 
 
 def _stacked(steps: list[tuple[Pair, Vector, Vector]], normal: int) -> Iterator[tuple[Pair, float]]:
-    """Pairs in one place beside the plane between left and right, with what they are off [m]."""
+    """Find pairs at one position off the plane between left and right, with the distance [m]."""
     for pair, left, right in steps:
         if _in_one_place(pair, left, right) and abs(left[normal]) > 0.01:
             yield pair, 2 * abs(left[normal])
 
 
 def _nearly(pair: Pair, left: Vector, right: Vector) -> tuple[Pair, float] | None:
-    """A single pair, as of wheels, that lies left and right and is off the mirror by a little."""
+    """Find a single pair, as of wheels, that is nearly symmetric, with the distance [m]."""
     shared = pair.left_joint.parent == pair.right_joint.parent
     gap, length = _gap(pair, left, right, 1), math.hypot(*left)
     opposite = left[1] * right[1] < 0 and abs(left[1] + right[1]) <= _slack(left)
@@ -238,10 +238,10 @@ def _slack(step: Vector) -> float:
 
 
 def family_of(name: str) -> str:
-    """A name without what says on which side and at which end: one for all four legs."""
+    """Remove side and end words from a name: all four legs then have the same one."""
     return _END.sub("*", name)
 
 
 def sides(robot: Robot) -> Sides:
-    """The sides of a robot; worked out once, however many rules ask."""
+    """Get the sides of a robot, shared by all rules."""
     return robot.memo.get("sides", lambda: Sides(robot))

@@ -1,4 +1,4 @@
-"""Text that xacro should have replaced: what stands in its place is not known."""
+"""Detect text that xacro should have replaced, whose value is unknown."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _BRACED = re.compile(r"\{\w+\}")
 
 
 def is_unexpanded(text: str) -> bool:
-    """Whether a value still holds ``${…}``, ``$(…)`` or a ``{name}`` that lost its ``$``."""
+    """Tell whether a value still has ``${…}``, ``$(…)`` or a ``{name}`` that lost its ``$``."""
     if "{" not in text and "$" not in text:
         return False
     return "${" in text or "$(" in text or _BRACED.search(text) is not None

@@ -1,4 +1,4 @@
-"""Lists of words for messages and tables."""
+"""Format lists for messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..suggestions import nearest as nearest
 
 
 def quoted(names: Iterable[str], most: int = 4) -> str:
-    """``'a', 'b' and 'c'``; from more than ``most``, the first and how many others there are."""
+    """Format names as ``'a', 'b' and 'c'``; above ``most``, the first and the number of others."""
     words = [f"'{name}'" for name in names]
     if len(words) > most:
         words = [*words[: most - 1], f"{len(words) - most + 1} others"]
@@ -18,12 +18,12 @@ def quoted(names: Iterable[str], most: int = 4) -> str:
 
 
 def some_of(items: list[str], kind: str, most: int = 12) -> str:
-    """The items with commas; from more than ``most``, the first and how many of a kind follow."""
+    """Join items with commas; above ``most``, the first ones and the number of others."""
     if len(items) <= most + 1:
         return ", ".join(items)
     return f"{', '.join(items[:most])} and {len(items) - most} more {kind}"
 
 
 def words(text: str) -> frozenset[str]:
-    """The words of a text, for tables."""
+    """Split a text into a set of words, for tables."""
     return frozenset(text.split())

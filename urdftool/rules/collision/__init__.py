@@ -1,4 +1,4 @@
-"""What touches."""
+"""Collision geometry."""
 
 FILES = ("presence", "shapes", "likeness", "displaced", "wheels", "overlap")
 """Files with rules, in reading order."""

@@ -1,4 +1,4 @@
-"""Visual and collision of a link that are apart, and which of the two is at the wrong place."""
+"""Find visuals and collisions of a link that are apart, and which of the two is misplaced."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ from ...model.read import numbers
 from ..mesh.outlines import Reaches, ShapeKind, reaches
 
 _ALIKE = 0.25
-"""Part by which the lengths of two shapes may differ that stand for one body."""
+"""Relative difference in length at which two shapes still count as one body."""
 
 _SMALL = 0.05
-"""Diagonal of a visual [m] that may be apart from its collision by twice as much."""
+"""Diagonal [m] up to which a visual may be twice as far from its collision."""
 
 _CLEAR = 0.25
-"""Part of the distance within which the third of three agrees with one of the other two."""
+"""Part of the distance within which the third of three positions agrees with another one."""
 
 
 _PRIMITIVE = 0.2
-"""Part of its diagonal by which a primitive may be off one of the same size."""
+"""Part of its diagonal by which a primitive may be offset from one of the same size."""
 
 
 class Apart(NamedTuple):
     """A link whose visual and collision are apart.
 
     Attributes:
-        distance: Between their middles [m].
+        distance: Distance between their centers [m].
         alike: Whether they have about the same size.
-        odd: Which of them is at the wrong place; empty where nothing tells.
-        why: What tells, as a clause.
-        xyz: Where the origin of the odd one would be right [m]; None where that is not known.
-        same: Whether both are one and the same shape, so that they have one origin.
+        odd: The misplaced one; empty if unknown.
+        why: Reason for that, as a clause.
+        xyz: Correct origin of the misplaced one [m]; None if unknown.
+        same: Whether both are the same shape, so that they need the same origin.
     """
 
     distance: float
@@ -58,73 +58,78 @@ class Apart(NamedTuple):
 
     @property
     def remedy(self) -> str:
-        """What to write for the odd one."""
+        """The remedy for the misplaced one."""
         if self.same:
-            return f"give it the <origin> of the {self.other}"
+            return f"copy the <origin> of the {self.other}"
         return f'write xyz="{self.xyz_text}"' if self.xyz_text else "check its <origin>"
 
     @property
     def xyz_text(self) -> str:
-        """``xyz`` as it is written; empty where it is not known or the shapes share an origin."""
+        """``xyz`` as text; empty if it is unknown or the shapes need the same origin."""
         if self.same or self.xyz is None:
             return ""
         return " ".join(f"{round(x, 6) + 0.0:g}" for x in self.xyz)
 
     @property
     def other(self) -> str:
-        """The one of visual and collision that is right."""
+        """The correctly placed one of visual and collision."""
         return "collision" if self.odd == "visual" else "visual"
 
 
 def measured(reach: Reaches, link: Link) -> tuple[Bounds, Bounds] | tuple[None, None]:
-    """Return the boxes around the visuals and around the collisions of a link.
+    """Get the bounding boxes of the visuals and of the collisions of a link.
 
-    None where either is missing or not known, or has a shape without a size.
+    Returns:
+        None for both if one is missing or unknown, or has a shape without a size.
     """
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     for shape in shapes:
         size = size_of(shape.geometry)
         if size is not None and min(size) <= 0:
             return None, None
-    seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
-    return (None, None) if seen is None or touches is None else (seen, touches)
+    visual_box, collision_box = reach.shapes(link.visuals), reach.shapes(link.collisions)
+    return (
+        (None, None) if visual_box is None or collision_box is None else (visual_box, collision_box)
+    )
 
 
 def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
-    """Compare where a link is seen with where it collides.
+    """Compare the positions of visual and collision geometry of a link.
 
     Args:
         robot: The robot.
         link: One of its links.
-        part: Of the visual's diagonal, by which the middles may be apart.
+        part: Tolerated distance of the centers, as a part of the visual's diagonal.
 
     Returns:
-        None where the two are together, or the collision is covered by the visual of a link that is
-        attached or joined to this one.
+        None if the two are together, or if the visual of an attached or joined link covers the
+        collision.
     """
     reach = reaches(robot)
-    seen, touches = measured(reach, link)
-    if seen is None or touches is None:
+    visual_box, collision_box = measured(reach, link)
+    if visual_box is None or collision_box is None:
         return None
-    distance, diagonal = math.dist(seen.centre, touches.centre), norm(seen.size)
-    larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
+    distance, diagonal = math.dist(visual_box.centre, collision_box.centre), norm(visual_box.size)
+    larger = all(a > 2 * b for a, b in zip(collision_box.size, visual_box.size, strict=True))
     if _is_one_primitive(link):
         part = min(part, _PRIMITIVE)
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     if not all(_has_readable_origin(shape) for shape in shapes):
         return None
-    if larger or (seen.meets(touches) and distance <= part * diagonal):
+    if larger or (visual_box.meets(collision_box) and distance <= part * diagonal):
         return None
-    if min(diagonal, 5 * norm(touches.size)) <= _SMALL and distance <= 2 * _SMALL:
+    if min(diagonal, 5 * norm(collision_box.size)) <= _SMALL and distance <= 2 * _SMALL:
         return None
-    sizes = zip(sorted(seen.size), sorted(touches.size), strict=True)
+    sizes = zip(sorted(visual_box.size), sorted(collision_box.size), strict=True)
     alike = all(abs(a - b) <= _ALIKE * max(a, b) for a, b in sizes)
-    if not alike and any(_covers(box, touches) for box in _visuals_around(robot, reach, link)):
+    if not alike and any(
+        _covers(box, collision_box) for box in _visuals_around(robot, reach, link)
+    ):
         return None
-    odd, why = _odd_one(robot, link, seen.centre, touches.centre)
+    odd, why = _odd_one(robot, link, visual_box.centre, collision_box.centre)
     xyz = None
     if alike and odd and len(link.visuals) == len(link.collisions) == 1:
-        step = [b - a for a, b in zip(seen.centre, touches.centre, strict=True)]
+        step = [b - a for a, b in zip(visual_box.centre, collision_box.centre, strict=True)]
         right, wrong = pose_of(link.visuals[0].origin), pose_of(link.collisions[0].origin)
         if odd == "visual":
             right, wrong = wrong, right
@@ -137,13 +142,13 @@ def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
 
 
 def _has_readable_origin(shape: Visual | Collision) -> bool:
-    """Whether an origin is three numbers; one that is not stands for zero, with its own finding."""
+    """Tell whether an origin has three numbers; another rule reports others."""
     text = shape.origin.element.get("xyz") if shape.origin is not None else None
     return text is None or numbers(text, 3) is not None
 
 
 def _is_one_primitive(link: Link) -> bool:
-    """Whether a link has one visual and one collision, which are a primitive of the same size."""
+    """Tell whether a link has one visual and one collision: primitives of the same size."""
     if len(link.visuals) != 1 or len(link.collisions) != 1:
         return False
     one, other = link.visuals[0].geometry, link.collisions[0].geometry
@@ -151,7 +156,7 @@ def _is_one_primitive(link: Link) -> bool:
 
 
 def _is_same(one: Geometry | None, other: Geometry | None) -> bool:
-    """Whether two shapes are the same one: a mesh file at one scale, or a primitive of one size."""
+    """Tell whether two shapes are equal: a mesh file at one scale, or a primitive of one size."""
     if isinstance(one, Mesh) and isinstance(other, Mesh):
         return (one.filename, one.scale) == (other.filename, other.scale)
     return size_of(one) is not None and type(one) is type(other) and size_of(one) == size_of(other)
@@ -160,17 +165,17 @@ def _is_same(one: Geometry | None, other: Geometry | None) -> bool:
 def with_attached(
     reach: Reaches, link: Link, kind: ShapeKind, own: Bounds, other: Bounds
 ) -> Bounds | None:
-    """Join a link's box with those of attached links that are at the same place as another box.
+    """Join a link's bounding box with those of attached links in the place of another box.
 
     Args:
-        reach: The boxes of the robot.
+        reach: The bounding boxes of the robot.
         link: The link.
-        kind: Whose boxes are joined, ``visuals`` or ``collisions``.
-        own: That of the link itself.
-        other: The box with which the result is to be compared.
+        kind: Geometry whose boxes are joined, ``visuals`` or ``collisions``.
+        own: Bounding box of the link itself.
+        other: The box to compare the result with.
 
     Returns:
-        The box; None where that of an attached link is not known.
+        The box; None if that of an attached link is unknown.
     """
     for member, at in reach.attached(link)[1:]:
         if not (member.visuals if kind == "visuals" else member.collisions):
@@ -184,7 +189,7 @@ def with_attached(
 
 
 def _covers(box: Bounds | None, other: Bounds) -> bool:
-    """Whether the middle of a box lies in another; taken to be so where the other is not known."""
+    """Tell whether the center of a box is inside another; assumed if the other is unknown."""
     if box is None:
         return True
     slack = 0.1 * norm(box.size)
@@ -195,9 +200,9 @@ def _covers(box: Bounds | None, other: Bounds) -> bool:
 
 
 def _visuals_around(robot: Robot, reach: Reaches, link: Link) -> Iterator[Bounds | None]:
-    """The boxes around the visuals of links that are attached or joined, in the frame of a link.
+    """Get the boxes of the visuals of attached and joined links, in the frame of a link.
 
-    An attached link with a collision of its own needs none of another.
+    Attached links with collisions of their own are skipped.
     """
     members = attached_links(robot, link)
     without = [member for member in members[1:] if not member[0].collisions]
@@ -207,7 +212,7 @@ def _visuals_around(robot: Robot, reach: Reaches, link: Link) -> Iterator[Bounds
 
 
 def _joined(robot: Robot, members: list[tuple[Link, Pose]]) -> Iterator[tuple[Link, Pose]]:
-    """The links that joints which move join to those of a body, all joints being at zero."""
+    """Get the links on moving joints of a body, with all joints at zero."""
     for member, pose in members:
         joints: list[tuple[Joint | None, str, Pose]] = [
             (joint, joint.child, pose_of(joint.origin))
@@ -223,20 +228,20 @@ def _joined(robot: Robot, members: list[tuple[Link, Pose]]) -> Iterator[tuple[Li
 
 
 def _odd_one(
-    robot: Robot, link: Link, seen: Vector, touches: Vector
+    robot: Robot, link: Link, visual_center: Vector, collision_center: Vector
 ) -> tuple[Literal["visual", "collision", ""], str]:
-    """Tell which is at the wrong place: two of visual, collision and center of mass agree.
+    """Find the misplaced one: two of visual, collision and center of mass agree.
 
-    A center of mass whose origin is not written agrees with every shape of which the same is true,
-    so it does not decide. Where it does not, an origin does that repeats the one of the joint.
+    A center of mass without an origin does not decide, because it agrees with each shape without
+    an origin. If it does not decide, a shape is misplaced if its origin repeats that of the joint.
     """
-    distance = math.dist(seen, touches)
+    distance = math.dist(visual_center, collision_center)
     com = pose_of(link.inertial.origin).translation if link.inertial is not None else ZERO
     if norm(com) > 1e-9 and link.mass:
-        to_seen, to_touches = math.dist(com, seen), math.dist(com, touches)
-        if to_touches <= _CLEAR * distance < to_seen:
+        to_visual, to_collision = math.dist(com, visual_center), math.dist(com, collision_center)
+        if to_collision <= _CLEAR * distance < to_visual:
             return "visual", "the center of mass is at its collision"
-        if to_seen <= _CLEAR * distance < to_touches:
+        if to_visual <= _CLEAR * distance < to_collision:
             return "collision", "the center of mass is at its visual"
     visual, collision = (
         _repeated(robot, link, link.visuals),
@@ -248,7 +253,7 @@ def _odd_one(
 
 
 def _repeated(robot: Robot, link: Link, shapes: list[Visual] | list[Collision]) -> str:
-    """What of the origins of shapes repeats what already displaces their link, as a clause."""
+    """Describe which part of the shapes' origins repeats the joint's origin, as a clause."""
     joint = robot.tree.parent_joint(link.name)
     step = pose_of(joint.origin).translation if joint is not None else IDENTITY.translation
     level = norm((*step[:2], 0.0))

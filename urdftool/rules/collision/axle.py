@@ -1,4 +1,4 @@
-"""About which line a wheel turns: what its joint, shapes, inertia and place say, and who is odd."""
+"""Determine the axle of a wheel from its joint, shapes, inertia and position."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from ..sides import sides
 
 _WHEEL = re.compile(r"wheel|tire|tyre|caster", re.IGNORECASE)
 _STEERS = re.compile(r"steer|swivel|rotation|yaw", re.IGNORECASE)
-PLACE = "its place opposite its twin"
+PLACE = "the position of its twin"
 VISUAL = "its visual"
 _ROUND = 0.05
-"""Part by which two lengths or moments of a wheel may differ that are about its axle."""
+"""Relative difference of two equal lengths or moments of a wheel."""
 
 
 class Saying(NamedTuple):
-    """What says about which line a wheel turns.
+    """A source of the direction of a wheel's axle.
 
     Attributes:
-        what: Which, in words.
-        along: The line, of length 1, in the frame of the wheel's link.
+        what: Name of the source.
+        along: Direction of the axle, of length 1, in the frame of the wheel's link.
     """
 
     what: str
@@ -41,13 +41,13 @@ class Wheel(NamedTuple):
     """A wheel with one cylinder to roll on.
 
     Attributes:
-        joint: That turns it.
-        link: The link of the cylinder.
+        joint: Joint of the wheel.
+        link: Link of the cylinder.
         shape: The cylinder.
         kind: The visual or collision of the cylinder.
-        axis: What the joint says.
-        cylinder: What the cylinder says.
-        others: What else says something.
+        axis: Direction of the joint axis.
+        cylinder: Direction of the cylinder.
+        others: Directions of other sources.
     """
 
     joint: Joint
@@ -60,12 +60,12 @@ class Wheel(NamedTuple):
 
 
 def wheel_of_joint(robot: Robot, joint: Joint) -> Wheel | None:
-    """Look at a joint that turns a wheel; None where it turns none, or nothing can be compared."""
+    """Get the wheel of a joint; None if the joint has none, or nothing can be compared."""
     link = robot.link.get(joint.child)
     if link is None or not _turns_round(joint) or _STEERS.search(link.name + joint.name):
         return None
     if joint.axis is not None and numbers(joint.axis.element.get("xyz"), 3) is None:
-        return None  # it could not be read, so that the default stands for it
+        return None  # an unreadable axis, which the default replaces
     members = attached_links(robot, link)
     if not any(_WHEEL.search(member.name + joint.name) for member, _ in members):
         return None
@@ -97,23 +97,23 @@ _Z: Vector = (0.0, 0.0, 1.0)
 
 
 def angle_between(one: Vector, other: Vector) -> float:
-    """Return the angle between two lines [degrees], at most 90."""
+    """Compute the angle between two lines [degrees], at most 90."""
     return math.degrees(math.acos(min(1.0, abs(dot(one, other)))))
 
 
 def agreeing(sayings: Sequence[Saying], along: Vector, within: float) -> list[Saying]:
-    """List those that say about the same line.
+    """Select the sources with about the same direction.
 
     Args:
-        sayings: All of them.
-        along: The line.
-        within: The angle that is allowed [degrees].
+        sayings: All sources.
+        along: The direction.
+        within: The tolerated angle [degrees].
     """
     return [saying for saying in sayings if angle_between(saying.along, along) <= within]
 
 
 def is_upright(robot: Robot, joint: Joint, along: Vector) -> bool:
-    """Whether a line of a joint's child points up in the frame of the root, all joints at zero."""
+    """Tell whether a line of a joint's child points up in the root frame, with joints at zero."""
     rotation = pose_of(joint.origin).rotation
     line = rotate(rotation, along)
     name, seen = joint.parent, {joint.child}
@@ -127,7 +127,7 @@ def is_upright(robot: Robot, joint: Joint, along: Vector) -> bool:
 
 
 def _turns_round(joint: Joint) -> bool:
-    """Whether a joint turns without end, also one that only lacks its limits."""
+    """Tell whether a joint is continuous, or revolute without limits."""
     if joint.type == "continuous":
         return True
     if joint.type != "revolute":
@@ -140,7 +140,7 @@ def _turns_round(joint: Joint) -> bool:
 
 
 def _of_visual(robot: Robot, members: Attached) -> Saying | None:
-    """What the one visual of a wheel says: a cylinder, or a mesh that is round."""
+    """Get the direction of the only visual of a wheel: a cylinder, or a round mesh."""
     shown = [(member, pose, visual) for member, pose in members for visual in member.visuals]
     discs = [one for one in shown if isinstance(one[2].geometry, Cylinder)]
     if len(discs) == 1:
@@ -158,7 +158,7 @@ def _of_visual(robot: Robot, members: Attached) -> Saying | None:
 
 
 def _of_inertia(members: Attached) -> Saying | None:
-    """What the inertia of a wheel says: two moments are equal, and the third is the largest."""
+    """Get the direction of a wheel's inertia: two moments are equal, and the third is larger."""
     body = combine_links(members)
     six = body.tensor
     if not body.mass or max(map(abs, (six[1], six[2], six[4]))) > _ROUND * max(
@@ -173,7 +173,7 @@ def _of_inertia(members: Attached) -> Saying | None:
 
 
 def _of_place(robot: Robot, joint: Joint) -> Saying | None:
-    """What the wheel on the other side says: the axle goes from one to the other."""
+    """Get the direction from a wheel to the wheel on the other side of the robot."""
     known = sides(robot)
     for pair in known.pairs:
         if joint.child not in (pair.left.name, pair.right.name):
@@ -191,7 +191,7 @@ def _of_place(robot: Robot, joint: Joint) -> Saying | None:
 
 
 def _odd_length(lengths: Vector, most: float) -> int | None:
-    """Return the axis of the one length that is less than two others that are equal."""
+    """Find the axis of the one length that is less than two equal ones."""
     for axis, length in enumerate(lengths):
         one, other = (value for i, value in enumerate(lengths) if i != axis)
         if abs(one - other) <= _ROUND * max(one, other) and length < most * min(one, other):

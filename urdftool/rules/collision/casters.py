@@ -1,4 +1,4 @@
-"""On what a robot of two driven wheels stands besides: casters, and how high they end."""
+"""Find the casters of a robot with two driven wheels, and their height."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _UP = (0.0, 0.0, 1.0)
 
 
 class Axle(NamedTuple):
-    """The wheels that are driven, where all joints are at zero, in the frame of the root [m].
+    """The driven wheels with all joints at zero, in the root frame [m].
 
     Attributes:
-        links: Their names.
-        middle: The middle of their lowest points.
-        ahead: A level direction across the axle, of length 1.
+        links: Names of their links.
+        middle: Mean of their lowest points.
+        ahead: Horizontal direction perpendicular to the axle, of length 1.
     """
 
     links: frozenset[str]
@@ -31,15 +31,15 @@ class Axle(NamedTuple):
 
 
 class Caster(NamedTuple):
-    """What a robot stands on beside its wheels.
+    """A support of the robot in addition to its driven wheels.
 
     Attributes:
         link: Its link.
-        above: How much higher than the driven wheels it ends [m].
-        ahead: How far it is before the axle, less than 0 behind [m].
-        moved: What places it: a joint, or a collision of a larger link.
-        height: Where that would have to be for it to end as low as the wheels do [m]; None where
-            its z does not point up.
+        above: Height of its lowest point above that of the driven wheels [m].
+        ahead: Distance in front of the axle, negative behind it [m].
+        moved: What positions it: a joint, or a collision of a larger link.
+        height: z of ``moved`` at which it ends as low as the wheels [m]; None if its z axis does
+            not point up.
     """
 
     link: Link
@@ -50,12 +50,12 @@ class Caster(NamedTuple):
 
     @property
     def tilt(self) -> float:
-        """By how much the robot lies tilted on it and its wheels [rad]."""
+        """Tilt of the robot if it stands on this caster and its wheels [rad]."""
         return math.atan2(self.above, abs(self.ahead))
 
 
 def axle_of(robot: Robot) -> Axle | None:
-    """The one axle that is driven; None where there is none, or it is not known how low it is."""
+    """Find the one driven axle; None if there is none, or its height is unknown."""
     found = pieces(robot)
     lows = []
     wheels = driven_joints(robot)
@@ -81,12 +81,12 @@ def axle_of(robot: Robot) -> Axle | None:
 
 
 def _body(robot: Robot, name: str) -> set[str]:
-    """The names of a link and of all that is rigidly attached to it."""
+    """Get the names of a link and of all links rigidly attached to it."""
     return {link.name for link, _ in attached_links(robot, robot.link[name])}
 
 
 def casters_of(robot: Robot, axle: Axle) -> Iterator[Caster]:
-    """The casters, by their names, and spheres that are the lowest of a robot but its wheels."""
+    """Find casters by their names, and spheres that are lower than all but the wheels."""
     found = pieces(robot)
     taken = set(axle.links)
     for name in robot.tree.order:
@@ -120,7 +120,7 @@ def casters_of(robot: Robot, axle: Axle) -> Iterator[Caster]:
 def _balls(
     robot: Robot, found: Pieces, taken: set[str]
 ) -> Iterator[tuple[Link, Collision, Vector]]:
-    """Spheres of links that stand still to the root, each with its lowest point."""
+    """Get spheres of links that are fixed to the root, each with its lowest point."""
     for link in robot.links:
         if link.name in taken or link.name not in found.poses:
             continue
@@ -148,7 +148,7 @@ def _caster(found: Pieces, link: Link, axle: Axle, low: Vector, moved: Joint | C
 
 
 def _hangs_rigidly(robot: Robot, link: str) -> bool:
-    """Whether nothing springs between a link and the root; a swivel may turn."""
+    """Tell whether no spring is between a link and the root; swivel joints are allowed."""
     for name in (link, *robot.tree.ancestors(link)):
         joint = robot.tree.parent_joint(name)
         if joint is not None and not joint.is_fixed and joint.type != "continuous":
@@ -157,7 +157,7 @@ def _hangs_rigidly(robot: Robot, link: str) -> bool:
 
 
 def _lowest(found: Pieces, links: set[str]) -> Vector | None:
-    """The lowest point of some links; None where they touch nothing, or a mesh was not read."""
+    """Compute the lowest point of links; None without collisions or with an unread mesh."""
     parts = [
         (link, piece)
         for body in found.bodies.values()
@@ -170,6 +170,6 @@ def _lowest(found: Pieces, links: set[str]) -> Vector | None:
 
 
 def _low(piece: Convex) -> Vector:
-    """The middle of a piece, at the height of its lowest point [m]."""
+    """Compute the center of a piece, at the height of its lowest point [m]."""
     x, y, z = piece.pose.translation
     return x, y, z - piece.reach(*rotate(transpose(piece.pose.rotation), (0.0, 0.0, -1.0)))

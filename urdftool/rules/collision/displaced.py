@@ -1,4 +1,4 @@
-"""One mesh file as visual and as collision geometry of a link, at two places."""
+"""Find mesh files that are visual and collision geometry of a link at two places."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from ..shape_changes import copy_origin
 APPLIES_TO = ("mesh",)
 
 _SYMMETRY = 0.03
-"""Largest difference of the extents of a mesh and of the mesh turned, relative to its diagonal, at
-which the two are one shape; the extents are known to about one percent."""
+"""Largest difference in extent between a mesh and the same mesh rotated, relative to its diagonal,
+at which the two count as one shape; the extents are known to about one percent."""
 
 
 class Displaced(NamedTuple):
@@ -26,24 +26,24 @@ class Displaced(NamedTuple):
     visual: Visual
     collision: Collision
     distance: float
-    """Between their origins [m]."""
+    """Distance between their origins [m]."""
     angle: float
-    """Between their orientations [rad]."""
+    """Angle between their orientations [rad]."""
 
 
 @rule(
     WARNING,
-    effects={"pybullet, mujoco": "make contact where the collision is, away from the visual"},
+    effects={"pybullet, mujoco": "make contact at the collision, away from the visual"},
 )
 def collision_mesh_displaced(
     robot: Robot, *, distance: float = 1e-4, angle: float = 1e-3
 ) -> Iterator[Problem]:
     """A link uses one mesh file as visual and as collision geometry, at different places.
 
-    The file has one frame, so both need the same ``<origin>``. Often the collision lost the
-    ``<origin>`` of the visual, or an angle was written into its ``xyz``. Contacts then occur where
-    nothing is drawn. A mesh that is only turned, and looks the same afterwards, such as a wheel, is
-    ignored. ``distance`` [m] and ``angle`` [rad] are the differences that are ignored.
+    The file has one frame, so both need the same ``<origin>``. Usually the collision lost the
+    ``<origin>`` of the visual, or an angle was written into its ``xyz``. Contacts then occur away
+    from the visible geometry. A mesh that looks the same after its rotation, such as a wheel, is
+    ignored. ``distance`` [m] and ``angle`` [rad] are the tolerated differences.
     """
     for link in robot.links:
         for found in displaced(robot, link, distance, angle):
@@ -51,13 +51,13 @@ def collision_mesh_displaced(
             assert isinstance(mesh, Mesh)
             apart = []
             if found.distance > distance:
-                apart.append(f"{found.distance:.3g} m away from it")
+                apart.append(f"offset by {found.distance:.3g} m")
             if found.angle > angle:
-                apart.append(f"turned by {math.degrees(found.angle):.3g}°")
+                apart.append(f"rotated by {math.degrees(found.angle):.3g}°")
             yield Problem(
                 link,
-                f"collision mesh of link '{link.name}' is the file of its visual, "
-                f"but {' and '.join(apart)}; give both the same <origin>",
+                f"collision of link '{link.name}' uses the mesh of its visual, but is "
+                f"{' and '.join(apart)}; give both the same <origin>",
                 at=found.collision.origin or found.collision,
                 data={"distance": found.distance, "angle": found.angle},
             )
@@ -65,7 +65,7 @@ def collision_mesh_displaced(
 
 @collision_mesh_displaced.fix(UNSAFE)
 def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
-    """Copy the origin of the one that the center of mass is at to the other."""
+    """Copy the origin that agrees with the center of mass to the other geometry."""
     link, robot = context.link(problem), context.robot
     found = next(
         (
@@ -77,27 +77,27 @@ def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Prop
     )
     com = link.inertial.origin.xyz if link.inertial and link.inertial.origin else None
     if found is None or com is None or not any(com):
-        return None  # a center of mass at the frame may be missing as well
+        return None  # the origin of the center of mass may be missing too
     boxes = [reaches(robot).shape(shape) for shape in (found.visual, found.collision)]
     if boxes[0] is None or boxes[1] is None:
         return None
     visual, collision = (math.dist(com, box.centre) for box in boxes if box is not None)
     if 2 * visual < collision:
         change = copy_origin(found.collision, found.visual)
-        return unsafe("give it the <origin> of the visual", change)
+        return unsafe("copy the <origin> of the visual", change)
     if 2 * collision < visual:
         change = copy_origin(found.visual, found.collision)
-        return unsafe("give the visual the <origin> of the collision", change)
+        return unsafe("copy the <origin> of the collision to the visual", change)
     return None
 
 
 def displaced(
     robot: Robot, link: Link, distance: float = 1e-4, angle: float = 1e-3
 ) -> list[Displaced]:
-    """List the collision meshes of a link that are not where the visual of the same file is.
+    """List the collision meshes of a link that are away from the visual of the same file.
 
     Each is paired with the nearest visual of that file without a collision of its own. A collision
-    mesh without such a visual is a deliberate copy, and not listed.
+    mesh without such a visual is an intended copy, and not listed.
     """
     free = [visual for visual in link.visuals if isinstance(visual.geometry, Mesh)]
     unmatched = []
@@ -137,13 +137,13 @@ def _same_mesh(one: object, other: object) -> bool:
 
 
 def _difference(visual: Visual, collision: Collision) -> tuple[float, float]:
-    """Distance [m] and angle [rad] between two origins."""
+    """Compute distance [m] and angle [rad] between two origins."""
     one, other = pose_of(visual.origin), pose_of(collision.origin)
     return math.dist(one.translation, other.translation), _angle(one.rotation, other.rotation)
 
 
 def _angle(one: Rotation, other: Rotation) -> float:
-    """Angle of the rotation between two orientations [rad], exact also where it is small."""
+    """Compute the angle between two orientations [rad], accurate for small angles too."""
     (_, b, c), (d, _, f), (g, h, _) = between = matrix_product(transpose(one), other)
     cosine = (between[0][0] + between[1][1] + between[2][2] - 1) / 2
     return math.atan2(math.hypot(h - f, c - g, d - b) / 2, cosine)
@@ -152,9 +152,9 @@ def _angle(one: Rotation, other: Rotation) -> float:
 def _coincide(
     robot: Robot, visual: Visual, collision: Collision, distance: float, angle: float
 ) -> bool:
-    """Whether two uses of one mesh are one shape in one place.
+    """Tell whether two uses of one mesh look the same.
 
-    Of a mesh that cannot be read and is turned this cannot be known, and is assumed.
+    For a mesh that is rotated and unreadable this is assumed.
     """
     apart, turned = _difference(visual, collision)
     if turned <= angle:
@@ -181,7 +181,7 @@ def _ways() -> list[Vector]:
 
 
 def _extent(points: list[Vector], pose: Pose, way: Vector) -> float:
-    """How far a placed mesh extends along a direction [m]."""
+    """Compute the extent of a placed mesh along a direction [m]."""
     back = transpose(pose.rotation)
     a, b, c = (sum(x * y for x, y in zip(row, way, strict=True)) for row in back)
     offset = sum(x * y for x, y in zip(pose.translation, way, strict=True))

@@ -1,4 +1,4 @@
-"""Collisions beside visuals."""
+"""Compare collision geometry with visual geometry."""
 
 from __future__ import annotations
 
@@ -19,18 +19,16 @@ from .displaced import displaced
 
 APPLIES_TO = ("collision",)
 
-_SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off they are"
+_SIMPLER = "'urdftool collision' creates simpler geometry, and measures its error"
 
 _FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORECASE)
-"""Names of meshes that were made for contacts, and are shown for want of another."""
+"""Names of meshes that were made for contact, and are shown because no other mesh exists."""
 
-_AXES = (
-    "; or a glTF was written with Z up, and RViz turns it: export it with Y up, or say --gltf-up z"
-)
+_AXES = "; if a glTF file has Z up, RViz rotates it: export it with Y up, or use --gltf-up z"
 
 
 def faces_of(use: MeshUse) -> int:
-    """Triangles of a binary STL file; 0 where that cannot be told cheaply."""
+    """Count the triangles of a binary STL file; 0 if that is slow or impossible."""
     if use.path is None or use.path.suffix.lower() != ".stl":
         return 0
     try:
@@ -43,7 +41,7 @@ def faces_of(use: MeshUse) -> int:
 
 
 def _is_small(use: MeshUse, least: float) -> bool:
-    """Whether an OBJ, or an STL of text, is known to have few triangles."""
+    """Tell whether an OBJ or ASCII STL file is known to have few triangles."""
     word = {".obj": b"f", ".stl": b"facet"}.get(use.path.suffix.lower()) if use.path else None
     if use.path is None or word is None or use.size is None or use.size > 400 * least:
         return False
@@ -58,23 +56,25 @@ def _is_small(use: MeshUse, least: float) -> bool:
 @rule(
     INFO,
     effects={
-        "moveit": "builds the collision shape from all triangles of the mesh",
-        "mujoco": "takes the convex hull",
-        "pybullet": "takes the convex hull; of an OBJ of several objects, a hull of each",
-        "pybullet (concave)": "collides with its triangles, because the collision is concave",
+        "moveit": "builds the collision geometry from all triangles of the mesh",
+        "mujoco": "uses the convex hull",
+        "pybullet": "uses the convex hull; for an OBJ with several objects, the hull of each",
+        "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
     },
 )
 def visual_mesh_as_collision(
     robot: Robot, description: Description, *, dense: float = 5000, least: float = 200
 ) -> Iterator[Problem]:
-    """A link collides with the mesh it is seen as.
+    """A link uses its visual mesh as collision geometry.
 
-    What is drawn has every screw; what touches needs the outline. Planning scenes have become sixty
-    times faster with simpler shapes. Where the mesh is known to have more than ``dense`` triangles
-    it is a warning; one of an STL or OBJ of fewer than ``least`` is as simple as a shape made for
-    contact, and is not reported. One finding for the robot names the links with such meshes, and
-    one counts the other links; a ``<collision>`` with the attribute ``concave``, of which PyBullet
-    keeps the triangles, is reported apart.
+    Visual meshes have details, such as screws, that contacts do not need and that make planning
+    and simulation slow: simpler shapes have made planning scenes up to 60 times faster. Use
+    primitives or simplified meshes.
+
+    A mesh with more than ``dense`` triangles is a warning. An STL or OBJ file with fewer than
+    ``least`` is as simple as one made for contact, and not reported. One finding names all links
+    with dense meshes, and one counts the others; a ``<collision>`` with the attribute ``concave``,
+    of which PyBullet keeps the triangles, is a finding of its own.
     """
     seen: dict[str, set[str]] = {}
     plain, heavy = [], []
@@ -102,26 +102,27 @@ def visual_mesh_as_collision(
 def _as_collision(
     heavy: list[tuple[MeshUse, int]], plain: list[MeshUse], effects: tuple[str, ...]
 ) -> Iterator[Problem]:
-    """Report visual meshes that are collision meshes: those of many triangles, and the others."""
+    """Report visual meshes used as collision geometry: dense ones, and the others."""
     if heavy:
         names = list(dict.fromkeys(use.link.name for use, _ in heavy))
         most = max(faces for _, faces in heavy)
         others = ", ".join(f"'{name}'" for name in names[1:])
         yield Problem(
             heavy[0][0].link,
-            f"link '{names[0]}' collides with its visual mesh of {heavy[0][1]} triangles"
-            + (f"; so do {others} with theirs, of up to {most}" if others else "")
-            + "; use primitives or simpler meshes",
+            f"link '{names[0]}' uses its visual mesh of {heavy[0][1]} triangles as collision "
+            "geometry"
+            + (f"; so do {others}, with up to {most}" if others else "")
+            + ". Use primitives or simpler meshes",
             at=heavy[0][0].mesh.element.attribute_place("filename"),
             hint=_SIMPLER,
             severity=WARNING,
             effects=effects,
         )
     if plain:
-        more = f" (and {len(plain) - 1} more links theirs)" if len(plain) > 1 else ""
+        more = f" (as {len(plain) - 1} more links do)" if len(plain) > 1 else ""
         yield Problem(
             plain[0].link,
-            f"link '{plain[0].link.name}' collides with its visual mesh{more}; "
+            f"link '{plain[0].link.name}' uses its visual mesh as collision geometry{more}; "
             "primitives or simpler meshes are faster",
             at=plain[0].mesh.element.attribute_place("filename"),
             effects=effects,
@@ -139,15 +140,15 @@ def collision_mesh_too_dense(
 ) -> Iterator[Problem]:
     """A collision mesh has very many triangles.
 
-    Nineteen of twenty collision meshes have fewer than ``most``. Each triangle is a candidate for a
-    contact in every step; a tenth of them gives the same contacts. MuJoCo refuses more than
-    ``mujoco``.
+    Each triangle is checked for contact in every step, and a tenth of them gives the same contacts.
+    95 % of collision meshes have fewer than ``most``. MuJoCo rejects more than ``mujoco``.
+    Simplify the mesh.
     """
-    told: set[str] = set()
+    checked: set[str] = set()
     for use in mesh_uses(robot, description):
-        if not use.collides or not use.exists or use.uri in told:
+        if not use.collides or not use.exists or use.uri in checked:
             continue
-        told.add(use.uri)
+        checked.add(use.uri)
         faces = faces_of(use)
         shared = any(
             other.uri == use.uri and not other.collides and other.link is use.link
@@ -157,7 +158,7 @@ def collision_mesh_too_dense(
         if is_too_many or (faces > most and (not shared or faces > mujoco)):
             yield Problem(
                 use.link,
-                f"collision mesh '{use.uri}' has {faces} triangles; simplify it to some thousand",
+                f"collision mesh '{use.uri}' has {faces} triangles; simplify it to a few thousand",
                 at=use.mesh.element.attribute_place("filename"),
                 data={"uri": use.uri, "triangles": faces, "limit": mujoco if is_too_many else most},
                 hint=_SIMPLER,
@@ -169,53 +170,61 @@ def collision_mesh_too_dense(
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, mujoco, pybullet": "collide with the shape as written",
+        "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
     },
 )
 def collision_much_larger_than_visual(
     robot: Robot, *, ratio: float = 2.0, least: float = 0.1
 ) -> Iterator[Problem]:
-    """A link collides far outside of its visual.
+    """The collision geometry of a link is far larger than its visual geometry.
 
-    Often a unit is wrong, or the diameter was written for the radius. The robot touches things that
-    look far away. It is reported where the box around the collisions is more than ``ratio`` times
-    as long as that around the visuals, and by more than ``least`` [m]; visuals of links that are
-    fixed to this one count as well. The disc that the blades of a rotor sweep is not reported, nor
-    a sphere of the same radius as a wheel, which touches the ground in one point on purpose.
+    Often a unit is wrong, or a diameter was written as the radius. The robot then makes contact at
+    a distance. It is reported if the bounding box of the collisions is more than ``ratio`` times as
+    long as that of the visuals, and by more than ``least`` [m]; visuals of links that are fixed to
+    this one count too. Ignored are the disc that the blades of a rotor sweep, and a sphere with
+    the radius of a wheel, which makes contact with the ground in one point on purpose.
     """
     reach = reaches(robot)
     for link in robot.links:
-        seen, touches = measured(reach, link)
-        if seen is None or touches is None or _larger(touches, seen, ratio, least) is None:
+        visual_box, collision_box = measured(reach, link)
+        if (
+            visual_box is None
+            or collision_box is None
+            or _larger(collision_box, visual_box, ratio, least) is None
+        ):
             continue
         if displaced(robot, link):
             continue
-        around = with_attached(reach, link, "visuals", seen, touches)
-        if around is None or (axis := _larger(touches, around, ratio, least)) is None:
+        around = with_attached(reach, link, "visuals", visual_box, collision_box)
+        if around is None or (axis := _larger(collision_box, around, ratio, least)) is None:
             continue
-        a, b = touches.size[axis], around.size[axis]
-        if _is_swept(robot, link, touches, around) or _is_ball_of_wheel(link, around):
+        a, b = collision_box.size[axis], around.size[axis]
+        if _is_swept(robot, link, collision_box, around) or _is_ball_of_wheel(link, around):
             continue
         yield Problem(
             link,
-            f"link '{link.name}' collides over {a:.3g} m along {'xyz'[axis]} and its visual spans "
-            f"{b:.3g} m"
-            + ("; is a diameter written for a radius?" if _is_doubled(link, touches, seen) else ""),
+            f"collision of link '{link.name}' spans {a:.3g} m along {'xyz'[axis]}, but its visual "
+            f"only {b:.3g} m"
+            + (
+                "; is the radius a diameter?"
+                if _is_doubled(link, collision_box, visual_box)
+                else ""
+            ),
             at=link.collisions[0].geometry or link.collisions[0],
             data={"collision": a, "visual": b, "axis": "xyz"[axis]},
         )
 
 
-def _larger(touches: Bounds, seen: Bounds, ratio: float, least: float) -> int | None:
-    """Return the first axis along which one box is far longer than another; None without one."""
-    for axis, (a, b) in enumerate(zip(touches.size, seen.size, strict=True)):
+def _larger(collision_box: Bounds, visual_box: Bounds, ratio: float, least: float) -> int | None:
+    """Find the first axis along which one box is far longer than another; None if there is none."""
+    for axis, (a, b) in enumerate(zip(collision_box.size, visual_box.size, strict=True)):
         if a > ratio * b and a - b > least:
             return axis
     return None
 
 
-def _is_swept(robot: Robot, link: Link, touches: Bounds, around: Bounds) -> bool:
-    """Whether a flat disc on a turning joint is as wide as the visual is long."""
+def _is_swept(robot: Robot, link: Link, collision_box: Bounds, around: Bounds) -> bool:
+    """Tell whether a flat disc on a rotating joint is as wide as the visual is long."""
     joint = robot.tree.parent_joint(link.name)
     shapes = [collision.geometry for collision in link.collisions]
     if joint is None or joint.type not in ("continuous", "revolute") or len(shapes) != 1:
@@ -223,11 +232,11 @@ def _is_swept(robot: Robot, link: Link, touches: Bounds, around: Bounds) -> bool
     disc = shapes[0]
     if not isinstance(disc, Cylinder) or disc.length > disc.radius:
         return False
-    return max(touches.size) <= 1.1 * max(around.size)
+    return max(collision_box.size) <= 1.1 * max(around.size)
 
 
 def _is_ball_of_wheel(link: Link, around: Bounds) -> bool:
-    """Whether the one collision is a sphere as wide as the visual along two axes."""
+    """Tell whether the only collision is a sphere as wide as the visual along two axes."""
     shapes = [collision.geometry for collision in link.collisions]
     if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
         return False
@@ -235,12 +244,12 @@ def _is_ball_of_wheel(link: Link, around: Bounds) -> bool:
     return sum(abs(size - width) <= 0.1 * width for size in around.size) >= 2
 
 
-def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:
-    """Whether a round collision is twice as wide as the visual, as with a diameter for a radius."""
+def _is_doubled(link: Link, collision_box: Bounds, visual_box: Bounds) -> bool:
+    """Tell whether a round collision is twice as wide as the visual, as with a wrong radius."""
     shapes = [collision.geometry for collision in link.collisions]
     if len(shapes) != 1 or not isinstance(shapes[0], Cylinder | Sphere):
         return False
-    ratios = [a / b for a, b in zip(touches.size, seen.size, strict=True) if b > 0]
+    ratios = [a / b for a, b in zip(collision_box.size, visual_box.size, strict=True) if b > 0]
     return sum(1.9 <= ratio <= 2.1 for ratio in ratios) >= 2
 
 
@@ -248,7 +257,7 @@ def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:
     INFO,
     effects={
         "gz, gazebo-classic, mujoco, pybullet": (
-            "collide with the shape as written: things pass through what is shown"
+            "use the collision geometry as written: objects penetrate the visual geometry"
         ),
     },
     group="robot",
@@ -256,87 +265,92 @@ def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:
 def collision_much_smaller_than_visual(
     robot: Robot, *, ratio: float = 4.0, speck: float = 0.002
 ) -> Iterator[Problem]:
-    """A link's collision is far smaller than its visual.
+    """The collision geometry of a link is far smaller than its visual geometry.
 
-    Usually a unit is wrong, or a scale. It is reported where the box around the visuals is more
-    than ``ratio`` times as long as that around the collisions along each of its sides; collisions
-    at that place of links that are fixed to this one count as well, and what reaches into the box
-    from others of the same rigid body. A box, cylinder or sphere of at most ``speck`` [m] is one on
-    purpose, to touch nothing, and is not reported.
+    Usually a unit or a scale is wrong. It is reported if the bounding box of the visuals is more
+    than ``ratio`` times as long as that of the collisions along each side. Collisions of links that
+    are fixed to this one count too, and the parts of other links of the rigid body inside of the
+    visuals' box. A box, cylinder or sphere of at most ``speck`` [m] is intended to avoid contact,
+    and not reported.
     """
     reach = reaches(robot)
     for link in robot.links:
-        seen, touches = measured(reach, link)
-        if seen is None or touches is None or not _smaller(touches, seen, ratio):
+        visual_box, collision_box = measured(reach, link)
+        if (
+            visual_box is None
+            or collision_box is None
+            or not _smaller(collision_box, visual_box, ratio)
+        ):
             continue
-        around = with_attached(reach, link, "collisions", touches, seen)
-        if around is None or not _smaller(_with_held(reach, link, around, seen), seen, ratio):
+        around = with_attached(reach, link, "collisions", collision_box, visual_box)
+        if around is None or not _smaller(
+            _with_held(reach, link, around, visual_box), visual_box, ratio
+        ):
             continue
         sizes = [size_of(collision.geometry) for collision in link.collisions]
         if all(size is not None and max(size) <= speck for size in sizes):
             continue
-        a, b = max(seen.size), max(touches.size)
+        a, b = max(visual_box.size), max(collision_box.size)
         yield Problem(
             link,
-            f"the visual of link '{link.name}' spans {a:.3g} m and its collision {b:.3g} m; is its "
-            "scale right?",
+            f"visual of link '{link.name}' spans {a:.3g} m, but its collision only {b:.3g} m; "
+            "check the scale of the collision",
             at=link.collisions[0].geometry or link.collisions[0],
             data={"collision": b, "visual": a},
         )
 
 
-def _with_held(reach: Reaches, link: Link, own: Bounds, seen: Bounds) -> Bounds:
-    """Join a box with the parts of attached collisions that lie in the box around the visuals."""
+def _with_held(reach: Reaches, link: Link, own: Bounds, visual_box: Bounds) -> Bounds:
+    """Join a box with the parts of attached collisions inside the bounding box of the visuals."""
     for member, at in reach.attached(link)[1:]:
         box = reach.body(link, "collisions", [(member, at)]) if member.collisions else None
-        if box is not None and box.meets(seen):
-            low = tuple(map(max, box.low, seen.low))
-            high = tuple(map(min, box.high, seen.high))
+        if box is not None and box.meets(visual_box):
+            low = tuple(map(max, box.low, visual_box.low))
+            high = tuple(map(min, box.high, visual_box.high))
             own = own.joined(Bounds(low, high))  # type: ignore[arg-type]
     return own
 
 
-def _smaller(touches: Bounds, seen: Bounds, ratio: float) -> bool:
-    """Whether one box is far shorter than another along each of its sides."""
-    sizes = zip(sorted(seen.size), sorted(touches.size), strict=True)
+def _smaller(collision_box: Bounds, visual_box: Bounds, ratio: float) -> bool:
+    """Tell whether one box is far shorter than another along each of its sides."""
+    sizes = zip(sorted(visual_box.size), sorted(collision_box.size), strict=True)
     return all(a > ratio * b for a, b in sizes)
 
 
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, mujoco": "collide with the shape where it is written",
+        "gz, gazebo-classic, mujoco": "use the collision geometry where it is written",
     },
 )
 def collision_off_visual(
     robot: Robot, description: Description, *, apart: float = 0.5
 ) -> Iterator[Problem]:
-    """The collision of a link is at another place than its visual.
+    """The collision of a link is offset from its visual.
 
-    One of the two has the wrong ``<origin>``. It is reported where the boxes around visuals and
-    collisions do not meet, or their middles are further apart than ``apart`` of the visual's
-    diagonal; a fifth of it where both are a primitive of the same size. Two of three decide which
-    one is wrong: visual, collision and center of mass. Where these do not, it is the one whose
-    origin repeats that of the joint. Shapes of different sizes are a remark, as a simple shape may
-    be at another place on purpose; one that the visual of a joined or attached link covers is not
-    reported.
+    One of the two has the wrong ``<origin>``. It is reported if the bounding boxes of visuals and
+    collisions do not overlap, or if their centers are further apart than ``apart`` of the visual's
+    diagonal; a fifth of that if both are a primitive of the same size. If two of visual, collision
+    and center of mass agree, the third is wrong; otherwise the one whose origin repeats that of the
+    joint. Geometry of different sizes is an info, because simple shapes may be offset on purpose.
+    Collisions that the visual of a joined or attached link covers are not reported.
     """
     for link in robot.links:
         found = compare_places(robot, link, apart)
         if found is None or displaced(robot, link):
             continue
         gltf = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
-        lying = gltf and description.gltf_up == "y"
+        is_rotated = gltf and description.gltf_up == "y"
         if found.odd:
-            what = f"the {found.odd} of link '{link.name}' is {found.distance:.3g} m off its "
-            what += f"{found.other}, and {found.why}; {found.remedy}"
+            what = f"{found.odd} of link '{link.name}' is offset from its {found.other} by "
+            what += f"{found.distance:.3g} m, and {found.why}; {found.remedy}"
         else:
             what = f"visual and collision of link '{link.name}' are {found.distance:.3g} m apart; "
             what += "give both the same <origin>" if found.alike else "check the <origin> of both"
         shape = link.visuals[0] if found.odd == "visual" else link.collisions[0]
         yield Problem(
             link,
-            what + (_AXES if lying else ""),
+            what + (_AXES if is_rotated else ""),
             at=shape.origin or shape,
             severity=None if found.alike else INFO,
             data={
@@ -350,7 +364,7 @@ def collision_off_visual(
 
 @collision_off_visual.fix(UNSAFE)
 def move_odd_shape(problem: Problem, context: FixContext) -> Proposal | None:
-    """Move the one at the wrong place to where the other is, if it is known which one that is."""
+    """Move the misplaced geometry to the other, if it is known which one is misplaced."""
     link, odd, xyz = context.link(problem), problem.data["odd"], problem.data["write"]
     if not odd or not (xyz or problem.data["same"]):
         return None
@@ -364,5 +378,5 @@ def move_odd_shape(problem: Problem, context: FixContext) -> Proposal | None:
         wrong, right = right, wrong
     if xyz:
         return unsafe(f'write xyz="{xyz}" for its {odd}', set_in_origin(wrong, "xyz", xyz))
-    what = f"give the {odd} the <origin> of the {right.element.tag}"
+    what = f"copy the <origin> of the {right.element.tag} to the {odd}"
     return unsafe(what, copy_origin(wrong, right))

@@ -1,4 +1,4 @@
-"""Links that are where others are: at rest, and when a joint moves."""
+"""Find links that overlap: with joints at rest, and when a joint moves."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from .pieces import Pieces, pieces
 APPLIES_TO = ("collision",)
 
 STEPS = 9
-"""Positions at which a joint is looked at within its range."""
+"""Number of positions at which a joint is checked within its range."""
 
 RESTING = 10_000
-"""Pairs of bodies that are looked at where all joints rest; more are passed over."""
+"""Largest number of pairs of bodies that are checked with joints at rest."""
 
 TRIES = 6000
-"""Pairs of bodies that are looked at closely; a robot with more is looked at in part."""
+"""Largest number of pairs of bodies whose convex pieces are compared."""
 
 PAIRS = 150_000
-"""Pairs of bodies, a joint apart, whose distance is looked at; beyond, joints are passed over."""
+"""Largest number of pairs of bodies, a joint apart, whose distance is computed."""
 
 _Pair = tuple[Link, Link, float]
-"""Two links that overlap, and how deep [m]."""
+"""Two links that overlap, and the depth [m]."""
 
 
 @rule(
@@ -42,20 +42,20 @@ _Pair = tuple[Link, Link, float]
             "pair"
         ),
         "mujoco (loaded)": (
-            "has contact between the two from the first step, once it loads the robot"
+            "has contact between the two from the first step, if it loads the robot"
         ),
     },
 )
 def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[Problem]:
-    """Two links that no joint joins overlap where all joints are at rest.
+    """Two links that no joint connects overlap with all joints at rest.
 
-    A planner finds the robot in collision before it has moved, and a simulator that lets links
-    collide throws them apart. Links that are fixed to each other count as one, neighbours overlap
-    at their joint, and pairs that an SRDF disables are let be. A mesh counts as its convex hull,
-    as in MuJoCo, which may overlap by a centimetre; the meshes themselves, which MoveIt compares,
+    A motion planner finds the start state in collision, and a simulator with self-collision pushes
+    the links apart. Links that are fixed to each other count as one, and links that share a joint
+    may overlap. Pairs disabled in the SRDF are ignored. A mesh counts as its convex hull, as in
+    MuJoCo, which may overlap by a centimeter; the meshes themselves, which MoveIt compares,
     may be apart. A joint that cannot be at zero rests in the middle of its range. ``deeper`` [m] is
-    the overlap that is let pass. One finding counts the pairs, the deepest first, and a second
-    those of which a hull of a mesh is one.
+    the tolerated overlap. One finding counts the pairs, the deepest first, and a second one the
+    pairs that include the convex hull of a mesh.
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
     found = list(resting(robot, deeper))
@@ -75,9 +75,9 @@ def _has_mesh(link: Link) -> bool:
 
 
 def _overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> Problem:
-    """Report the pairs of a robot that overlap, the deepest at the place of the second link."""
+    """Report the pairs of links that overlap, the deepest at the second link."""
     _, other, depth = pairs[0]
-    at_rest = "where all joints are at rest"
+    at_rest = "with all joints at rest"
     if len(pairs) == 1:
         message = f"{what} {_pairs(pairs)} overlap by up to {depth * 1000:.3g} mm {at_rest}"
     else:
@@ -95,7 +95,7 @@ def _pairs(found: list[_Pair]) -> str:
 
 
 def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float]]:
-    """Links of bodies that no joint joins and that overlap at rest, with the depth [m]."""
+    """Find pairs of links that no joint connects and that overlap at rest, with the depth [m]."""
 
     def compute() -> tuple[list[tuple[Link, Link, float]], bool]:
         known = pieces(robot)
@@ -110,14 +110,14 @@ _RESTING, _SWEPT = "overlaps at rest", "overlaps in motion"
 
 
 def _has_known_poses(robot: Robot) -> bool:
-    """Whether the origins of all joints are three numbers each; readers differ in others."""
+    """Tell whether all joint origins have three numbers; readers differ for others."""
     origins = (joint.origin.element for joint in robot.joints if joint.origin is not None)
     texts = (element.get(name) for element in origins for name in ("xyz", "rpy"))
     return all(text is None or numbers(text, 3) is not None for text in texts)
 
 
 def resting_in_part(robot: Robot) -> bool:
-    """Whether so many links are near each other at rest that not all pairs were looked at."""
+    """Tell whether only some pairs were checked, because too many links are near each other."""
     resting = robot.memo.peek(_RESTING)
     return resting is not None and not resting[1]
 
@@ -127,19 +127,19 @@ def resting_in_part(robot: Robot) -> bool:
     on=GAZEBO,
     effects={
         "gz, gazebo-classic": (
-            "get contacts between the two links from the first step (self_collide is passed on)"
+            "create contacts between the two links from the first step (they keep self_collide)"
         ),
     },
 )
 def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
-    """Links that overlap at rest are told to collide with each other.
+    """Links that overlap at rest have self-collision enabled.
 
-    With ``<self_collide>true</self_collide>`` Gazebo makes contacts between the links of a robot.
-    Two that overlap when it is spawned fly apart, and the rest with them. More than ``together``
-    pairs are one finding.
+    With ``<self_collide>true</self_collide>`` Gazebo creates contacts between the links of a robot.
+    Two links that overlap at spawn are pushed apart, and the robot moves or diverges. More than
+    ``together`` pairs are one finding.
     """
     whole = any(_says(block.value("self_collide")) for block in robot.extensions.get(None, ()))
-    told = {
+    enabled = {
         name
         for name, blocks in robot.extensions.items()
         if any(_says(block.value("selfCollide")) for block in blocks)
@@ -147,15 +147,15 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
     found = [
         (one, other, depth)
         for one, other, depth in resting(robot)
-        if whole or (one.name in told and other.name in told)
+        if whole or (one.name in enabled and other.name in enabled)
     ]
     many = len(found) > together
-    more = f"; so are {_pairs(found[1:])}" if many else ""
+    more = f"; so do {_pairs(found[1:])}" if many else ""
     for one, other, depth in found[:1] if many else found:
         yield Problem(
             other,
-            f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where the "
-            f"robot is spawned, and are told to collide with each other{more}",
+            f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm at spawn and "
+            f"have self_collide enabled, so Gazebo creates contacts{more}",
             at=other.collisions[0],
         )
 
@@ -173,14 +173,14 @@ def _says(value: str | None) -> bool:
 def link_inside_parent(
     robot: Robot, *, core: float = 0.5, together: float = 4
 ) -> Iterator[Problem]:
-    """A link sits in the middle of the one it hangs on.
+    """A link is in the middle of its parent link.
 
-    Neighbours overlap where a joint joins them, not with their middles. Mostly the ``<origin>`` of
-    the joint was lost, so that the child stands at the frame of its parent. A joint whose
-    ``<origin>`` says where it is, be it ``0 0 0``, is not reported, nor is one at right angles to
-    the joint before it, as in a wrist. It is told where the
-    middle of the child's collision is deeper inside the parent's than ``core`` of the parent's
-    half width, and both are of a size; more than ``together`` such joints are one finding.
+    Links that share a joint overlap at the joint, not with their centers. Usually the ``<origin>``
+    of the joint was lost, so that the child is at the frame of its parent. Joints with an
+    ``<origin>``, even ``0 0 0``, are not reported, nor joints at right angles to the joint before,
+    as in a wrist. It is reported if the center of the child's collision is deeper inside the
+    parent's than ``core`` of the parent's half width, and both have similar sizes. More than
+    ``together`` such joints are one finding.
     """
     known = pieces(robot)
     found = []
@@ -199,14 +199,14 @@ def link_inside_parent(
     for joint, parent in found[:1] if many else found:
         yield Problem(
             joint,
-            f"joint '{joint.name}' puts link '{joint.child}' into the middle of '{parent.name}'; "
-            f"does it lack its <origin>?{f' So do {names}' if many else ''}",
+            f"joint '{joint.name}' places link '{joint.child}' in the middle of '{parent.name}'; "
+            f"add its <origin>{f'. The same holds for {names}' if many else ''}",
             at=joint.origin or joint,
         )
 
 
 def _is_across(known: Pieces, joint: Joint) -> bool:
-    """Whether a joint's axis is at right angles to that of the moving joint before it."""
+    """Tell whether a joint axis is at right angles to that of the moving joint before it."""
     before = known.robot.tree.parent_joint(joint.parent)
     while before is not None and before.is_fixed:
         before = known.robot.tree.parent_joint(before.parent)
@@ -220,10 +220,10 @@ def _is_across(known: Pieces, joint: Joint) -> bool:
 
 
 def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, Link | None]:
-    """How deep the middle of a joint's child is inside the parent, in half widths of the parent.
+    """Compute how deep the center of a joint's child is in its parent, in half widths of it.
 
-    Negative outside; 1 at the very middle. A child much smaller than its parent is not looked at,
-    as what is built in is.
+    The result is negative outside, and 1 at the center. Children much smaller than the parent are
+    skipped, because they may be built into it.
     """
     best: tuple[float, Link | None] = (-1.0, None)
     own = known.robot.link[joint.child]
@@ -241,7 +241,7 @@ def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, L
 
 
 def _depth(around: Convex, at: tuple[float, float, float]) -> float:
-    """How deep a point is inside a shape, in its half widths: 1 in the middle, 0 on the surface."""
+    """Compute the depth of a point in a shape: 1 at the center, 0 on the surface."""
     x, y, z = (a - b for a, b in zip(at, around.pose.translation, strict=True))
     local = rotate(transpose(around.pose.rotation), (x, y, z))
     least = 1.0
@@ -259,29 +259,28 @@ def _depth(around: Convex, at: tuple[float, float, float]) -> float:
     INFO,
     default=False,
     effects={
-        "mujoco (contact)": "the contact stops the joint before its limit",
+        "mujoco (contact)": "stops the joint by the contact before its limit",
         "mujoco (neighbors)": (
-            "moves one link through the other: it makes no contact between parent and child"
+            "lets the two links interpenetrate: it makes no contact between parent and child"
         ),
     },
 )
 def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[Problem]:
-    """A joint moves a link into the one it is mounted on, within its limits.
+    """A joint moves a link into a link near its base, within its limits.
 
-    Many arms can reach themselves, and planners see to it that they do not. But where a single
-    joint, all others being at rest, runs a link through a body at most two joints above it, its
-    limits are too wide, or its place or axis is wrong. Each joint is looked at in nine positions
-    between its limits; a mesh counts as its convex hull. ``deeper`` [m] is the overlap that is let
-    pass. One finding names the joints, and a second those whose two links are parent and child. Of
-    a robot with very many links only the first joints are looked at, which ``analysis-incomplete``
-    says.
+    Many arms can collide with themselves, which planners avoid. But if a single joint, with all
+    others at rest, moves a link into a body at most two joints above it, its limits are too wide,
+    or its origin or axis is wrong. Each joint is checked at nine positions between its limits; a
+    mesh counts as its convex hull. ``deeper`` [m] is the tolerated overlap. One finding names the
+    joints, and a second one those whose two links are parent and child. For a robot with very many
+    links only the first joints are checked, which ``analysis-incomplete`` reports.
     """
     known = pieces(robot)
     taken = {
         frozenset((known.body_of[a.name], known.body_of[b.name])) for a, b, _ in resting(robot)
     }
     found = []
-    passed: list[Joint] = []
+    skipped: list[Joint] = []
     tries = pairs = 0
     for joint in robot.joints:
         if joint.type not in MOVABLE or joint.mimic is not None:
@@ -289,7 +288,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         if joint.child not in known.poses or joint.parent not in known.poses:
             continue
         if tries > TRIES or pairs > PAIRS:
-            passed.append(joint)
+            skipped.append(joint)
             continue
         below = sum(1 for _ in robot.tree.descendants(joint.child)) + 1
         pairs += below * max(len(known.bodies) - below, 1)
@@ -297,7 +296,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         tries += count
         if met is not None:
             found.append((joint, *met))
-    robot.memo.get(_SWEPT, lambda: passed)
+    robot.memo.get(_SWEPT, lambda: skipped)
     alike: dict[str, list[tuple[Joint, Link, Link, float]]] = {}
     for hit in found:
         alike.setdefault(_contact_in_mujoco(known, hit[1], hit[2]), []).append(hit)
@@ -305,42 +304,42 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         joint, one, other, where = hits[0]
         unit = "m" if joint.type == "prismatic" else "rad"
         others = [f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in hits[1:]]
-        more = f"; the same is true of {some_of(others, 'joints')}"
+        more = f"; also {some_of(others, 'joints')}"
         yield Problem(
             joint,
-            f"joint '{joint.name}' moves link '{one.name}' into '{other.name}' at {where:.3g} "
-            f"{unit}, which its limits allow{more if len(hits) > 1 else ''}",
+            f"joint '{joint.name}' can move link '{one.name}' into '{other.name}', at "
+            f"{where:.3g} {unit}; reduce its limits{more if len(hits) > 1 else ''}",
             at=joint.limit or joint,
             effects=(f"mujoco ({case})",) if reads_collisions(robot) else (),
         )
 
 
 def _contact_in_mujoco(known: Pieces, one: Link, other: Link) -> str:
-    """Tell which links MuJoCo lets pass: of parent and child, unless the parent is the world."""
+    """Select the case of MuJoCo: no contact of parent and child, unless the parent is world."""
     body, carrier = known.body_of[one.name], known.body_of[other.name]
     is_root = known.robot.tree.parent_joint(carrier) is None
     return "neighbors" if _carrier(known, body) == carrier and not is_root else "contact"
 
 
 def passed_over(robot: Robot) -> list[Joint]:
-    """Joints that were not moved to see where they take their links, because they are too many."""
-    passed: list[Joint] | None = robot.memo.peek(_SWEPT)
-    return passed or []
+    """List the joints that were not checked in motion, because there are too many."""
+    skipped: list[Joint] | None = robot.memo.peek(_SWEPT)
+    return skipped or []
 
 
 def _sweep(
     known: Pieces, joint: Joint, taken: set[frozenset[str]], deeper: float
 ) -> tuple[tuple[Link, Link, float] | None, int]:
-    """The first two links that meet as one joint moves, and where; and how many were tried."""
+    """Find the first two links that overlap as one joint moves, the position, and pairs tried."""
     robot, rest = known.robot, known.rest.get(joint.name, 0.0)
     moving = {joint.child, *robot.tree.descendants(joint.child)}
     bodies = {known.body_of.get(name, name) for name in moving}
     inside = [body for body in known.bodies if body in bodies]
-    along = known.followers(joint)  # they move at the same time, elsewhere
+    along = known.followers(joint)  # mimic joints move at the same time
     outside = [body for body in known.bodies if body not in bodies and body not in along]
     at = known.poses[joint.parent] @ pose_of(joint.origin)
     back = (at @ motion_of(joint, rest)).inverse()
-    apart = known.neighbours | taken
+    apart = known.neighbors | taken
     carrier = known.body_of[joint.parent]
     partners = {
         one: [
@@ -374,7 +373,7 @@ def _sweep(
 
 
 def _carrier(known: Pieces, body: str) -> str:
-    """Name the body that a body is mounted on with a joint; empty for the root."""
+    """Find the body that carries a body with a joint; empty for the root."""
     joint = known.robot.tree.parent_joint(body)
     return "" if joint is None else known.body_of.get(joint.parent, "")
 

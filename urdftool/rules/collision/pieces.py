@@ -1,4 +1,4 @@
-"""What of a robot can touch what: convex pieces of its links, and who is whose neighbour."""
+"""Represent the links of a robot as convex pieces, with the pairs of bodies that may touch."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from ...model.pose import IDENTITY, Pose, pose_of
 from ..mesh.outlines import outline_of, reaches
 
 HOLLOW = 0.01
-"""Overlap [m] of hulls of meshes that is let pass: what is hollow is full there. Of small parts it
-is a tenth of their radius."""
+"""Tolerated overlap of convex hulls of meshes [m], because hulls fill hollow parts; for small
+parts it is a tenth of their radius."""
 
 
 class Pieces:
-    """The collisions of a robot as convex pieces, where all joints rest.
+    """The collisions of a robot as convex pieces, with all joints at rest.
 
-    A joint rests at zero, or in the middle of its range where zero is outside. A mesh counts as its
-    hull. Links that are fixed to each other are one body; bodies that a joint joins are neighbours.
-    Of a robot with several roots the largest tree counts.
+    A joint rests at zero, or in the middle of its range if zero is outside. A mesh counts as its
+    convex hull. Links that are fixed to each other are one body; bodies that share a joint are
+    neighbors. For a robot with several roots the largest tree counts.
 
     Attributes:
-        bodies: The pieces of each body with their links, in the frame of the root.
+        bodies: The pieces of each body with their links, in the root frame.
         unread: Meshes that could not be read.
     """
 
     def __init__(self, robot: Robot) -> None:
-        """Place the pieces; meshes are read here."""
+        """Place the pieces; this reads the meshes."""
         self.robot = robot
         self.unread: list[str] = []
         self.rest = with_mimics(
@@ -44,10 +44,10 @@ class Pieces:
                 body = self.body_of.get(name, name)
                 self.bodies.setdefault(body, []).append((link, piece.moved(pose)))
         self.spheres = {name: _sphere(found) for name, found in self.bodies.items()}
-        self.neighbours = {frozenset((self._above(body), body)) for body in self.bodies}
+        self.neighbors = {frozenset((self._above(body), body)) for body in self.bodies}
 
     def _above(self, body: str) -> str:
-        """The next body above that can touch anything: a frame between two keeps nothing apart."""
+        """Find the next body above that has collision geometry."""
         joint, seen = self.robot.tree.parent_joint(body), {body}
         while joint is not None:
             body = self.body_of.get(joint.parent, joint.parent)
@@ -76,7 +76,7 @@ class Pieces:
     def deepest(
         self, one: str, other: str, moved: Pose = IDENTITY, least: float = 0.001
     ) -> tuple[Link, Link, float] | None:
-        """The two links of two bodies that overlap most, the first body being moved; or None."""
+        """Find the links of two bodies that overlap most, with the first body moved; or None."""
         found: tuple[Link, Link, float] | None = None
         for link, piece in self.bodies.get(one, ()):
             at = moved.transform(piece.pose.translation)
@@ -98,7 +98,7 @@ class Pieces:
         return found
 
     def followers(self, leader: Joint) -> set[str]:
-        """The bodies that joints move which mimic one, directly or not."""
+        """Find the bodies on joints that mimic a joint, directly or indirectly."""
         names = {leader.name}
         found: set[str] = set()
         more = True
@@ -113,21 +113,21 @@ class Pieces:
         return found
 
     def near(self, one: str, other: str) -> bool:
-        """Whether spheres around two bodies meet."""
+        """Tell whether the bounding spheres of two bodies overlap."""
         (a, r), (b, q) = self.spheres[one], self.spheres[other]
         return math.dist(a, b) < r + q
 
     def strangers(self, most: int) -> tuple[list[tuple[str, str]], bool]:
-        """Pairs of bodies that no joint joins and that may meet, in the order of the tree.
+        """List pairs of bodies without a common joint that may touch, in the order of the tree.
 
-        By sweeping along the axis on which they stand furthest apart, so that a thousand links are
-        not half a million pairs.
+        It sweeps along the axis with the largest distances, so that a thousand links do not give
+        half a million pairs.
 
         Args:
-            most: How many pairs are looked for.
+            most: Largest number of pairs.
 
         Returns:
-            The pairs, and whether they are all there are.
+            The pairs, and whether the list is complete.
         """
         number = {name: n for n, name in enumerate(self.bodies)}
         middles = [middle for middle, _ in self.spheres.values()]
@@ -143,7 +143,7 @@ class Pieces:
             start = ends[name][0]
             open_ = [other for other in open_ if ends[other][1] > start]
             for other in open_:
-                if self.near(name, other) and frozenset((name, other)) not in self.neighbours:
+                if self.near(name, other) and frozenset((name, other)) not in self.neighbors:
                     found.append((name, other) if number[name] < number[other] else (other, name))
             open_.append(name)
             if len(found) > most:
@@ -153,7 +153,7 @@ class Pieces:
 
 
 def _of_one_tree(robot: Robot, poses: dict[str, Pose]) -> dict[str, Pose]:
-    """Keep the links of the largest tree: where another stands relative to it is not known."""
+    """Keep the links of the largest tree; the relative poses of trees are unknown."""
     roots = robot.tree.roots
     if len(roots) < 2:
         return poses
@@ -163,7 +163,7 @@ def _of_one_tree(robot: Robot, poses: dict[str, Pose]) -> dict[str, Pose]:
 
 
 def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:
-    """A sphere around the pieces of a body."""
+    """Compute a sphere around the pieces of a body."""
     places = [piece.pose.translation for _, piece in found]
     x, y, z = (sum(values) / len(places) for values in zip(*places, strict=True))
     middle = x, y, z
@@ -171,7 +171,7 @@ def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:
 
 
 def _hull(points: list[Vector], scale: Vector, pose: Pose) -> Convex:
-    """The hull of a mesh as a convex piece in the frame of its link."""
+    """Compute the convex hull of a mesh as a convex piece in the frame of its link."""
     from ...geometry.convex_points import support_function_of
 
     a, b, c = scale
@@ -180,7 +180,7 @@ def _hull(points: list[Vector], scale: Vector, pose: Pose) -> Convex:
 
 
 def _rest(joint: Joint) -> float:
-    """Where a joint rests [rad, m]: at zero if it can."""
+    """Compute the rest position of a joint [rad, m]: zero if its limits allow it."""
     if joint.type not in MOVABLE or joint.mimic is not None:
         return 0.0
     lower, upper = limits_of(joint)
@@ -188,5 +188,5 @@ def _rest(joint: Joint) -> float:
 
 
 def pieces(robot: Robot) -> Pieces:
-    """The pieces of a robot; the same for all rules that ask."""
+    """Get the pieces of a robot, shared by all rules."""
     return robot.memo.get("pieces", lambda: Pieces(robot))

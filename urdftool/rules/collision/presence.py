@@ -1,4 +1,4 @@
-"""Links that nothing can touch."""
+"""Find links without collision geometry."""
 
 from __future__ import annotations
 
@@ -34,29 +34,28 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
     INFO,
     raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet", "moveit"), WARNING),
     effects={
-        _LOAD: "load the link without a collision: it touches nothing",
-        "moveit": "plans straight through it; MoveIt 2 warns",
-        "mujoco": "makes no geom of the link: it discards the visuals of a URDF",
+        _LOAD: "load the link without collision geometry: it makes no contact",
+        "moveit": "ignores it when planning; MoveIt 2 warns",
+        "mujoco": "creates no geom for the link, because it discards the visuals of a URDF",
     },
     group="robot",
 )
 def missing_collision(
     robot: Robot, *, smallest: float = 0.01, small: float = 0.03
 ) -> Iterator[Problem]:
-    """A link is seen but has no collision.
+    """A link has visual geometry but no collision geometry.
 
-    What has no collision is a ghost: it falls through the floor, hands close on nothing, planners
-    move the arm through it, and lasers that look at collision shapes see nothing. Primitives are
-    best; a copy of the visual mesh is better than nothing. A link that is meant to be so (a
-    sticker, a cable) says it with a comment,
-    ``urdftool-ignore[missing-collision]``. One that the collision of a link fixed to it covers is
-    not reported, nor one that turns inside the collision of the body it is mounted on, nor one that
-    slides along a rail that goes through it: the two would collide where the rail is fixed to the
-    world.
+    Such a link falls through the ground, grippers close without contact, motion planners move the
+    arm through it, and simulated lidars that use collision geometry do not see it. Add a
+    ``<collision>``, best with primitives; a copy of the visual mesh is better than nothing. If a
+    link needs no collision (a sticker, a cable), state it in a comment,
+    ``urdftool-ignore[missing-collision]``.
 
-    Links of at most ``smallest`` [m], markers of frames, links that are called virtual or dummy,
-    and those all of whose visuals are fully transparent are left out. Those smaller than ``small``
-    [m], and those within the box around the collisions of their rigid body, are no more than info.
+    Not reported are links that the collision of a link fixed to them covers, that rotate inside
+    the collision of their parent body, or that slide along a rail that goes through them. Links of
+    at most ``smallest`` [m], which mark frames, links named virtual or dummy, and those with fully
+    transparent visuals are skipped. Links smaller than ``small`` [m], and those inside the
+    bounding box of their rigid body's collisions, are an info.
     """
     seen = [link for link in robot.links if _seen_size(link) > smallest]
     ghosts = [link for link in seen if not link.collisions and not _is_invisible(robot, link)]
@@ -73,24 +72,24 @@ def missing_collision(
         is_minor = sizes[link.name] < small or _is_enveloped(robot, link)
         yield Problem(
             link,
-            f"link '{link.name}' has a visual and no collision; "
+            f"link '{link.name}' has a visual but no collision; "
             "add a <collision>, best with a primitive shape",
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
             severity=INFO if is_minor else None,
-            group="{count} links have a visual and no collision: {names}; "
+            group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )
 
 
 @missing_collision.full
 def robot_without_collision(robot: Robot) -> Iterator[Problem]:
-    """Report a robot of which nothing can touch: no link has a collision with an extent."""
+    """Report a robot without any collision geometry with an extent."""
     shapes = [shape.geometry for link in robot.links for shape in link.collisions]
     if not any(shape is not None and has_extent(shape) for shape in shapes):
         yield Problem(
             robot.element,
-            "no link has a <collision>: nothing of the robot can touch the ground; give each link "
-            "a <collision>",
+            "no link has a <collision>, so the robot cannot make contact with the ground; add a "
+            "<collision> to each link",
         )
 
 
@@ -98,27 +97,28 @@ def robot_without_collision(robot: Robot) -> Iterator[Problem]:
     WARNING,
     effects={
         _PASS: (
-            "load the link without a collision: it passes through the ground and through other "
+            "load the link without collision geometry: it passes through the ground and other "
             "bodies"
         ),
-        "moveit": "plans straight through it; MoveIt 2 warns",
-        "mujoco": "makes no geom of the link: it discards the visuals of a URDF",
+        "moveit": "ignores it when planning; MoveIt 2 warns",
+        "mujoco": "creates no geom for the link, because it discards the visuals of a URDF",
     },
 )
 def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
-    """One link has no collision, and the others of its kind have one.
+    """One link has no collision, but similar links have one.
 
-    Either links of the same name at other corners of the robot have one: the front hips of a
-    quadruped have none, its rear hips do. Or it is the only moving body of the robot with a visual
-    and without a collision. Then it was forgotten, or lost in an edit. Links that are fixed to each
-    other count as one body. A link with less than a hundredth of the mass of the others' median is
-    ignored.
+    Either links of the same name at other corners of the robot have one: the rear hips of a
+    quadruped, but not its front hips. Or it is the only moving body of the robot with a visual
+    and without a collision. Then it was forgotten, or lost in an edit: add a ``<collision>``.
+    Links that are fixed to each other count as one body. Links with less than a hundredth of the
+    median mass of the others are ignored.
     """
     discarded = not keeps_visuals(robot)
     for link, others in _odd_links(robot):
         yield Problem(
             link,
-            f"link '{link.name}' has a visual, but no collision; {others} one; add a <collision>",
+            f"link '{link.name}' has a visual but no collision, while {others} one; add a "
+            "<collision>",
             effects=[_PASS, "moveit", *["mujoco"] * discarded],
         )
 
@@ -126,7 +126,7 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
 @missing_collision.fix(UNSAFE)
 @odd_link_without_collision.fix(UNSAFE)
 def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
-    """Copy the visuals, if all are primitives; small links lack a collision on purpose."""
+    """Copy the visuals, if all are primitives; small links may lack a collision on purpose."""
     link = context.link(problem)
     if not link.visuals or link.collisions or problem.severity is INFO:
         return None
@@ -138,17 +138,17 @@ def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
         if change is None:
             return None
         changes.append(change)
-    return unsafe("collide with the shape that is seen", *changes)
+    return unsafe("copy its visuals as collisions", *changes)
 
 
 def _odd_links(robot: Robot) -> list[tuple[Link, str]]:
-    """Links without a collision whose likes have one, each with which have it."""
+    """Find links without a collision although similar links have one, with these links."""
     found = {link.name: others for link, others in (*_alone(robot), *_unlike(robot))}
     return [(link, found[link.name]) for link in robot.links if link.name in found]
 
 
 def _unlike(robot: Robot) -> Iterator[tuple[Link, str]]:
-    """Links without a collision of which most links at other corners have one."""
+    """Find links without a collision although most links at other corners have one."""
     families: dict[str, list[Link]] = {}
     for link in robot.links:
         if link.visuals:
@@ -168,7 +168,7 @@ def _unlike(robot: Robot) -> Iterator[tuple[Link, str]]:
 
 
 def _alone(robot: Robot) -> Iterator[tuple[Link, str]]:
-    """The one moving body without a collision, by its first link with a visual."""
+    """Find the only moving body without a collision, as its first link with a visual."""
     moving = [
         links
         for name, links in bodies(robot).items()
@@ -196,17 +196,16 @@ def _has_misspelt_collision(link: Link) -> bool:
     on=("gazebo-classic", "gz", "pybullet"),
     effects={
         "gz, gazebo-classic, mujoco, pybullet": (
-            "load the link without a shape: it sinks through the ground"
+            "load the link without collision geometry: it sinks through the ground"
         ),
     },
 )
 def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> Iterator[Problem]:
-    """A heavy wheel or foot has neither visual nor collision.
+    """A heavy wheel or foot has neither visual nor collision geometry.
 
-    The robot stands on it, and nothing is there to stand on: the body drops until the next shape
-    meets the ground. A wheel that is seen and does not collide is a case of ``missing-collision``;
-    this one cannot even be seen to be missing. ``lightest`` [kg] is the mass from which it
-    matters.
+    The robot cannot stand on it: the body drops until other collision geometry makes contact with
+    the ground. Add a ``<collision>``. A wheel with visual geometry is reported by
+    ``missing-collision`` instead. ``lightest`` [kg] is the smallest mass that is reported.
     """
     for link in robot.links:
         if link.collisions or link.mass < lightest or _seen_size(link) >= 0.01:
@@ -222,13 +221,13 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
         if level or (_CONTACT.search(link.name) and not joint.is_fixed):
             yield Problem(
                 link,
-                f"link '{link.name}' weighs {link.mass:g} kg, turns on '{joint.name}' and has "
-                "nothing to touch the ground with; add a <collision>",
+                f"link '{link.name}' ({link.mass:g} kg) on joint '{joint.name}' has no collision "
+                "geometry and cannot make contact with the ground; add a <collision>",
             )
 
 
 def _is_covered(robot: Robot, link: Link) -> bool:
-    """Whether the collision of an attached link covers a link's visual, but for a fifth."""
+    """Tell whether attached links' collisions cover at least four fifths of a link's visual."""
     attached = attached_links(robot, link)[1:]
     if not any(other.collisions for other, _ in attached):
         return False
@@ -244,7 +243,7 @@ def _is_covered(robot: Robot, link: Link) -> bool:
 
 
 def _is_invisible(robot: Robot, link: Link) -> bool:
-    """Whether a link is a virtual one, or every visual of it has a color whose opacity is 0."""
+    """Tell whether a link is virtual, or all its visuals have a color with opacity 0."""
     if _VIRTUAL.search(link.name):
         return True
     colors = {one.name: one.color for one in robot.materials if one.color is not None}
@@ -254,7 +253,7 @@ def _is_invisible(robot: Robot, link: Link) -> bool:
 
 
 def _is_enveloped(robot: Robot, link: Link) -> bool:
-    """Whether a link's visual is within the box around all collisions of its rigid body."""
+    """Tell whether a link's visual is inside the bounding box of its rigid body's collisions."""
     reach = reaches(robot)
     seen = reach.shapes(link.visuals)
     solid = [(other, at) for other, at in reach.attached(link) if other.collisions]
@@ -263,9 +262,9 @@ def _is_enveloped(robot: Robot, link: Link) -> bool:
 
 
 def _turns_inside(robot: Robot, link: Link) -> bool:
-    """Whether a body without a collision turns within one of the body it is mounted on.
+    """Tell whether a body without a collision rotates inside the body that carries it.
 
-    However far it turns, its visuals stay in a sphere about the origin of the joint.
+    At any angle, its visuals stay in a sphere about the origin of the joint.
     """
     reach = reaches(robot)
     members = reach.attached(link)
@@ -289,7 +288,7 @@ def _turns_inside(robot: Robot, link: Link) -> bool:
 
 
 def _slides_through(robot: Robot, link: Link) -> bool:
-    """Tell whether a rail, to which a slide moves a link, goes through the visuals of the link."""
+    """Tell whether the rail of a prismatic joint goes through the visuals of a link."""
     reach = reaches(robot)
     joint = robot.tree.parent_joint(link.name)
     rail = robot.link.get(joint.parent) if joint is not None else None
@@ -311,7 +310,7 @@ def _slides_through(robot: Robot, link: Link) -> bool:
 
 
 def _holds(box: Bounds, other: Bounds) -> bool:
-    """Whether a box holds another but for a fifth of each of its sides."""
+    """Tell whether a box contains another, except for a fifth of each side."""
     return all(
         min(c, d) - max(a, b) >= 0.8 * (c - a)
         for a, b, c, d in zip(other.low, box.low, other.high, box.high, strict=True)
@@ -319,7 +318,7 @@ def _holds(box: Bounds, other: Bounds) -> bool:
 
 
 def _seen_size(link: Link) -> float:
-    """The largest length of what a link shows [m]; 1 for a mesh, 0 for the marker of a frame."""
+    """Compute the largest length of a link's visuals [m]; 1 for a mesh, 0 for a frame marker."""
     largest = 0.0
     for visual in link.visuals:
         if visual.geometry is not None:
@@ -329,7 +328,7 @@ def _seen_size(link: Link) -> float:
 
 
 def _sizes(robot: Robot, links: list[Link]) -> dict[str, float]:
-    """What links show, by their names, with meshes measured as far as that is cheap [m]."""
+    """Compute the sizes of links' visuals by name [m]; meshes are measured if that is cheap."""
     sizes = {link.name: _seen_size(link) for link in links}
     with_mesh = {
         link.name
@@ -348,7 +347,7 @@ def _sizes(robot: Robot, links: list[Link]) -> dict[str, float]:
 
 
 def _shapes_below(robot: Robot, link: Link) -> Iterator[bool]:
-    """Whether there are shapes in the links below one."""
+    """Yield for each link below one whether it has geometry."""
     for name in robot.tree.descendants(link.name):
         below = robot.link.get(name)
         yield below is not None and bool(below.collisions or below.visuals)

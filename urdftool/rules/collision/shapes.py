@@ -1,4 +1,4 @@
-"""The shapes themselves."""
+"""Check the shapes themselves."""
 
 from __future__ import annotations
 
@@ -44,10 +44,10 @@ _SIZES = {
 def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     """A shape has a length of zero or less.
 
-    Often the 0 0 0 of a placeholder, or a subtraction in a macro that went below zero. Nothing of
-    it has contact or is visible where it is accepted. MuJoCo rejects a robot with such a collision.
-    It discards visuals, unless the robot says ``<compiler discardvisual="false"/>``; a visual is
-    otherwise a warning. Drake takes a sphere of radius 0 and no other.
+    Usually it is the 0 0 0 of a placeholder, or a negative difference in a macro. Readers that
+    accept it neither show it nor make contact with it. MuJoCo rejects a robot with such a
+    collision; for a visual it does so only with ``<compiler discardvisual="false"/>``, and without
+    that a visual is a warning. Drake accepts a sphere of radius 0, but no other shape.
     """
     keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
@@ -66,7 +66,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 link,
                 f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
-                "every length must be above 0",
+                "lengths must be positive",
                 at=element.attribute_place(name),
                 data={"attribute": name, "value": text, "collides": kind == "collision"},
                 alike=(name, element.tag, kind),
@@ -89,7 +89,8 @@ _INSTEAD = {
     ERROR,
     effects={
         _UNKNOWN_SHAPE: (
-            "load the link without its shapes, at least from this one on, with an error in the log"
+            "load the link without its geometry, at least from this shape on, with an error in "
+            "the log"
         ),
         "pybullet": "rejects the file, except for a <plane> with a normal, which it loads",
         "drake": "rejects the file",
@@ -97,12 +98,12 @@ _INSTEAD = {
     },
 )
 def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A geometry is of a shape that URDF does not have.
+    """A geometry has a shape that URDF does not define.
 
-    URDF has box, cylinder, sphere and mesh (and capsule from version 1.1). urdfdom says one line,
-    goes on, and leaves out every visual and collision of that link. A ``<plane>`` with a normal is
-    an extension of PyBullet: it is a remark where PyBullet is the only target, a warning where no
-    target is known, and an error for all others.
+    URDF defines box, cylinder, sphere and mesh (and capsule from version 1.1). urdfdom reports one
+    line, continues, and drops all visuals and collisions of the link. A ``<plane>`` with a normal
+    is an extension of PyBullet: it is an info if PyBullet is the only target, a warning without
+    known targets, and an error otherwise.
     """
     keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
@@ -119,7 +120,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 others = targets - {"pybullet"}
                 yield Problem(
                     link,
-                    f"link '{link.name}' has a <plane>, which only PyBullet reads; "
+                    f"only PyBullet reads the <plane> of link '{link.name}'; "
                     f"write {_INSTEAD[tag]} for other readers",
                     at=geometry,
                     severity=ERROR if others else INFO if targets else WARNING,
@@ -137,7 +138,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 
 @unsupported_shape.full
 def every_unsupported_shape(robot: Robot) -> Iterator[Problem]:
-    """Report each shape that URDF does not have, also one with a namespace and a plane."""
+    """Report each shape that URDF does not define, also with a namespace, and planes."""
     for link, shape in robot.shapes:
         if isinstance(shape.geometry, UnknownShape):
             message = _of_unknown_shape(link, shape, shape.geometry)
@@ -150,17 +151,17 @@ def _of_unknown_shape(link: Link, shape: Visual | Collision, geometry: UnknownSh
     if tag in VOCABULARY:
         return (
             f"<geometry> in a {shape.element.tag} of link '{link.name}' begins with <{tag}>, which "
-            "urdfdom takes for its shape; move it out of <geometry>"
+            "urdfdom reads as the shape; move it out of <geometry>"
         )
     near = nearest(tag, _KNOWN)
     right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
     remedy = f"did you mean '{near}'?" if near else f"write {right}"
-    return f"link '{link.name}' has a <{tag}>, which URDF does not know; {remedy}"
+    return f"URDF does not define the shape <{tag}> of link '{link.name}'; {remedy}"
 
 
 @unsupported_shape.fix(UNSAFE)
 def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the shape that is suggested; move what is not a shape out of the geometry."""
+    """Write the suggested shape; move what is not a shape out of the geometry."""
     element = element_at(problem)
     if element is None:
         return None
@@ -180,9 +181,9 @@ def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
 def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
     """A primitive shape is a thousand times too large: its lengths are in millimeters.
 
-    URDF has lengths in meters. A shape of more than ten meters may be meant; it is reported where
-    another shape of the link has a thousandth of its lengths, or where the mass of the link is that
-    of a body of a thousandth of the lengths, and in meters it would be thinner than air.
+    URDF lengths are in meters. Shapes above ten meters may be intended; it is reported if
+    another shape of the link has a thousandth of its lengths, or if the mass of the link fits a
+    thousandth of the lengths and would be lighter than air in meters.
     """
     for link in robot.links:
         for shape in shapes_in_millimeters(link):
@@ -195,7 +196,7 @@ def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
             right = " ".join(f'{name}="{_thousandth(element.get(name))}"' for name in names)
             yield Problem(
                 link,
-                f"<{element.tag}> in a {kind} of link '{link.name}' has {lengths}, as if in "
+                f"<{element.tag}> in a {kind} of link '{link.name}' has {lengths}, probably in "
                 f"millimeters; write {right}",
                 at=shape.geometry,
                 data={name: element.get(name) or "" for name in names},
@@ -203,7 +204,7 @@ def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
 
 
 def _thousandth(text: str | None) -> str:
-    """Write numbers divided by a thousand."""
+    """Divide numbers by a thousand."""
     return " ".join(f"{float(word) / 1000:.12g}" for word in (text or "").split())
 
 

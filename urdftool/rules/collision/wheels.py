@@ -1,4 +1,4 @@
-"""Wheels, and shapes that are too thin."""
+"""Check wheels, casters and thin shapes."""
 
 from __future__ import annotations
 
@@ -33,20 +33,19 @@ if TYPE_CHECKING:
     WARNING,
     effects={
         "gz, gazebo-classic, mujoco, pybullet": (
-            "collide with the cylinder as written, across the axle: the wheel turns over its edge"
+            "use the cylinder as written, across the axle: the wheel rolls over its edge"
         ),
     },
 )
 def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Problem]:
-    """The cylinder of a wheel does not lie along the axis of its joint.
+    """The cylinder of a wheel is not aligned with the axis of its joint.
 
-    A cylinder of URDF stands along z. A wheel that turns about y needs its collision turned over,
-    by ``rpy="1.5708 0 0"``; without it the wheel rolls on its flat side. Or the cylinder is right,
-    and the ``<axis>`` of the joint is not. The place of the twin on the other side of the robot
-    decides which one is odd, as the axle goes from one to the other; else the one that points up
-    is, as the axle of a wheel lies level; else the visual and the inertia decide. ``steepest``
-    [degrees] is the angle between the two that is allowed. A ``revolute`` joint without limits
-    counts as ``continuous``; one that steers is left out.
+    URDF cylinders point along z. The collision of a wheel that rotates about y needs
+    ``rpy="1.5708 0 0"``; without it the wheel rolls on its flat side. Or the cylinder is right and
+    the ``<axis>`` of the joint is wrong. The wheel on the other side of the robot decides,
+    because an axle connects both; else the one that points up is wrong, because axles are
+    horizontal; else visual and inertia decide. ``steepest`` [degrees] is the tolerated angle.
+    A ``revolute`` joint without limits counts as ``continuous``; steering joints are skipped.
     """
     for joint in robot.joints:
         wheel = wheel_of_joint(robot, joint)
@@ -67,11 +66,11 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
         elif right == "axis":
             same = any(one.what == VISUAL for one in agreeing(wheel.others, cylinder, 45))
             also = ", and that of its visual," if same else ""
-            what = f"{disc} is at {angle:.0f}° to {line}, which {why}; turn its <origin>{also} "
-            what += "until z lies along the axis"
+            what = f"{disc} is at {angle:.0f}° to {line}, which {why}; rotate its <origin>{also} "
+            what += "so that z points along the axis"
             data |= {"odd": "cylinder"}
         else:
-            what = f"{disc} is at {angle:.0f}° to {line}; turn one of the two"
+            what = f"{disc} is at {angle:.0f}° to {line}; rotate one of the two"
         in_joint = right == "cylinder"
         yield Problem(
             joint if in_joint else wheel.link,
@@ -84,11 +83,11 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
 def _which_is_right(robot: Robot, wheel: Wheel, within: float) -> tuple[str, str]:
     """Decide between the axis of a wheel's joint and its cylinder.
 
-    The place of its twin decides, as the two stand on one axle; without one, that the axle lies
-    level; without that, what the visual and the inertia say.
+    The position of its twin decides, because both are on one axle; without one, that axles are
+    horizontal; otherwise the directions of visual and inertia.
 
     Returns:
-        ``axis``, ``cylinder`` or nothing, and what speaks for it, as a clause.
+        ``axis``, ``cylinder`` or nothing, and the reason, as a clause.
     """
     lines = {"axis": wheel.axis.along, "cylinder": wheel.cylinder.along}
     found = {
@@ -102,7 +101,7 @@ def _which_is_right(robot: Robot, wheel: Wheel, within: float) -> tuple[str, str
         if len(choice) == 1:
             reasons = found[choice[0]]
             why = f"agrees with {_listed(reasons)}" if reasons else ""
-            return choice[0], why or "lies level, as axles do"
+            return choice[0], why or "is horizontal, as axles are"
     return "", ""
 
 
@@ -121,7 +120,7 @@ def _listed(reasons: list[str]) -> str:
 
 @wheel_cylinder_axis.fix(UNSAFE)
 def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the axis along the cylinder, or turn the cylinder along the axis: the odd one."""
+    """Write the wrong one: the axis along the cylinder, or the cylinder along the axis."""
     if isinstance(problem.subject, Joint):
         return _write_axis(problem.subject, problem.data["write"])
     link = context.link(problem)
@@ -142,7 +141,7 @@ def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal |
 
 
 def _write_axis(joint: Joint, text: str) -> Proposal | None:
-    """Write an ``<axis>``, behind the ``<child>`` where there is none."""
+    """Write an ``<axis>``, after the ``<child>`` if there is none."""
     if joint.axis is not None:
         change = set_attribute(joint.axis.element, "xyz", text)
     else:
@@ -157,21 +156,22 @@ def _write_axis(joint: Joint, text: str) -> Proposal | None:
     WARNING,
     effects={
         "gz, gazebo-classic, mujoco": (
-            "collide with the caster as written: the wheels spin in the air, or the robot leans"
+            "use the caster as written: the wheels spin without contact, or the robot tilts"
         ),
     },
 )
 def caster_height_mismatch(
     robot: Robot, *, deepest: float = 0.001, steepest: float = 3.0
 ) -> Iterator[Problem]:
-    """A caster ends lower or higher than the wheels that are driven.
+    """A caster ends lower or higher than the driven wheels.
 
-    With casters before and behind the axle that reach lower than the wheels, these hang in the air,
-    and the robot does not move. With casters on one side alone it lies tilted, and all that its
-    sensors see with it. Where a robot stands is worked out at zero of all joints, with the two
-    wheels of a drive, or the only two there are; casters are told by their names, and spheres that
-    are lower than all but the wheels are taken for such. Wheels and casters on springs are left
-    out. Let pass are ``deepest`` [m] of air below the wheels, and ``steepest`` [degrees] of tilt.
+    If casters in front of and behind the axle are lower than the wheels, the wheels do not touch
+    the ground and the robot does not move. With casters on one side only, the robot and its
+    sensors are tilted. The support is computed with all joints at zero, for the two wheels of a
+    drive, or the only two wheels. Casters are recognized by their names, and spheres that are
+    lower than all but the wheels count as casters. Wheels and casters on springs are skipped.
+    ``deepest`` [m] is the tolerated gap below the wheels, ``steepest`` [degrees] the tolerated
+    tilt.
     """
     if sum(joint.type == "continuous" for joint in robot.joints) < 2 or robot.tree.root is None:
         return
@@ -192,15 +192,15 @@ def caster_height_mismatch(
         air = -(one.above * abs(other.ahead) + other.above * abs(one.ahead)) / apart
         if air > deepest:
             low = min(firsts, key=lambda c: c.above)
-            yield _caster_problem(low, f"the wheels hang {air * 1000:.3g} mm in the air")
+            yield _caster_problem(low, f"the wheels are {air * 1000:.3g} mm above the ground")
             return
-    lying = min(firsts, key=lambda c: abs(c.tilt), default=None)
-    if lying is not None and degrees(abs(lying.tilt)) > steepest:
-        tilt = degrees(abs(lying.tilt))
-        yield _caster_problem(lying, f"the robot lies tilted by {tilt:.1f}°")
+    tilted = min(firsts, key=lambda c: abs(c.tilt), default=None)
+    if tilted is not None and degrees(abs(tilted.tilt)) > steepest:
+        tilt = degrees(abs(tilted.tilt))
+        yield _caster_problem(tilted, f"the robot is tilted by {tilt:.1f}°")
 
 
-def _caster_problem(caster: Caster, comes_of_it: str) -> Problem:
+def _caster_problem(caster: Caster, consequence: str) -> Problem:
     where = "below" if caster.above < 0 else "above"
     what = "joint" if isinstance(caster.moved, Joint) else "collision"
     data: dict[str, Any] = {"above": caster.above}
@@ -210,8 +210,8 @@ def _caster_problem(caster: Caster, comes_of_it: str) -> Problem:
         right = f"; write z = {data['write']} for its {what}"
     return Problem(
         caster.link,
-        f"caster '{caster.link.name}' ends {abs(caster.above) * 1000:.3g} mm {where} the lowest "
-        f"point of the driven wheels, so {comes_of_it}{right}",
+        f"caster '{caster.link.name}' ends {abs(caster.above) * 1000:.3g} mm {where} the driven "
+        f"wheels, so {consequence}{right}",
         at=caster.moved.origin or caster.moved,
         data=data,
     )
@@ -223,7 +223,7 @@ def _length(value: float) -> str:
 
 @caster_height_mismatch.fix(UNSAFE)
 def write_caster_height(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the height at which the caster ends where the wheels do."""
+    """Write the height at which the caster ends at the height of the wheels."""
     origin = element_at(problem)
     height = problem.data.get("write")
     if height is None or origin is None or origin.tag != "origin":
@@ -240,15 +240,15 @@ def write_caster_height(problem: Problem, context: FixContext) -> Proposal | Non
     default=False,
     effects={
         "gz, gazebo-classic, mujoco": (
-            "collide with the shape as written: fast things can pass through it in one step"
+            "use the shape as written: fast objects can pass through it in one step"
         ),
     },
 )
 def paper_thin_collision(robot: Robot, *, thinnest: float = 0.001) -> Iterator[Problem]:
-    """A collision is thinner than things move in a step.
+    """A collision is thinner than the distance that objects move in one step.
 
-    At a step of a millisecond what moves at 1 m/s goes 1 mm; a thinner wall may be on the other
-    side before a contact is seen. ``thinnest`` [m] is let pass.
+    At a time step of 1 ms an object at 1 m/s moves 1 mm: it can pass a thinner wall without
+    contact. ``thinnest`` [m] is the smallest tolerated thickness.
     """
     for link in robot.links:
         for collision in link.collisions:
@@ -258,7 +258,7 @@ def paper_thin_collision(robot: Robot, *, thinnest: float = 0.001) -> Iterator[P
             what = "box" if isinstance(collision.geometry, Box) else "collision"
             yield Problem(
                 link,
-                f"a {what} of link '{link.name}' is {min(size) * 1000:.3g} mm thin; "
+                f"a {what} of link '{link.name}' is only {min(size) * 1000:.3g} mm thick; "
                 f"make it {thinnest * 1000:g} mm or more",
                 at=collision.geometry,
                 data={"thickness": min(size), "limit": thinnest},

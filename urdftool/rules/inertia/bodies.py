@@ -1,4 +1,4 @@
-"""Rigid bodies as simulators make them: a link with all that is fixed to it, and its inertia."""
+"""Group links into rigid bodies as simulators do, and add up their inertia."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from ...model.elements import Link, Robot
 from ..gazebo.lumping import is_lumped
 
 LIGHT = 1e-3
-"""Part of a robot's mass below which the place of a link's mass does not matter."""
+"""Part of a robot's mass below which the position of a link's mass does not matter."""
 
 _SMALL_RADIUS = 0.01
-"""Radius of gyration [m] of a body below which its parts do not matter."""
+"""Radius of gyration [m] of a body below which the inertia of its parts does not matter."""
 
 _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 _TRUE = ("true", "1", "yes")
 
 
 def bodies(robot: Robot) -> dict[str, list[Link]]:
-    """The links of each rigid body, by the name of the link that the others hang on.
+    """Group the links by rigid body; the key is the name of the body's topmost link.
 
     Gazebo lumps a link into its parent over a fixed joint, unless the joint's ``<gazebo>`` says to
     keep it; nothing is lumped into ``world``.
@@ -68,7 +68,7 @@ def massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
 
 
 def mass_of(links: list[Link]) -> float:
-    """What a rigid body weighs [kg]."""
+    """Add up the mass of the links of a rigid body [kg]."""
     return sum(link.mass for link in links)
 
 
@@ -86,7 +86,7 @@ def body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
 
 
 def negligible(robot: Robot, light: float) -> set[str]:
-    """The links whose center of mass hardly matters to that of the robot, or of their body."""
+    """Find the links that hardly influence the center of mass of the robot or of their body."""
     least = light * mass_of(robot.links)
     return {
         link.name
@@ -97,7 +97,7 @@ def negligible(robot: Robot, light: float) -> set[str]:
 
 
 def slight_parts(robot: Robot) -> set[str]:
-    """The links whose inertia is next to nothing beside that of the body they are part of."""
+    """Find the links whose inertia is negligible compared with that of their rigid body."""
     found: set[str] = set()
     for links in bodies(robot).values():
         if len(links) > 1:

@@ -1,4 +1,4 @@
-"""The center of mass against the shapes of the link."""
+"""Compare centers of mass with the geometry of the links."""
 
 from __future__ import annotations
 
@@ -42,15 +42,18 @@ from .tensors import is_zero
 def com_outside_geometry(
     robot: Robot, *, margin: float = MARGIN, together: float = 6, light: float = LIGHT
 ) -> Iterator[Problem]:
-    """A link's centre of mass is outside the box around its shapes.
+    """A link's center of mass is outside the bounding box of its geometry.
 
-    The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
-    elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
-    diagonal that is let pass, of a mesh twice that. A mesh often shows the cover and not the motor
-    that weighs most, so there it is a warning only beyond half a diagonal; more than ``together``
-    that are none are one finding, which names the links. Shapes of attached links without a mass of
-    their own count, too. A link with less than the part ``light`` of the robot's mass is left out,
-    and one with less than ten times that part of the links that are fixed together.
+    A center of mass lies inside the convex hull of the body. Usual causes of other values are
+    millimeters in place of meters, or a position in another frame. In simulation the link then
+    tips over to the wrong side.
+
+    ``margin`` is the tolerated distance as a part of the bounding box's diagonal; twice that for
+    a mesh. A mesh often shows the cover without the motor, so it is a warning only beyond half a
+    diagonal, and an info before that. More than ``together`` infos are reported as one finding.
+    The geometry of attached links without a mass of their own counts too. Links with less than
+    ``light`` of the robot's mass, or ten times that part of the mass of their rigid body, are
+    skipped because they hardly influence it.
     """
     remarks: list[tuple[Link, Misfit]] = []
     reach = reaches(robot)
@@ -82,7 +85,7 @@ def com_outside_geometry(
             f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
             for link, found in remarks[1:]
         )
-        also = f"; so are those of {', '.join(others)}"
+        also = f"; also outside: {', '.join(others)}"
         del remarks[1:]
     yield from (_outside(link, found, also) for link, found in remarks)
 
@@ -90,7 +93,7 @@ def com_outside_geometry(
 def _outside(link: Link, found: Misfit, also: str = "") -> Problem:
     return Problem(
         link,
-        f"centre of mass of link '{link.name}' {found.sentence}{also}",
+        f"center of mass of link '{link.name}' {found.sentence}{also}",
         at=(link.inertial and link.inertial.origin) or link.inertial,
         severity=None if found.certain else INFO,
         alike=(found.axis, bool(also)),
@@ -111,14 +114,14 @@ def _outside(link: Link, found: Misfit, also: str = "") -> Problem:
 def inertial_not_at_com_suspect(
     robot: Robot, *, far: float = 0.2, light: float = LIGHT
 ) -> Iterator[Problem]:
-    """An ``<inertial>`` has no origin though the link's shapes lie to one side.
+    """An ``<inertial>`` has no origin, but the link's geometry is offset to one side.
 
-    The mass then sits at the frame of the link, for most on the axis of a joint, and gravity turns
-    nothing. Mostly the ``<origin>`` was forgotten. Where the inertia fits the shapes only about the
-    frame of the link, it was computed about the frame, too: then the ``<origin>`` has to be written
-    together with the inertia about the center of mass, because with the ``<origin>`` alone a joint
-    moves mass × distance² twice. A link with less than the part ``light`` of the robot's mass is
-    left out, and one with less than ten times that part of the links that are fixed together.
+    The mass is then at the origin of the link frame, often on the joint axis, so that gravity
+    exerts no torque on the joint. Usually the ``<origin>`` was forgotten. If the inertia fits the
+    geometry only about the link frame, it was computed about that frame: write the ``<origin>``
+    together with the inertia about the center of mass. With the ``<origin>`` alone, simulators
+    add mass × distance² a second time. Links with less than ``light`` of the robot's mass, or ten
+    times that part of the mass of their rigid body, are skipped because they hardly influence it.
     """
     reach = reaches(robot)
     skipped = negligible(robot, light)
@@ -129,7 +132,7 @@ def inertial_not_at_com_suspect(
         if inertial.origin is not None and any(inertial.origin.xyz):
             continue
         if inertial.inertia is not None and is_placeholder(link, inertial.inertia.six):
-            continue  # all of it is made up, which is said
+            continue  # placeholder-inertia reports it
         box = reach.link(link)
         if box is None or not _is_off_centre(link, box, far):
             continue
@@ -138,21 +141,21 @@ def inertial_not_at_com_suspect(
             continue
         noise = 1e-3 * math.dist(*box)
         digits = 1 - math.floor(math.log10(noise))
-        centre = [0.0 if abs(value) < noise else round(value, digits) for value in box.centre]
-        shown = " ".join(f"{value:g}" for value in centre)
+        center = [0.0 if abs(value) < noise else round(value, digits) for value in box.centre]
+        shown = " ".join(f"{value:g}" for value in center)
         remedy, of_inertia = _remedy(link, inertial, box)
         yield Problem(
             link,
-            f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
-            f"{shown} m; {remedy}",
+            f"mass of link '{link.name}' is at the origin of its frame, but its geometry is "
+            f"centered at {shown} m; {remedy}",
             at=inertial.origin if inertial.origin is not None else inertial,
             alike=of_inertia,
-            data={"center": centre},
+            data={"center": center},
         )
 
 
 def _remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
-    """Say what to write besides the center of mass, by the point that the inertia is about.
+    """Describe what to write, depending on the point that the inertia is about.
 
     Returns:
         The remedy, and which inertia it names: ``""``, ``"unknown"`` or ``"known"``.
@@ -162,19 +165,19 @@ def _remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
         return remedy, ""
     right = about_center(link, inertial, box.centre, box)
     if right is None:
-        return f"{remedy}, and the inertia about it", "unknown"
+        return f"{remedy}, and the inertia about that point", "unknown"
     if right == inertial.inertia.six:
         return remedy, ""
     return (
-        f"{remedy}, and the inertia, which fits the shapes only about the frame, about it: "
-        f"{attributes_text(right)}",
+        f"{remedy}, and the inertia about that point, because the written one fits only about "
+        f"the link frame: {attributes_text(right)}",
         "known",
     )
 
 
 @inertial_not_at_com_suspect.fix(UNSAFE)
 def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the center of the shapes, and the inertia about it where it is about the frame."""
+    """Write the center of the geometry, and the inertia about it if it is about the frame."""
     link = context.link(problem)
     box, inertial = box_of(link), link.inertial
     if box is None or inertial is None or inertial.inertia is None:
@@ -191,21 +194,21 @@ def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | No
         change = prepend_child(inertial.element, f'<origin xyz="{center}"/>')
     else:
         change = set_attribute(inertial.origin.element, "xyz", center)
-    return unsafe(f"put it at the center of its shapes, {center}", change)
+    return unsafe(f"move the center of mass to the center of the geometry, {center}", change)
 
 
 def _is_turned(link: Link) -> bool:
-    """Whether a mesh of a link is glTF, which readers turn from Y to Z up or do not."""
+    """Tell whether a mesh of a link is glTF, which only some readers rotate from Y-up to Z-up."""
     return any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
 
 
 def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:
-    """Whether the frame of a link is inside a box and far from its middle."""
+    """Tell whether the origin of a link is inside its bounding box, far from the center."""
     lower, upper = box
     slack = 0.02 * math.dist(lower, upper)
     if max(lower) - slack > 0 or min(upper) + slack < 0:
-        return False  # the centre of mass is outside, which is more than a suspicion
+        return False  # com-outside-geometry reports it
     solid = centre_of_solids(link)
     if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
-        return False  # what lies to one side is thin
+        return False  # the part to one side is thin
     return math.hypot(*box.centre) > far * math.dist(lower, upper)

@@ -1,4 +1,4 @@
-"""Changes that write an ``<inertial>``: what was meant, or what the shapes of the link have."""
+"""Changes that write an ``<inertial>``: the probably intended one, or that of the geometry."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from .proposals import attributes_text, proposal_of
 from .solids import DENSITY, box_of, only_shape, solid_tensor, solid_volume
 
 _SMALL = (0.01, 1e-6)
-"""Mass [kg] and moments [kg·m²] of a frame that a simulator wants to weigh something."""
+"""Mass [kg] and moments [kg·m²] for a frame to which a simulator requires a mass."""
 
 
 def inertial_of_shapes(link: Link, context: FixContext) -> tuple[float, Lines] | None:
-    """Compute the ``<inertial>`` of a link from its shapes, at the density of water.
+    """Compute the ``<inertial>`` of a link from its geometry, at the density of water.
 
     Returns:
-        Its mass [kg] and its lines; None where the shapes do not tell.
+        Its mass [kg] and its lines; None if the geometry does not determine them.
     """
     if depends_on_arguments(link.element, "visual", "collision"):
         return None
@@ -63,7 +63,7 @@ def give_small_inertial(link: Link) -> Proposal | None:
         return None
     mass, moment = _SMALL
     lines = _inertial_lines(mass, "0 0 0", (moment, 0.0, 0.0, moment, 0.0, moment))
-    return unsafe(f"give it {mass * 1000:g} g", prepend_child(link.element, *lines))
+    return unsafe(f"add a mass of {mass * 1000:g} g", prepend_child(link.element, *lines))
 
 
 def _inertial_lines(mass: float, center: str, six: SymmetricTensor, rpy: str = "") -> Lines:
@@ -85,7 +85,7 @@ def _weigh(link: Link, context: FixContext) -> tuple[float, Vector, SymmetricTen
 
 
 def write_meant_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write what was probably meant; else what the shapes of the link have at its mass."""
+    """Write the probably intended inertia; otherwise that of the geometry at the link's mass."""
     link = context.link(problem)
     inertial = link.inertial
     if inertial is None or inertial.inertia is None:
@@ -94,19 +94,19 @@ def write_meant_inertia(problem: Problem, context: FixContext) -> Proposal | Non
 
 
 def undo_slip(link: Link, inertial: Inertial, inertia: Inertia) -> Proposal | None:
-    """Write the tensor that one slip explains."""
+    """Write the tensor that a single mistake explains."""
     slip = proposal_of(link, inertial, inertia.six)
     return None if slip is None else write_tensor(link, slip.tensor)
 
 
 def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the inertia of the link's shapes at its mass, and its center, if none is written."""
+    """Write the inertia of the geometry at the link's mass, and the center if none is written."""
     link = context.link(problem)
     inertial = link.inertial
     if inertial is None or not inertial.mass or inertial.mass <= 0 or inertial.inertia is None:
         return None
     if any(is_computed(inertial.inertia.element, name) for name in COMPONENTS):
-        return None  # before meshes are read for nothing
+        return None  # avoids reading meshes in vain
     if depends_on_arguments(link.element):
         return None
     shape = only_shape(link)
@@ -125,7 +125,7 @@ def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal |
         transpose(pose_of(inertial.origin).rotation),
     )
     return write_tensor(
-        link, here, f"write the inertia of its shapes at {inertial.mass:g} kg", center
+        link, here, f"write the inertia of its geometry at {inertial.mass:g} kg", center
     )
 
 
@@ -138,13 +138,13 @@ def write_proposed_inertia(problem: Problem, context: FixContext) -> Proposal | 
 def write_tensor(
     link: Link, six: SymmetricTensor, why: str = "", center: Vector | None = None
 ) -> Proposal | None:
-    """Write six numbers, as far as they differ, and where the mass is.
+    """Write the components of a tensor that differ, and the center of mass.
 
     Args:
         link: The link.
         six: The tensor about the center of mass, along the axes of the inertial [kg·m²].
-        why: Description of the change; the numbers if empty.
-        center: Where the center of mass belongs in the frame of the link [m]; None if it stays.
+        why: Description of the change; the components if empty.
+        center: Center of mass in the link frame [m]; None to keep it.
     """
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or not is_consistent(six):
@@ -162,16 +162,16 @@ def write_tensor(
         if moved is None:
             return None
         if moved:
-            why += f", centred at {format_numbers(center, 6)}"
+            why += f", centered at {format_numbers(center, 6)}"
         changes += moved
     return unsafe(why, *changes) if changes else None
 
 
 def _move_center(link: Link, inertial: Inertial, center: Vector) -> list[Change] | None:
-    """Put a center of mass where it belongs that is not written, or is outside of the shapes.
+    """Write a center of mass that is missing or outside the bounding box.
 
     Returns:
-        None where it comes from an expression.
+        None if the current one comes from an expression.
     """
     now = pose_of(inertial.origin).translation
     box = box_of(link)

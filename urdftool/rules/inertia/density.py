@@ -1,4 +1,4 @@
-"""A mass compared with those of the other links of the robot."""
+"""Compare the mass of a link with the masses of the robot's other links."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from ..rule import WARNING, Problem, rule
 from .tensors import is_zero, tensors
 
 DENSER, DENSEST, FILLED, FITS, OTHERS = 3.0, 1.2, 0.35, 3.0, 4.0
-"""The thresholds of :func:`mass_out_of_line`."""
+"""Thresholds of :func:`mass_out_of_line`."""
 
 _THINNEST = 0.002
-"""Length [m] below which a bounding box is flat, and has no density."""
+"""Length [m] below which a bounding box counts as flat, without a density."""
 
 
 class _Body(NamedTuple):
-    """A link with its mass, compared with a solid box of its size."""
+    """A link, compared with a solid box of its mass and size."""
 
     link: Link
     density: float
-    """In the box [kg/m³]."""
+    """Mass by volume of the bounding box [kg/m³]."""
     filled: float
-    """Its moments of inertia, relative to those of a solid box of its mass."""
+    """Its moments of inertia, relative to those of the solid box."""
 
 
 @rule(WARNING, effects={"mujoco, pybullet, pinocchio": "take it as written"})
@@ -39,15 +39,16 @@ def mass_out_of_line(
     fits: float = FITS,
     others: float = OTHERS,
 ) -> Iterator[Problem]:
-    """One mass is several times too large for the robot's other links, and for its own inertia.
+    """One mass is several times too large, compared with the other links and its own inertia.
 
     The inertia of a link is proportional to its mass. If only the mass was mistyped, the link is
-    denser than the others and its inertia is too small for its mass, by the same factor. Both must
-    hold: the density in the bounding box is ``denser`` times the median of the other links and
-    ``densest`` times the largest of them; the moments of inertia, relative to a solid box, are less
-    than ``filled`` times their median; and the density that the inertia stands for is within a
-    factor ``fits`` of theirs. There must be at least ``others`` links to compare with. A mass that
-    is wrong together with its inertia looks like another material, and is not reported.
+    denser than the others and its inertia is too small for its mass, by the same factor. A mass
+    that is wrong together with its inertia looks like another material, and is not reported.
+
+    All of this must hold: the density in the bounding box is at least ``denser`` times the median
+    of the other links and ``densest`` times their maximum; the moments of inertia, relative to a
+    solid box, are less than ``filled`` times the median of the others; the density that fits the
+    inertia is within a factor ``fits`` of the others; and there are at least ``others`` links.
     """
     found = outlier(robot, denser, densest, filled, fits, others)
     if found is None:
@@ -56,21 +57,21 @@ def mass_out_of_line(
     mass = link.inertial.child_xml("mass") if link.inertial is not None else None
     yield Problem(
         link,
-        f"mass of link '{link.name}' is {link.mass:g} kg: {found.denser:.2g} times as dense as the "
-        f"other links, while its inertia is that of {found.fitting:.2g} kg; is the mass too large?",
+        f"mass of link '{link.name}' is {link.mass:g} kg, {found.denser:.2g} times as dense as the "
+        f"other links, but its inertia fits {found.fitting:.2g} kg; check the mass",
         data={"mass": link.mass, "fitting": found.fitting},
         at=mass.attribute_place("value") if mass is not None else None,
     )
 
 
 class Outlier(NamedTuple):
-    """A link whose mass alone is out of line."""
+    """A link whose mass alone does not fit the robot."""
 
     link: Link
     denser: float
     """Its density, relative to the median of the other links."""
     fitting: float
-    """The mass that its inertia fits, if it is as the others are [kg]."""
+    """The mass that fits its inertia, at the usual ratio of the other links [kg]."""
 
 
 def outlier(
@@ -81,7 +82,7 @@ def outlier(
     fits: float = FITS,
     others: float = OTHERS,
 ) -> Outlier | None:
-    """Find the one link of a robot whose mass is several times too large, if there is one.
+    """Find the one link of a robot whose mass is several times too large.
 
     The arguments are those of :func:`mass_out_of_line`.
     """
@@ -97,14 +98,14 @@ def outlier(
     if factor < denser or body.density < densest * max(one.density for one in rest):
         return None
     if not 0.3 < usual_filled < 2 or body.filled > filled * usual_filled:
-        return None  # the others are placeholders, or its own inertia goes with its mass
+        return None  # the others are placeholders, or the inertia fits the mass
     if not 1 / fits < body.density * body.filled / usual < fits:
         return None
     return Outlier(body.link, factor, body.link.mass * body.filled / usual_filled)
 
 
 def _bodies(robot: Robot) -> Iterator[_Body]:
-    """Links whose mass, inertia and size are known, without placeholders."""
+    """Get links with known mass, inertia and size; placeholders are skipped."""
     reach = reaches(robot)
     for link, _, six in tensors(robot):
         if link.mass <= 0 or is_zero(six, link.mass) or six[0] == six[3] == six[5]:

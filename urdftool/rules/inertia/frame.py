@@ -1,4 +1,4 @@
-"""Inertia tensors about the wrong point."""
+"""Detect inertia tensors about the wrong point."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from .solids import solid_tensor
 from .tensors import is_zero, tensors
 
 HOLLOW = 1.7
-"""Second moment of a body, relative to that of a solid box of its size, above which it is not
-plausible: a hollow box, with all mass in its walls, has 5/3."""
+"""Second moment of a body, relative to that of a solid box of its size, above which it is
+implausible: a hollow box, with all mass in its walls, has 5/3."""
 
 PLAUSIBLE = (0.3, 1.3)
-"""The same for a tensor that is accepted as the right one: a solid ball has 0.6, a hollow one 1."""
+"""The same for a tensor that is accepted as correct: a solid ball has 0.6, a hollow one 1."""
 
 BEYOND = 1.1
-"""Factor by which mass must be spread wider than the bounding box allows."""
+"""Factor by which the mass must extend beyond the bounding box."""
 
 UNIFORM = 0.1
-"""Distance of a tensor from that of a solid primitive, relative to it, at which the two agree."""
+"""Relative distance to the tensor of a solid primitive below which the two agree."""
 
 
 @rule(
@@ -40,28 +40,28 @@ UNIFORM = 0.1
             "take it as the tensor about the center of mass: a joint then moves mass × distance² "
             "twice"
         ),
-        "pybullet": "does so with URDF_USE_INERTIA_FROM_FILE, and computes its own otherwise",
+        "pybullet": "does the same with URDF_USE_INERTIA_FROM_FILE; otherwise it computes its own",
     },
 )
 def inertia_about_link_frame(robot: Robot) -> Iterator[Problem]:
-    """An inertia is given about the frame of the link instead of the center of mass.
+    """An inertia is given about the link frame instead of the center of mass.
 
     URDF expects the tensor about the center of mass, along the axes of the ``<inertial>``. CAD
     programs also print it about the output coordinate system, which is larger by mass × distance²
-    (the parallel axis theorem). The link then resists its joint as if it were much heavier.
+    (the parallel axis theorem). The joint then accelerates the link too slowly.
 
-    It is reported only where the tensor as written does not fit the geometry, and the one about the
-    center of mass does: where it equals that of a solid primitive, or where the written one is far
-    above that of a solid box of the link's size and either needs mass outside of the geometry, or
-    has products of inertia that the parallel axis theorem explains.
+    It is reported only if the tensor as written does not fit the geometry and the tensor about
+    the center of mass does: either it equals that of a solid primitive, or the written one is far
+    above that of a solid box of the link's size and requires mass outside of the geometry, or has
+    products of inertia that the parallel axis theorem explains.
     """
     for link, inertial, six in tensors(robot):
         right = about_com(link, inertial, six, reaches(robot).link(link))
         if right is not None:
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' fits its geometry only if it is about the link "
-                f"frame; readers take it about the center of mass: write {attributes_text(right)}",
+                f"inertia of link '{link.name}' fits its geometry only about the link frame, but "
+                f"readers take it about the center of mass; write {attributes_text(right)}",
                 at=inertial.inertia,
                 data={"inertia": list(right)},
             )
@@ -82,10 +82,10 @@ def about_com(
         link: A link with mass.
         inertial: Its inertial.
         six: The tensor as written [kg·m²].
-        box: The box around its geometry in its frame [m].
+        box: Bounding box of its geometry in its frame [m].
 
     Returns:
-        The tensor [kg·m²] along the axes of the inertial; None where the written one may be right,
+        The tensor [kg·m²] along the axes of the inertial; None if the written one may be correct,
         or is wrong in another way.
     """
     mass, pose = link.mass, pose_of(inertial.origin)
@@ -105,7 +105,7 @@ def about_com(
         if _distance(right, solid) <= UNIFORM * size and _distance(six, solid) >= 0.3 * size:
             return right
     whole = mass / 12 * sum(length * length for length in box.size)
-    if whole <= 0:  # of numbers so small that their product is none
+    if whole <= 0:  # the product of tiny numbers underflows
         return None
     written, meant = (sum(one[i] for i in (0, 3, 5)) / 2 / whole for one in (tensor, shifted))
     if written < max(HOLLOW, 2 * meant) or not PLAUSIBLE[0] <= meant <= PLAUSIBLE[1]:
@@ -119,18 +119,17 @@ def about_com(
 def about_center(
     link: Link, inertial: Inertial, center: Vector, box: Bounds
 ) -> SymmetricTensor | None:
-    """Compute the tensor about a center of mass that is not written, but known by the geometry.
+    """Compute the tensor about a center of mass that only the geometry determines.
 
     Args:
         link: A link with mass, whose inertial is at its frame.
         inertial: Its inertial.
-        center: Where its center of mass is by its geometry, in its frame [m].
-        box: The box around its geometry in its frame [m].
+        center: Center of mass by its geometry, in its frame [m].
+        box: Bounding box of its geometry in its frame [m].
 
     Returns:
-        The tensor [kg·m²] along the axes of the inertial: as written, where that fits the geometry
-        as it is, or shifted, where it fits the geometry about the frame of the link; None where
-        neither is clear.
+        The tensor [kg·m²] along the axes of the inertial: as written if it fits the geometry,
+        or shifted if it fits the geometry about the link frame; None if neither is clear.
     """
     if inertial.inertia is None:
         return None
@@ -155,7 +154,7 @@ def about_center(
 
 
 def _explains_products(tensor: SymmetricTensor, shifted: SymmetricTensor) -> bool:
-    """Whether products of inertia that are not small are much smaller about the other point."""
+    """Tell whether considerable products of inertia nearly vanish about the other point."""
     before, after = (abs(one[1]) + abs(one[2]) + abs(one[4]) for one in (tensor, shifted))
     return before > 0.05 * max(tensor[0], tensor[3], tensor[5]) and after < 0.5 * before
 
@@ -171,6 +170,6 @@ def _distance(one: SymmetricTensor, other: SymmetricTensor) -> float:
 
 
 def _norm(six: SymmetricTensor) -> float:
-    """The Frobenius norm of a symmetric matrix."""
+    """Compute the Frobenius norm of a symmetric matrix."""
     xx, xy, xz, yy, yz, zz = six
     return math.sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz))

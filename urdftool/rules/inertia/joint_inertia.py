@@ -1,4 +1,4 @@
-"""The inertia that a joint moves: what decides whether a step of a simulator is too long for it."""
+"""Compute the inertia that a joint moves, which limits the time step of a simulator."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from ...model.pose import Pose, rotate
 def joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
     """Compute the inertia that a torque of a joint accelerates, all other joints being locked.
 
-    That of everything the joint carries about its axis, and of everything that carries it, in
-    series: ``a b / (a + b)``.
+    The result is the inertia of everything below the joint, about its axis, in series with that
+    of everything above it: ``a b / (a + b)``.
 
     Args:
         robot: The robot.
@@ -19,7 +19,7 @@ def joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
         poses: The poses of the links in the frame of the root.
 
     Returns:
-        The inertia [kg·m²]; of a prismatic joint the mass [kg]; 0 where nothing that is carried
+        The inertia [kg·m²]; for a prismatic joint the mass [kg]; 0 if nothing below the joint
         has one.
     """
     carried = {joint.child, *robot.tree.descendants(joint.child)}

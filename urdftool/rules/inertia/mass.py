@@ -1,4 +1,4 @@
-"""Masses, and whether an inertial says all it has to."""
+"""Check masses, and whether inertials are complete."""
 
 from __future__ import annotations
 
@@ -32,20 +32,21 @@ _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
         ),
         "gz, gazebo-classic (with a mass)": "load the link without its visuals and collisions",
         "gz, gazebo-classic (without a mass)": (
-            "take 0 kg and drop its visuals and collisions; leave out a body without mass, and "
-            "all below it"
+            "take 0 kg and drop its visuals and collisions; omit a body without mass and its "
+            "descendants"
         ),
-        "check_urdf": "reports success nevertheless",
+        "check_urdf": "reports success anyway",
         "mujoco": "rejects the file",
         "pybullet (no element)": "rejects the robot",
         "pybullet, drake (a number)": "take 0 for a missing number",
     },
 )
 def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
-    """An ``<inertial>`` lacks its mass, its inertia or one of the six numbers.
+    """An ``<inertial>`` lacks its mass, its inertia or one of the six components.
 
-    urdfdom gives up on the link right there: its visuals and collisions are lost, its inertia is
-    zero, and the robot is reported as parsed all the same. A number that is zero has to be written.
+    urdfdom stops reading the link at this point: its visuals and collisions are lost, its inertia
+    is zero, and the robot is still reported as parsed. Write all components, also those that are
+    zero.
     """
     for link in robot.links:
         if link.inertial is None:
@@ -54,7 +55,7 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
         if missing:
             yield Problem(
                 link,
-                f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it",
+                f"<inertial> of link '{link.name}' lacks {', '.join(missing)}; add what is missing",
                 at=at,
                 effects=_effects_of(link.inertial),
                 data={"missing": missing},
@@ -63,7 +64,7 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
 
 @incomplete_inertial.full
 def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
-    """Report each inertial that lacks an element or a number, also where one is misspelt."""
+    """Report each inertial that lacks an element or a number, even if one is misspelled."""
     for link in robot.links:
         if link.inertial is None or link.inertial.xml is None:
             continue
@@ -73,7 +74,7 @@ def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
         if "inertia" in found:
             missing += [name for name in SIX if name not in found["inertia"].attributes]
         if missing:
-            text = f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it"
+            text = f"<inertial> of link '{link.name}' lacks {', '.join(missing)}; add it"
             data = {"missing": missing, "lacks_element": lacks_element}
             yield Problem(link, text, at=link.inertial, data=data)
 
@@ -115,7 +116,7 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
 
 @incomplete_inertial.fix(UNSAFE)
 def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write 0 for products of inertia that are not written."""
+    """Write 0 for missing products of inertia."""
     inertial = context.link(problem).inertial
     inertia = inertial.element.child("inertia") if inertial is not None else None
     if inertial is None or inertia is None or inertial.element.child("mass") is None:
@@ -130,7 +131,7 @@ def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | 
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic": "leave out the link and all below it (sdformat 12.3)",
+        "gz, gazebo-classic": "omit the link and its descendants (sdformat 12.3)",
         "gz, gazebo-classic (root)": (
             "load nothing: a model must have at least one link (sdformat 12.3)"
         ),
@@ -138,7 +139,7 @@ def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | 
         "gz, gazebo-classic, pinocchio (part)": "add the inertia to the body that it is fixed to",
         "mujoco": "rejects the file: mass of moving bodies must be positive",
         "mujoco (part)": "ignores the inertia",
-        "drake (part)": "makes the link weigh 1 kg, with a warning",
+        "drake (part)": "gives the link 1 kg, with a warning",
         "pybullet (root)": "fixes the root link to the world",
     },
     group="robot",
@@ -146,13 +147,14 @@ def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | 
 def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A rigid body has mass 0, or a link of mass 0 has an inertia.
 
-    A body that moves has a mass. Gazebo removes one without and everything below it, MuJoCo rejects
-    the file, PyBullet never moves it. What counts is the body: a link of mass 0 that is fixed to
-    one with a mass is merged into it and keeps its shapes, which is how a link says that it adds no
-    mass. A root of mass 0 is PyBullet's way to say that a model is static: it is an error for
-    Gazebo, and of a robot with joints that move a remark. An inertia next to a mass of 0 is added
-    to the body by Gazebo and pinocchio, and Drake makes such a link weigh 1 kg. Two links of mass 0
-    that are fixed to each other are one too many for Gazebo, which divides by the sum.
+    A moving body must have a mass. Gazebo removes one without mass and its descendants, MuJoCo
+    rejects the file, PyBullet never moves it. The mass of the whole rigid body counts: a link of
+    mass 0 that is fixed to a link with mass is merged into it and keeps its geometry.
+
+    A root of mass 0 makes a model static in PyBullet; Gazebo rejects it. For a robot with moving
+    joints it is an info. If the mass is 0 and the inertia is not, Gazebo and pinocchio add the
+    inertia to the body, and Drake gives the link 1 kg. Two links of mass 0 that are fixed to each
+    other break Gazebo's reader, which divides by the sum of their masses.
     """
     zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
     if not zero:
@@ -171,15 +173,15 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             if tensor is not None and any(tensor.six):
                 yield Problem(
                     link,
-                    f"mass of link '{link.name}' is 0 and its inertia is not; write its mass, or "
-                    "an inertia of zeros",
+                    f"link '{link.name}' has mass 0 but a nonzero inertia; write its mass, or set "
+                    "the inertia to zero",
                     at=at,
                     effects=_AS_PART,
                     alike="part",
                 )
             continue
         if link is not next(one for one in links if one in zero):
-            continue  # one finding for a body
+            continue  # one finding per body
         moved = joint is not None and not joint.is_fixed
         if not targets.isdisjoint(GAZEBO):
             case, severity = "removed", ERROR
@@ -188,7 +190,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             case, severity, so = "rejected", ERROR, "MuJoCo rejects the file"
         elif moved:
             case, severity = "moves", ERROR if link.collisions else WARNING
-            so = "a body that moves has a mass"
+            so = "a moving body must have a mass"
         elif robot.moving_joints and targets != {"pybullet"}:
             case, severity = "root", INFO
             so = "PyBullet fixes it to the world, and Gazebo loads nothing"
@@ -209,9 +211,9 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 
 @zero_mass.full
 def every_zero_mass(robot: Robot) -> Iterator[Problem]:
-    """Report each link with a mass of 0, also where it is a part of a body with a mass.
+    """Report each link with mass 0, even if it is part of a body with a mass.
 
-    A part without an inertia is harmless, and so is a body that no joint moves.
+    A part without inertia is harmless, and so is a body that no joint moves.
     """
     for link, value, place in _masses(robot):
         if value != 0.0 or link.name == "world" or link.inertial is None:
@@ -220,9 +222,9 @@ def every_zero_mass(robot: Robot) -> Iterator[Problem]:
         tensor, what = link.inertial.inertia, "; write its mass"
         if mass_of(members) > 0:
             is_harmless = tensor is None or not any(tensor.six)
-            what = "; it adds none to the links that it is fixed to"
+            what = "; the links that it is fixed to have a mass"
             if not is_harmless:
-                what = " and its inertia is not; write its mass, or an inertia of zeros"
+                what = " but its inertia is not; write its mass, or set the inertia to zero"
         else:
             joints = [robot.tree.parent_joint(one.name) for one in members]
             is_harmless = all(joint is None or joint.is_fixed for joint in joints)
@@ -242,12 +244,12 @@ def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
             continue
         yield Problem(
             link,
-            f"links '{parent.name}' and '{link.name}' are fixed to each other and have mass 0, at "
-            f"which sdformat 12.3 rejects the robot; write a mass of 1e-5 kg for '{link.name}'",
+            f"links '{parent.name}' and '{link.name}' are fixed to each other and have mass 0; "
+            f"sdformat 12.3 rejects the robot. Write a mass of 1e-5 kg for '{link.name}'",
             at=link.inertial,
             severity=INFO if targets.isdisjoint(GAZEBO) else ERROR,
-            group="{count} links of mass 0 are fixed to links of mass 0, at which sdformat 12.3 "
-            "rejects the robot; write a mass of 1e-5 kg for each: {names}",
+            group="{count} links of mass 0 are fixed to links of mass 0; sdformat 12.3 rejects the "
+            "robot. Write a mass of 1e-5 kg for each: {names}",
             effects=("gz, gazebo-classic (both)",),
             alike="pair",
         )
@@ -259,19 +261,19 @@ def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
         "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
         "pybullet, urdfdom, pinocchio": "accept it without a message",
-        "drake": "warns, and takes another inertia",
+        "drake": "warns, and uses another inertia",
     },
 )
 def negative_mass(robot: Robot) -> Iterator[Problem]:
     """A link's mass is negative.
 
-    It accelerates against the force. Gazebo and MuJoCo refuse it, PyBullet simulates it.
+    The link accelerates against the force. Gazebo and MuJoCo reject it, PyBullet simulates it.
     """
     for link, mass, place in _masses(robot):
         if mass < 0:
             yield Problem(
                 link,
-                f"mass of link '{link.name}' is {mass:g} kg; write {-mass:g}",
+                f"mass of link '{link.name}' is negative ({mass:g} kg); write {-mass:g}",
                 at=place,
                 data={"mass": mass},
             )
@@ -293,19 +295,20 @@ def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
 def implausible_mass(
     robot: Robot, *, heaviest: float = 1000.0, lightest: float = 1e-5
 ) -> Iterator[Problem]:
-    """A link weighs more than a tonne, or less than a hundredth of a gram.
+    """A mass is above ``heaviest`` [kg] or below ``lightest`` [kg].
 
-    Masses are in kilograms. Grams make a robot a thousand times too heavy. A frame without shapes
-    may weigh as little as its author wants: next to nothing is what a program asked for.
+    Masses are in kilograms; a mass in grams makes the link a thousand times too heavy. The limits
+    are one metric ton and 10 mg. Frames without geometry may be lighter, because simulators
+    require a mass even for them.
     """
     reach = reaches(robot)
     for link, mass, place in _masses(robot):
         if not lightest <= mass <= heaviest and _density(reach.link(link), link, mass)[0]:
-            continue  # its size tells more than its mass alone
+            continue  # implausible-density reports it more precisely
         if mass > heaviest:
-            what = f"{mass:g} kg; if that is grams, write {mass / 1000:g}"
+            what = f"{mass:g} kg; if the unit is grams, write {mass / 1000:g}"
         elif 0 < mass < lightest and (link.visuals or link.collisions):
-            what = f"{mass:g} kg, less than {lightest * 1e6:g} mg; are the units right?"
+            what = f"{mass:g} kg, less than {lightest * 1e6:g} mg; check the unit (kg)"
         else:
             continue
         yield Problem(
@@ -340,15 +343,17 @@ def implausible_density(
     most_of_box: float = 8000.0,
     together: float = 6,
 ) -> Iterator[Problem]:
-    """A link's mass does not go with its size.
+    """A link's density is implausible: its mass does not fit its size.
 
-    Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
-    Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres is mostly a mark for
-    a frame: no more than a remark, and not reported where it is fixed to links that weigh ten times
-    as much. A remark is also a link of at most ``dummy`` [kg] that is fixed to
-    another, as sensors have it to survive Gazebo. Of a mesh, or of several shapes, the box around
-    them counts: one that is all of steel has ``most_of_box``, and one lighter than air is hollow
-    beyond belief. More than ``together`` remarks are one, which names some of the links.
+    Usual materials have between ``least`` (foam) and ``most`` (lead) kg/m³; no material is denser
+    than ``most_possible`` (osmium). Usually a unit is wrong: grams, or millimeters.
+
+    For a mesh or several shapes, the density in their bounding box counts: a body of steel has
+    at most ``most_of_box``, and below ``least_possible`` it is lighter than air. It is only an info
+    if a material could have the density, for links smaller than ``small`` [m], which mostly mark
+    frames, and for links of up to ``dummy`` [kg] that are fixed to others, as sensor frames are for
+    Gazebo. Small links that are fixed to links of ten times their mass are skipped. More than
+    ``together`` infos are reported as one finding.
     """
     bounds = _DensityBounds(least, most, least_possible, most_possible, small, dummy, most_of_box)
     found = list(_find_densities(robot, bounds))
@@ -357,19 +362,19 @@ def implausible_density(
     also = ""
     if len(remarks) > together:
         names = [f"'{one.link.name}' {one.density:.3g}" for one in remarks[1:]]
-        also = f"; densities are as odd of {some_of(names, 'links')}"
+        also = f"; also implausible [kg/m³]: {some_of(names, 'links')}"
         del remarks[1:]
     yield from (_of_density(one, also) for one in remarks)
 
 
 @implausible_density.full
 def every_implausible_density(robot: Robot) -> Iterator[Problem]:
-    """Report each link whose mass does not go with its own size, whatever it is fixed to."""
+    """Report each link whose mass does not fit its own size, without a limit on their number."""
     return map(_of_density, _find_densities(robot, _DensityBounds(), of_body=False))
 
 
 class _DensityBounds(NamedTuple):
-    """The thresholds of :func:`implausible_density`, but ``together``."""
+    """Thresholds of :func:`implausible_density`, without ``together``."""
 
     least: float = implausible_density.thresholds["least"]
     most: float = implausible_density.thresholds["most"]
@@ -381,7 +386,7 @@ class _DensityBounds(NamedTuple):
 
 
 class _Density(NamedTuple):
-    """A link whose mass does not go with its size."""
+    """A link whose mass does not fit its size."""
 
     link: Link
     place: Place
@@ -389,11 +394,11 @@ class _Density(NamedTuple):
     density: float
     """Density [kg/m³]."""
     in_box: bool
-    """Whether it is that in the box around the shapes."""
+    """Whether the volume is that of the bounding box."""
     impossible: bool
-    """Whether no material has it."""
+    """Whether no material has this density."""
     too_heavy: bool
-    """Whether the mass is too large, and not too small."""
+    """Whether the mass is too large; otherwise it is too small."""
 
 
 def _find_densities(
@@ -430,11 +435,11 @@ def _find_densities(
 
 
 def _of_density(found: _Density, also: str = "") -> Problem:
-    link, where = found.link, " in the box around it" if found.in_box else ""
+    link, where = found.link, " in its bounding box" if found.in_box else ""
     return Problem(
         link,
-        f"link '{link.name}' weighs {link.mass:g} kg and has a density of {found.density:.3g} kg/m³"
-        f"{where}; water has 1000{also}",
+        f"density of link '{link.name}' is {found.density:.3g} kg/m³{where} (mass {link.mass:g} "
+        f"kg), but water has 1000; check its mass and size{also}",
         at=found.place,
         severity=WARNING if found.impossible else INFO,
         alike=(found.in_box, bool(also)),
@@ -443,7 +448,7 @@ def _of_density(found: _Density, also: str = "") -> Problem:
 
 
 def _is_mark(reach: Reaches, link: Link, mass: float, small: float) -> bool:
-    """Whether a link is smaller than ``small`` [m] and fixed to links that outweigh it by far."""
+    """Tell whether a link is smaller than ``small`` [m] and fixed to much heavier links."""
     box = reach.link(link)
     if box is None or max(box.size) >= small:
         return False
@@ -458,9 +463,10 @@ def _is_fixed(robot: Robot, link: Link) -> bool:
 def _is_right_for_body(
     reach: Reaches, link: Link, density: float, least: float, most: float
 ) -> bool:
-    """Whether a link of an odd density is a part of a body that is not odd.
+    """Tell whether a link of implausible density is part of a body with a plausible one.
 
-    Its mass is that of attached links without one, or most of the mass has a link of its own.
+    Either its mass includes that of attached links without one, or another link of the body has
+    most of the mass.
     """
     attached = reach.attached(link)[1:]
     if not attached:
@@ -474,10 +480,13 @@ def _is_right_for_body(
 
 
 def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:
-    """Density [kg/m³] of a link, and whether it is that in the box around its shapes.
+    """Compute the density [kg/m³] of a link, and whether it is that in its bounding box.
 
-    One primitive is taken solid. Several may overlap, so of them the box counts, as for a mesh,
-    which makes the density a lower bound. None where it is not known.
+    A single primitive counts as solid. For a mesh, and for several shapes, which may overlap, the
+    bounding box counts, which makes the density a lower bound.
+
+    Returns:
+        None as the density if it is unknown.
     """
     if mass <= 0:
         return None, False
@@ -493,12 +502,12 @@ def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None,
 
 
 def _is_incomplete(link: Link) -> bool:
-    """Whether readers reject the inertial of a link, or the robot, which is reported."""
+    """Tell whether readers reject the inertial of a link, which another rule reports."""
     return link.inertial is not None and link.inertial.inertia is None
 
 
 def _masses(robot: Robot) -> Iterator[tuple[Link, float, Place]]:
-    """Links with a mass that is written and can be read, and its place."""
+    """Yield links with a readable mass, each with the mass [kg] and its location."""
     for link in robot.links:
         if link.inertial is not None and link.inertial.mass is not None:
             mass = link.inertial.child_xml("mass")

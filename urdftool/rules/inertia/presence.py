@@ -1,4 +1,4 @@
-"""Whether a link has an inertia at all."""
+"""Check that links and rigid bodies have an inertia where simulators require it."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from .solids import DENSITY, solid_volume
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _MARKER = 1e-3  # [kg]
-_REMOVED = "Gazebo removes it and everything attached to it"
-_HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its shapes"
+_REMOVED = "Gazebo removes the link and everything attached to it"
+_HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its geometry"
 _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
 
 
@@ -33,27 +33,27 @@ _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-cla
     WARNING,
     raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet"), ERROR),
     effects={
-        "gz, gazebo-classic": "leave out the link and all below it, without a message",
+        "gz, gazebo-classic": "omit the link and its descendants, without a message",
         "gz, gazebo-classic (root)": "load nothing: a model must have at least one link",
         "gz, gazebo-classic (part)": (
-            "make one link of it and the link with mass that it is fixed to, named after the upper"
+            "lump it into the link with mass that it is fixed to; the upper name remains"
         ),
         "pybullet": "assumes 1 kg, and with URDF_USE_INERTIA_FROM_FILE 1 kg·m² about each axis",
-        "mujoco (collisions)": "assumes the mass of water in the shape of its collisions",
+        "mujoco (collisions)": "computes a mass from its collisions, at the density of water",
         "mujoco (no mass)": "rejects the file: mass of moving bodies must be positive",
         "pinocchio, KDL, drake": "take 0 kg",
     },
     group="robot",
 )
 def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A link with a shape has no ``<inertial>``.
+    """A link with geometry has no ``<inertial>``.
 
-    A body without mass cannot be accelerated, and each simulator substitutes something else: Gazebo
-    removes the body with everything below, PyBullet takes one kilogram, MuJoCo fills the collision
-    shapes with water. Where a fixed joint attaches the link to one with a mass, it is only a
-    remark, except for PyBullet and MuJoCo, which substitute a mass there as well. A frame without
-    shapes needs none; PyBullet gives it a kilogram nevertheless. A marker that would weigh less
-    than a gram is an info where no simulator gives it more.
+    A body without mass cannot be accelerated, and each simulator substitutes something different:
+    Gazebo removes the body and its descendants, PyBullet assumes 1 kg, MuJoCo computes a mass from
+    the collision geometry at the density of water. If a fixed joint attaches the link to one with
+    a mass, it is only an info, except for PyBullet and MuJoCo, which substitute a mass there too.
+    Frames without geometry need none, although PyBullet gives them 1 kg. A marker below 1 g at
+    the density of water is an info where MuJoCo substitutes the mass.
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
     tops: dict[str, Link] | None = None
@@ -78,12 +78,12 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             several = "; PyBullet gives each of them 1 kg"
         elif "mujoco" in targets and link.collisions and moves:
             outcome, severity = "water", INFO if _is_marker(link) else ERROR
-            so = "; MuJoCo gives it the mass of water"
-            several = "; MuJoCo gives each of them the density of water"
+            so = "; MuJoCo computes a mass at the density of water"
+            several = "; MuJoCo computes their masses at the density of water"
         elif link.name in heavy:
             others = [one for one, _ in attached_links(robot, link) if one.mass > 0]
             outcome, severity = "part", INFO
-            so = f", and is fixed to '{others[0].name}', which has one"
+            so = f", and is fixed to link '{others[0].name}', which has one"
             several = ", and are fixed to links that have one"
         elif held:
             outcome, severity = "static", INFO
@@ -112,7 +112,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
 
 @missing_inertial.full
 def every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
-    """Report each link with a shape and no inertial, whatever it is fixed to."""
+    """Report each link with geometry and no inertial, regardless of what it is fixed to."""
     for link in robot.links:
         if link.inertial is None and not link.is_frame and link.name != "world":
             text = f"link '{link.name}' has no <inertial> and so has no mass"
@@ -120,12 +120,12 @@ def every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
 
 
 def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
-    """Select what readers do with a link without mass; MuJoCo welds the root to the world.
+    """Select the effects on a link without mass; MuJoCo welds the root to the world.
 
     Args:
         robot: The robot.
         link: Its link without an ``<inertial>``.
-        in_gazebo: The case of Gazebo's effect; empty for that without one.
+        in_gazebo: Case of the effect in Gazebo; empty for the effect without a case.
     """
     body = [one for one, _ in attached_links(robot, link)]
     tops = [robot.tree.parent_joint(one.name) for one in body]
@@ -141,29 +141,29 @@ def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[s
 
 
 def _is_marker(link: Link) -> bool:
-    """Whether a link is so small that as water it would weigh less than a gram."""
+    """Tell whether a link is so small that at the density of water its mass is below 1 g."""
     shapes = link.collisions or link.visuals
     volumes = [solid_volume(shape.geometry) for shape in shapes]
     return all(volumes) and 1000 * sum(volumes) < _MARKER
 
 
 _LIGHTEST = 1e-5
-"""Mass [kg] below which a shape marks a place, and has no mass that is worth writing."""
+"""Mass [kg] below which a shape counts as a marker whose mass may be missing."""
 
 
 @missing_inertial.fix(UNSAFE)
 def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the inertial of the shapes at the density of water."""
+    """Add the inertial of the geometry at the density of water."""
     link = context.link(problem)
     if problem.severity is INFO:
-        return None  # the body has a mass, or needs none
+        return None  # the body has a mass, or does not need one
     from .corrections import inertial_of_shapes
 
     found = inertial_of_shapes(link, context)
     if found is None or found[0] < _LIGHTEST:
         return None
     change = prepend_child(link.element, *found[1])
-    return unsafe(f"add the <inertial> of its shapes at {DENSITY:g} kg/m³", change)
+    return unsafe(f"add the <inertial> of its geometry at {DENSITY:g} kg/m³", change)
 
 
 @rule(
@@ -171,20 +171,20 @@ def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
     raised=dict.fromkeys(_SIMULATED, ERROR),
     effects={
         "gz, gazebo-classic": (
-            "leave out the link and all below it, without a message (sdformat 12.3)"
+            "omit the link and its descendants, without a message (sdformat 12.3)"
         ),
         "mujoco": "rejects the file: mass of moving bodies must be positive",
         "pybullet": "gives it 1 kg",
-        "pinocchio": "its mass matrix is singular if nothing with mass is below it",
+        "pinocchio": "its mass matrix is singular if no descendant has mass",
     },
 )
 def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint moves a frame to which nothing with a mass is fixed.
 
-    A frame between two joints is fine for kinematics and impossible to simulate: a force on zero
-    mass has no finite answer. Gazebo leaves out the link and the whole branch on it; controllers
-    then report joints that are not found. MuJoCo refuses the file. Where the robot is for no
-    simulator, such a body is reported if it is the only one: its ``<inertial>`` was lost.
+    A frame between two joints works for kinematics, but not for simulation: a force on zero mass
+    has no finite acceleration. Gazebo omits the link and its descendants, and controllers then
+    report missing joints. MuJoCo rejects the file. Without a simulator among the targets, such a
+    body is reported only if it is the only one, because then its ``<inertial>`` was probably lost.
     """
     bare, heavy = [], 0
     for joint, name, links in moved_bodies(robot):
@@ -198,7 +198,7 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
 
 @massless_moving_body.full
 def every_massless_moving_body(robot: Robot) -> Iterator[Problem]:
-    """Report each body that a joint moves and that has no mass, also one with shapes."""
+    """Report each body without mass that a joint moves, also one with geometry."""
     for joint, name, links in moved_bodies(robot):
         if mass_of(links) <= 0:
             yield _of_moved_body(robot, joint, name, links[0])
@@ -208,21 +208,21 @@ def _of_moved_body(robot: Robot, joint: Joint, name: str, link: Link) -> Problem
     return Problem(
         link,
         f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
-        "give it a small <inertial>, or make the joint fixed",
+        "add a small <inertial>, or make the joint fixed",
         data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
     )
 
 
 @massless_moving_body.fix(UNSAFE)
 def add_small_inertial(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add an inertial of a few grams to the frame."""
+    """Add an inertial of 10 g to the frame."""
     from .corrections import give_small_inertial
 
     return give_small_inertial(context.link(problem))
 
 
 def moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
-    """List the rigid bodies on joints that are not fixed: joint, topmost link and links of each."""
+    """List the rigid bodies on moving joints, each as joint, name of the topmost link and links."""
     for name, links in bodies(robot).items():
         joint = robot.tree.parent_joint(name)
         if joint is not None and not joint.is_fixed:
@@ -230,7 +230,7 @@ def moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
 
 
 def has_bare_moved_body(robot: Robot) -> bool:
-    """Tell whether a joint moves a body without mass and shapes, which MuJoCo rejects."""
+    """Tell whether a joint moves a body without mass and geometry, which MuJoCo rejects."""
     moved = (links for joint, _, links in moved_bodies(robot) if joint.type in MOVING_TYPES)
     return any(map(_is_bare, moved))
 
@@ -239,11 +239,11 @@ def _below(robot: Robot, name: str) -> str:
     count = sum(1 for _ in robot.tree.descendants(name))
     if not count:
         return ""
-    return f", and {count} links hang on it" if count > 1 else ", and one link hangs on it"
+    return f", and {count} links below it" if count > 1 else ", and one link below it"
 
 
 def _is_bare(links: list[Link]) -> bool:
-    """Whether no link of a body has an inertial, or needs one because it is seen or touches."""
+    """Tell whether no link of a body has an inertial, nor geometry that requires one."""
     for link in links:
         misspelt = {} if link.xml is None else misspelt_children(link.xml)
         if not link.is_frame or "inertial" in misspelt.values():
@@ -259,10 +259,10 @@ def _is_bare(links: list[Link]) -> bool:
     },
 )
 def massless_root_body(robot: Robot) -> Iterator[Problem]:
-    """The root and all that is fixed to it have no mass, and joints move other links on it.
+    """The root and all links fixed to it have no mass, although joints move other links on it.
 
-    Gazebo starts at the root. A root without mass is left out and everything below with it, so no
-    link remains. Only a root called ``world`` may weigh nothing.
+    Gazebo begins at the root: it omits a root without mass and all its descendants, so that no
+    link remains. Only a root named ``world`` may have no mass.
     """
     for name, links in bodies(robot).items():
         joint = robot.tree.parent_joint(name)
@@ -277,7 +277,7 @@ def massless_root_body(robot: Robot) -> Iterator[Problem]:
 
 @massless_root_body.full
 def every_massless_root_body(robot: Robot) -> Iterator[Problem]:
-    """Report a root without mass, also one that has shapes or moves nothing."""
+    """Report a root without mass, also one with geometry or without moving joints."""
     for root in robot.tree.roots:
         links = [link for link, _ in attached_links(robot, root)]
         if root.name != "world" and mass_of(links) <= 0:
@@ -287,8 +287,8 @@ def every_massless_root_body(robot: Robot) -> Iterator[Problem]:
 def _of_root(root: Link) -> Problem:
     return Problem(
         root,
-        f"root link '{root.name}' has no mass, nor has anything fixed to it; "
-        "give it an <inertial>, or call it world if the robot is bolted down",
+        f"root link '{root.name}' and all links fixed to it have no mass; add an <inertial>, or "
+        "name the root 'world' if the robot has a fixed base",
     )
 
 
@@ -297,7 +297,7 @@ def _moves_something(robot: Robot, links: list[Link]) -> bool:
 
 
 def _is_broken(robot: Robot) -> bool:
-    """Whether names are there twice, or a joint names a link that is not there."""
+    """Tell whether names repeat, or a joint names a missing link."""
     twice = len(robot.link) < len(robot.links) or len(robot.joint) < len(robot.joints)
     return twice or any(
         name not in robot.link for joint in robot.joints for name in (joint.parent, joint.child)
@@ -305,14 +305,14 @@ def _is_broken(robot: Robot) -> bool:
 
 
 _SLIGHT = 1e-3
-"""Mass [kg] below which a root without shapes is a frame."""
+"""Mass [kg] below which a root without geometry is a frame."""
 
 
 @rule(
     INFO,
     on=ROS,
     effects={
-        "KDL": "warns at every start, and leaves that mass out of its dynamics",
+        "KDL": "warns at every start, and omits that mass from its dynamics",
         "robot_state_publisher": "prints the warning of kdl_parser",
         "mujoco": "welds the root to the world",
     },
@@ -320,21 +320,23 @@ _SLIGHT = 1e-3
 def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The root link has an ``<inertial>``.
 
-    KDL cannot give its root a mass: it prints a warning at every start of robot_state_publisher and
-    computes dynamics without it. A root without ``<inertial>``, joined by a fixed joint to the link
-    that was the root, avoids the warning. PyBullet gives such a root 1 kg, and with
-    ``URDF_USE_INERTIA_FROM_FILE`` 1 kg·m² about each axis, which a free base carries along; with
-    the target ``pybullet`` this remedy is therefore not given, and neither is the fix.
+    KDL does not support a mass of the root link: robot_state_publisher prints a warning at every
+    start, and KDL computes dynamics without this mass. Add a new root link without
+    ``<inertial>`` and attach the old root to it with a fixed joint.
+
+    PyBullet gives such a root 1 kg, and with ``URDF_USE_INERTIA_FROM_FILE`` 1 kg·m² about each
+    axis, which makes a robot with a free base heavier. Therefore neither the remedy nor the fix is
+    offered with the target ``pybullet``.
     """
     root = robot.tree.root
     if root is None or len(robot.tree.roots) > 1 or _is_broken(robot):
-        return  # another link may be the root once it is mended
+        return  # fixing these may change the root
     if root.inertial is not None and root.inertial.mass != 0.0:
-        remedy, hint = "; put a link without one above it, on a fixed joint", _IN_PYBULLET
+        remedy, hint = "; add a root link without one above it, on a fixed joint", _IN_PYBULLET
         if root.name == "world" or is_needless(robot, root):
             remedy = "; remove its <inertial>"
         if root.name == "world":
-            hint = ""  # PyBullet gives no mass to a root of this name
+            hint = ""  # PyBullet does not add mass to a root of this name
         elif "pybullet" in targets:
             remedy = hint = ""
         yield Problem(
@@ -350,10 +352,10 @@ _IN_PYBULLET = (
 
 
 def is_needless(robot: Robot, root: Link) -> bool:
-    """Whether a root is a frame with next to no mass, fixed to links that have one.
+    """Tell whether a root is a frame with negligible mass, fixed to links with a mass.
 
-    Where nothing with mass is fixed to it, Gazebo leaves out a root without ``<inertial>``, with
-    the whole robot.
+    If nothing with mass is fixed to it, Gazebo omits a root without ``<inertial>`` and the whole
+    robot with it.
     """
     if root.mass >= _SLIGHT or root.visuals or root.collisions:
         return False
@@ -362,7 +364,7 @@ def is_needless(robot: Robot, root: Link) -> bool:
 
 @root_link_has_inertia.fix(UNSAFE)
 def add_root_link(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add a link without inertial above the root, on a fixed joint; remove a needless one."""
+    """Add a link without inertial above the root, on a fixed joint; or remove a needless one."""
     robot, link = context.robot, context.link(problem)
     if link.element.parent is not robot.element or link.inertial is None:
         return None
@@ -386,7 +388,7 @@ def add_root_link(problem: Problem, context: FixContext) -> Proposal | None:
             "</joint>",
         ),
     )
-    what = f"put a link '{name}' without <inertial> above it, on a fixed joint"
+    what = f"add a link '{name}' without <inertial> above it, on a fixed joint"
     return unsafe(f"{what}; PyBullet gives it 1 kg", Change("first", robot.element, blocks=made))
 
 
@@ -394,19 +396,22 @@ def add_root_link(problem: Problem, context: FixContext) -> Proposal | None:
     INFO,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
-            "move the mass, and show nothing of it"
+            "move the mass, without showing it"
         ),
     },
     default=False,
 )
 def mass_without_geometry(robot: Robot) -> Iterator[Problem]:
-    """A rigid body has a mass and no shape.
+    """A rigid body has a mass, but neither visual nor collision geometry.
 
-    Sensor frames get a gram to survive Gazebo; otherwise a visual was forgotten. A link whose mass
-    belongs to the shapes of a link that is fixed to it is not reported.
+    Either a visual was forgotten, or a sensor frame was given a mass because Gazebo omits links
+    without mass. If the mass belongs to the geometry of a link that is fixed to it, the link is
+    not reported.
     """
     for link in robot.links:
         if link.mass <= 0 or link.visuals or link.collisions:
             continue
         if not any(one.visuals or one.collisions for one, _ in attached_links(robot, link)):
-            yield Problem(link, f"link '{link.name}' weighs {link.mass:g} kg and has no shape")
+            yield Problem(
+                link, f"link '{link.name}' has a mass of {link.mass:g} kg but no geometry"
+            )

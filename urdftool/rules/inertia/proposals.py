@@ -1,4 +1,4 @@
-"""What was probably meant by a wrong tensor, and how a message says it."""
+"""Find the probably intended tensor, and describe it in messages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .solids import box_of, solid_kind, solid_tensor, solid_text
 
 
 def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposal | None:
-    """The one simple slip that explains the tensor of a link, along the axes it is written in."""
+    """Find the one simple mistake that explains a tensor, along the axes it is written in."""
     pose = pose_of(inertial.origin)
     upright = pose.rotation == UPRIGHT
     com, box = pose.translation, box_of(link)
@@ -30,19 +30,19 @@ def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposa
 
 
 def recomputing_hint(robot: Robot, link: Link) -> str:
-    """Write which command replaces the inertia of a link.
+    """Get the command that replaces the inertia of a link.
 
     Returns:
-        Nothing where the size of the link is not known, or only ``lint`` reads the file.
+        An empty text if the size of the link is unknown, or if only ``lint`` reads the file.
     """
     source = robot.source
     if (source is not None and source.repaired) or reaches(robot).link(link) is None:
         return ""
-    return "'urdftool inertia robot --write --all --link LINK' writes that of its shapes"
+    return "'urdftool inertia robot --write --all --link LINK' writes that of its geometry"
 
 
 def remedy_text(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
-    """What was probably meant; where that is not clear, what a solid shape has; or nothing."""
+    """Describe the intended tensor; if it is not clear, that of a solid shape; or nothing."""
     proposal = proposal_of(link, inertial, six)
     if proposal is None:
         return solid_text(link)

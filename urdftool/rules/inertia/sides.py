@@ -1,4 +1,4 @@
-"""The left and the right of a robot: what they weigh."""
+"""Compare the mass properties of the left and the right side of a robot."""
 
 from __future__ import annotations
 
@@ -40,13 +40,14 @@ def left_right_asymmetry(
     com_difference: float = 0.05,
     inertia_difference: float = 0.2,
 ) -> Iterator[Problem]:
-    """A link and its mirror image differ in mass, centre of mass or inertia.
+    """A link and its mirror image differ in mass, center of mass or inertia.
 
-    They are told by their names, such as ``left_arm`` and ``right_arm``. One of the two was changed
-    alone, or mistyped. What is compared does not depend on how their frames are turned: the mass,
-    how far the centre of mass is from the frame, and the sum of the moments; each may differ by the
-    part that its threshold says. Links that are parts of two rigid bodies are not reported where
-    the bodies mirror each other as a whole.
+    Usually only one of the two was changed, or one was mistyped. Pairs are recognized by their
+    names, such as ``left_arm`` and ``right_arm``. Compared are values that do not depend on the
+    orientation of the frames: the mass, the distance of the center of mass from the frame, and the
+    sum of the moments of inertia. ``mass_difference``, ``com_difference`` and
+    ``inertia_difference`` are the tolerated relative differences. Parts of rigid bodies that
+    mirror each other as a whole are not reported.
     """
     twins = twin_links(robot)
     for link in robot.links:
@@ -61,12 +62,12 @@ def left_right_asymmetry(
             or _differ(norm(bodies[0].com), norm(bodies[1].com), com_difference)
             or _differ(_trace(bodies[0]), _trace(bodies[1]), inertia_difference)
         ):
-            continue  # the bodies that they are parts of mirror each other
+            continue  # their rigid bodies mirror each other
         if _differ(link.mass, other.mass, mass_difference):
             yield Problem(
                 other,
-                f"link '{other.name}' weighs {other.mass:g} kg and '{link.name}' {link.mass:g} kg; "
-                "mirror images weigh the same",
+                f"mass of link '{other.name}' is {other.mass:g} kg, but that of its mirror image "
+                f"'{link.name}' is {link.mass:g} kg; make them equal",
                 at=other.inertial,
                 data={"twin": link.name, "mass": other.mass, "mass_of_twin": link.mass},
                 effects=[*_readers_of(link, other), "pybullet"],
@@ -76,20 +77,20 @@ def left_right_asymmetry(
         if _differ(here, there, com_difference) and abs(here - there) > 0.002:
             yield Problem(
                 other,
-                f"centre of mass of link '{other.name}' is {there:.3g} m from its frame and that "
-                f"of '{link.name}' {here:.3g} m; mirror images have it at one distance",
+                f"center of mass of link '{other.name}' is {there:.3g} m from its frame, but that "
+                f"of its mirror image '{link.name}' {here:.3g} m; make the distances equal",
                 at=other.inertial.origin or other.inertial,
                 data={"twin": link.name, "distance": there, "distance_of_twin": here},
                 effects=[*_readers_of(link, other), "pybullet"],
             )
             continue
         if not (_has_moments(link) and _has_moments(other)):
-            continue  # zero-inertia and others say what is wrong with it
+            continue  # zero-inertia and others report it
         if _differ(_spread(link), _spread(other), inertia_difference):
             yield Problem(
                 other,
                 f"principal moments of inertia of link '{other.name}', in ascending order, are "
-                f"{_factors(other, link)} times those of '{link.name}', which is its mirror image",
+                f"{_factors(other, link)} times those of its mirror image '{link.name}'",
                 at=other.inertial.inertia or other.inertial,
                 data={"twin": link.name},
                 effects=_readers_of(link, other),
@@ -111,7 +112,7 @@ def _moments_of_link(link: Link) -> Vector:
 
 
 def _readers_of(link: Link, other: Link) -> list[str]:
-    """The readers that take the tensors of two links as written, as keys of effects."""
+    """Get the keys of effects for the readers that take the tensors of two links as written."""
     accepted = all(
         one.inertial is not None
         and one.inertial.inertia is not None
@@ -122,7 +123,7 @@ def _readers_of(link: Link, other: Link) -> list[str]:
 
 
 def _has_moments(link: Link) -> bool:
-    """Whether an inertia has none but positive moments, beyond rounding."""
+    """Tell whether all moments of an inertia are positive, beyond rounding."""
     inertia = link.inertial.inertia if link.inertial is not None else None
     if inertia is None:
         return False
@@ -131,7 +132,7 @@ def _has_moments(link: Link) -> bool:
 
 
 def _bodies(robot: Robot, link: Link, other: Link) -> tuple[SpatialInertia, SpatialInertia] | None:
-    """Add up the bodies of two links; None where they are one, or no more than the links."""
+    """Add up the bodies of two links; None if they are one body, or only the two links."""
     first, second = attached_links(robot, link), attached_links(robot, other)
     if len(first) == len(second) == 1 or any(one is other for one, _ in first):
         return None
@@ -148,13 +149,13 @@ def _differ(one: float, other: float, part: float) -> bool:
 
 
 def _com(link: Link) -> float:
-    """How far the centre of mass is from the frame of the link [m]."""
+    """Compute the distance of the center of mass from the frame of the link [m]."""
     origin = link.inertial.origin if link.inertial is not None else None
     return math.hypot(*origin.xyz) if origin is not None else 0.0
 
 
 def _spread(link: Link) -> float:
-    """The sum of the moments [kg·m²], which is the same in every frame."""
+    """Compute the sum of the moments [kg·m²], which is the same in every frame."""
     inertia = link.inertial.inertia if link.inertial is not None else None
     return sum(inertia.moments) if inertia is not None else 0.0
 
@@ -168,15 +169,16 @@ def com_not_mirrored(
 ) -> Iterator[Problem]:
     """A link's center of mass has the wrong sign, compared with the link of the other side.
 
-    Left and right are recognized by the names of the links, of robots of which most such pairs
-    mirror each other. The ``<inertial>`` of one side was copied to the other, or a sign was lost:
-    the coordinate is the same on both sides where it must be opposite, or opposite where it must be
-    the same. It is reported only where the robot shows which sign is right: the geometry of the two
-    links lies on mirrored sides of their frames, or the joints of their children do, or the same
-    links at the other end of the robot do mirror. Identical parts, of which one is turned around,
-    are not reported. The coordinate is named along the axes of the root, where left and right
-    mirror each other; the ``xyz`` to write is in the frame of the link. Where a center of mass was
-    copied, so were the products of inertia, which need the opposite signs too.
+    The ``<inertial>`` of one side was copied to the other, or a sign was lost: a coordinate is
+    equal on both sides but must be opposite, or is opposite but must be equal. Left and right are
+    recognized by the names of the links, in robots of which most such pairs mirror each other.
+    If a center of mass was copied, so were the products of inertia, which need opposite signs too.
+
+    It is reported only if the robot shows which sign is right: the geometry of the two links lies
+    on mirrored sides of their frames, or the joints of their children do, or the same links at the
+    other end of the robot mirror each other. Identical parts, of which one is rotated, are not
+    reported. The message names the coordinate along the axes of the root, in which left and right
+    mirror each other; the ``xyz`` to write is in the link frame.
 
     ``least`` [m] is the smallest coordinate that is compared, ``similar`` the relative difference
     of two equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
@@ -249,7 +251,7 @@ def write_mirror_image(problem: Problem, context: FixContext) -> Proposal | None
 
 
 def _coms(found: Sides, pair: Pair) -> tuple[Vector, Vector] | None:
-    """From the frame of each link of a pair to its center of mass, along the axes of the root."""
+    """Compute the vectors from the links' frames to their centers of mass, in root axes [m]."""
     vectors = []
     for link in (pair.left, pair.right):
         origin = link.inertial.origin if link.inertial is not None else None
@@ -266,7 +268,11 @@ def _is_near(one: float, other: float, part: float) -> bool:
 def _shown_by_shapes(
     robot: Robot, found: Sides, pair: Pair, axis: int, sign: int, similar: float, clear: float
 ) -> tuple[float, str] | None:
-    """On which side of the left frame the geometry of a pair is, if the two mirror each other."""
+    """Find the side of the left frame that has the geometry, if the pair mirrors each other.
+
+    Returns:
+        The coordinate along the axis [m], and what shows it.
+    """
     sides_of: list[float] = []
     for link in (pair.left, pair.right):
         box = reaches(robot).link(link)
@@ -279,13 +285,13 @@ def _shown_by_shapes(
     left, right = sides_of
     if not _is_near(right, sign * left, similar):
         return None
-    return left, "the geometry of the two is mirrored"
+    return left, "the geometry of the two links is mirrored"
 
 
 def _shown_by_joints(
     robot: Robot, found: Sides, pair: Pair, axis: int, sign: int, similar: float, least: float
 ) -> tuple[float, str] | None:
-    """On which side of the left frame the next joints of a pair are, if they mirror each other."""
+    """Find the side of the left frame that has the child joint, if the pair mirrors each other."""
     means = []
     for link in (pair.left, pair.right):
         offsets = [
@@ -310,7 +316,7 @@ def _shown_by_likes(
     others: list[tuple[Pair, Vector, Vector]],
     similar: float,
 ) -> tuple[float, str] | None:
-    """On which side the center of mass of the left link is at the other end of the robot."""
+    """Find the side of the center of mass of the left link at the other end of the robot."""
     family = family_of(pair.left.name)
     for other, one, two in others:
         if family_of(other.left.name) != family or family_of(other.right.name) != family:

@@ -1,4 +1,4 @@
-"""Inertia against the size of the link."""
+"""Compare inertia with the size of the link."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
 def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
 
-    Nobody measured that. 1 kg·m² on a link of 100 g is a radius of gyration of 3 m: the arm
-    turns like a flywheel and its motors look too weak. A link of a few millimeters is a dummy whose
-    inertia is made up to keep a simulation stable; only one that turns like a flywheel is reported.
-    The same is true of a frame: a link without shapes, or one of up to ``tiny`` [m] that is fixed
-    to a heavier link.
+    Such a value is a placeholder. 1 kg·m² on a link of 100 g is a radius of gyration of 3 m: the
+    arm accelerates like a flywheel and its motors seem too weak. Frames often have a placeholder to
+    keep a simulation stable, so these are reported only if the value is too large: links of a few
+    millimeters, links without geometry, and links of up to ``tiny`` [m] that are fixed to a
+    heavier link.
     """
     slight = slight_parts(robot)
     whole: dict[str, list[Link]] | None = None
@@ -67,22 +67,22 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
                 whole = {one.name: links for links in bodies(robot).values() for one in links}
             if dummy or _is_frame(robot, link, whole.get(link.name, [link]), tiny):
                 continue
-        far = f": its {link.mass:g} kg has a radius of gyration of {radius:.2g} m" if large else ""
+        far = f" ({link.mass:g} kg with a radius of gyration of {radius:.2g} m)" if large else ""
         yield Problem(
             link,
-            f"inertia of link '{link.name}' is a placeholder, {moment:g} about every axis{far}"
+            f"inertia of link '{link.name}' is a placeholder: {moment:g} about every axis{far}"
             f"{'' if dummy else solid_text(link)}",
             at=inertial.inertia,
             severity=WARNING if large else INFO,
             hint="" if dummy else recomputing_hint(robot, link),
-            group="inertia of {count} links is a placeholder, the same power of ten about every "
-            "axis: {names}",
+            group="inertia of {count} links is a placeholder (the same power of ten about every "
+            "axis): {names}",
             data={"moment": moment, "is_large": large},
         )
 
 
 def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
-    """Whether a link stands for a frame: without shapes, or tiny and part of a heavier body.
+    """Tell whether a link is a frame: without geometry, or tiny and part of a heavier body.
 
     Args:
         robot: The robot.
@@ -99,7 +99,7 @@ def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
 
 
 def is_placeholder(link: Link, six: SymmetricTensor) -> bool:
-    """Whether a tensor is a power of ten times the identity, and not by chance the right one."""
+    """Tell whether a tensor is a power of ten times the identity, and not the right one."""
     xx, xy, xz, yy, yz, zz = six
     if not xx == yy == zz > 0 or xy or xz or yz:
         return False
@@ -112,7 +112,7 @@ def is_placeholder(link: Link, six: SymmetricTensor) -> bool:
 
 @placeholder_inertia.fix(UNSAFE)
 def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write what the shapes have, unless they are those of a dummy, which have next to nothing."""
+    """Write the inertia of the geometry, except for dummies, whose inertia is negligible."""
     return None if is_dummy(context.link(problem)) else write_inertia_of_shapes(problem, context)
 
 
@@ -134,16 +134,16 @@ def inertia_exceeds_geometry(
 ) -> Iterator[Problem]:
     """An inertia is larger than any body of the link's size can have.
 
-    Mass is most spread out along an axis when it sits in two lumps at the ends of the shape, and
-    even that gives less. Square millimetres for square metres, grams for kilograms, a mass a tenth
-    of what it should be, or the moment of one axis written for all three do it. The message says
-    how many times as long the shapes would have to be at least, wherever the center of mass is. It
-    is judged where it is: ``allowed`` and ``certain`` are ratios of the variance of the mass along
-    an axis to the largest one in the shapes. Of a mesh the box around it counts; up to ``certain``
-    it is then no more than a remark, as the mesh may leave out what is heavy. Shapes of attached
-    links without a mass of their own count, too, and are named. Visuals without a collision may be
-    markers: of such a link it is an info up to ``certain``, too, and then proposes no values.
-    ``urdftool inertia robot`` judges in the same way.
+    Mass has the largest inertia if it is in two lumps at the ends of the geometry. Usual causes of
+    a larger one are g·mm² or kg·mm² in place of kg·m², a mass that is ten times too small, or the
+    moment of one axis written for all three. The message gives the factor by which the geometry
+    would have to be longer, for any center of mass.
+
+    ``allowed`` and ``certain`` are ratios of the variance of the mass along an axis to the largest
+    possible one, about the center of mass as written. For a mesh the bounding box counts. Up to
+    ``certain`` it is an info for meshes, which may lack heavy parts, and for links that have only
+    visual geometry, which may be markers. The geometry of attached links without a mass of their
+    own counts too, and is named. ``urdftool inertia robot`` applies the same checks.
     """
     reach = reaches(robot)
     slight = slight_parts(robot)
@@ -154,7 +154,7 @@ def inertia_exceeds_geometry(
             continue
         low, middle, high = principal_moments(six)
         if low + middle < high:
-            continue  # no body has it, whatever its size
+            continue  # physically inconsistent at any size
         pose = pose_of(inertial.origin)
         judge = partial(
             misfit_of_spread,
@@ -193,28 +193,28 @@ def inertia_exceeds_geometry(
 
 
 def _readers_of(six: SymmetricTensor) -> list[str]:
-    """The readers that take a tensor as written, as keys of effects."""
+    """Get the keys of effects for the readers that take a tensor as written."""
     return [*[_CHECKING] * is_accepted(six), "pinocchio"]
 
 
 def _has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
-    """Whether an inertia can be proposed for a link whose inertia exceeds its geometry.
+    """Tell whether an inertia can be proposed for a link whose inertia exceeds its geometry.
 
     Args:
         robot: The robot.
         link: A link of it.
-        certain: Whether the inertia is wrong for sure.
+        certain: Whether the inertia is certainly wrong.
 
     Returns:
-        False where the size comes from attached links too, or from visuals alone that may differ
-        from the body.
+        False if the size includes that of attached links, or comes from visuals alone, which may
+        differ from the body.
     """
     return not reaches(robot).counted(link) and (certain or bool(link.collisions))
 
 
 @inertia_exceeds_geometry.fix(UNSAFE)
 def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write what was meant, or what the shapes have, where these are certain to be the body."""
+    """Write the intended inertia, or that of the geometry if it certainly is the body."""
     link, certain = context.link(problem), problem.data["certain"]
     inertial = link.inertial
     if not _has_own_size(context.robot, link, certain):
@@ -225,7 +225,7 @@ def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal |
 
 
 def has_mesh(link: Link) -> bool:
-    """Whether one of a link's shapes is a mesh."""
+    """Tell whether one of a link's visuals or collisions is a mesh."""
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
@@ -244,11 +244,11 @@ def inertia_below_geometry(
 ) -> Iterator[Problem]:
     """An inertia is far smaller than that of a body of the link's size.
 
-    A solid box has the moments that its mass and size give; steel in its middle and plastic around
-    it halve them. An eighth means that the mass is ten times too large, that the inertia lost a
-    power of ten, or that the shape is larger than the body. ``least`` is the part of the solid
-    box's that is let pass. A link that is less than ``part`` of the mass of the body that fixed
-    joints make of it changes little, and is not reported.
+    Compared is the inertia of a solid box of the link's mass and size. Heavy material in the
+    middle, such as steel inside of plastic, halves it. An eighth means that the mass is ten times
+    too large, that the inertia lost a power of ten, or that the geometry is larger than the body.
+    ``least`` is the smallest tolerated part of the box's inertia. Links with less than ``part`` of
+    the mass of their rigid body change little, and are skipped.
     """
     reach = reaches(robot)
     heavy = outlier(robot)
@@ -257,7 +257,7 @@ def inertia_below_geometry(
         if mass <= 0 or is_zero(six, mass) or not is_positive(six):
             continue
         if heavy is not None and link is heavy.link:
-            continue  # the mass is reported
+            continue  # mass-out-of-line reports it
         if mass < part * sum(other.mass for other, _ in attached_links(robot, link)):
             continue
         box = reach.link(link)
@@ -271,9 +271,9 @@ def inertia_below_geometry(
             x, y, z = (f"{length:.3g}" for length in box.size)
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' is {written / solid:.2g} of that of a solid box "
-                f"of its {mass:g} kg and size, {x} × {y} × {z} m; is the mass or the inertia off "
-                "by a power of ten?",
+                f"inertia of link '{link.name}' is {written / solid:.2g} times that of a solid box "
+                f"of its mass ({mass:g} kg) and size ({x} × {y} × {z} m); check mass and inertia "
+                "for a wrong power of ten",
                 at=inertial.inertia,
                 effects=_readers_of(six),
                 data={"part": written / solid, "size": list(box.size)},
@@ -295,13 +295,13 @@ def radius_of_gyration(
     smallest: float = 1e-3,
     heavy: float = 0.01,
 ) -> Iterator[Problem]:
-    """A link's inertia does not go with its mass.
+    """A link's inertia does not fit its mass.
 
-    The root of the largest moment over the mass is the radius of gyration: a thin ring of that
-    radius has the same moment about its axis. A meter is more than most robots are long, a
-    millimeter is a pinhead. Square millimetres for square
-    metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``;
-    a tensor that is zero or negative about an axis has a finding of its own.
+    The radius of gyration is the square root of the largest moment of inertia divided by the mass:
+    a thin ring of that radius has the same moment about its axis. Above 1 m it exceeds most robots,
+    below 1 mm it is that of a pinhead. The usual cause is kg·mm² in place of kg·m². Links of known
+    size are checked by ``inertia-exceeds-geometry``; tensors that are zero or negative about an
+    axis by other rules.
     """
     reach = reaches(robot)
     slight = slight_parts(robot)
@@ -319,7 +319,7 @@ def radius_of_gyration(
         radius = math.sqrt(high / mass)
         around = reach.body(link)
         if around is not None and radius <= math.dist(*around):
-            continue  # it is that of the body
+            continue  # the inertia is that of the whole body
         data: dict[str, object] = {"radius": radius}
         if radius > largest:
             remedy = ""
@@ -327,13 +327,13 @@ def radius_of_gyration(
                 remedy = "; if it is in kg·mm², divide it by 1e6"
                 data["inertia"] = [value * 1e-6 for value in six]
         elif radius < smallest and mass > heavy:
-            remedy = "; are the units kg·m²?"
+            remedy = "; check the unit (kg·m²)"
         else:
             continue
         yield Problem(
             link,
-            f"radius of gyration of link '{link.name}' is {radius:.2g} m: its largest moment of "
-            f"inertia is {high:.4g} kg·m² and its mass {mass:g} kg{remedy}",
+            f"radius of gyration of link '{link.name}' is {radius:.2g} m: largest moment of "
+            f"inertia {high:.4g} kg·m², mass {mass:g} kg{remedy}",
             at=inertial.inertia,
             effects=_readers_of(six),
             data=data,
@@ -341,17 +341,17 @@ def radius_of_gyration(
 
 
 def _may_be_kg_mm2(radius: float) -> bool:
-    """Whether a radius of gyration [m] is that of a link if its inertia is in kg·mm²."""
+    """Tell whether a radius of gyration [m] becomes plausible if the inertia is in kg·mm²."""
     return _OF_A_LINK[0] < radius / 1000 <= _OF_A_LINK[1]
 
 
 _OF_A_LINK = (0.01, 1.0)
-"""Radii of gyration [m] of links."""
+"""Plausible radii of gyration of links [m]."""
 
 
 @radius_of_gyration.fix(UNSAFE)
 def write_inertia_in_kg_m2(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the inertia in kg·m², where it is in kg·mm²."""
+    """Convert the inertia from kg·mm² to kg·m²."""
     link = context.link(problem)
     if "inertia" not in problem.data:
         return None

@@ -1,4 +1,4 @@
-"""Slips of the pen that make a tensor impossible: what was meant can be told."""
+"""Detect typing mistakes that make a tensor physically inconsistent, and the intended values."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ _GAZEBO = "gz, gazebo-classic"
     of_motion=True,
 )
 def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
-    """The six numbers of an inertia are in the wrong order.
+    """The six components of an inertia are in the wrong order.
 
-    URDF goes row by row: ixx ixy ixz iyy iyz izz. Elsewhere the three moments come first, or the
-    matrix is written with all nine. Pasted as they are, no rigid body has them; in the right order
-    they are fine.
+    URDF lists the tensor row by row: ixx ixy ixz iyy iyz izz. Other programs write the three
+    moments first, or all nine components. Pasted in that order the tensor is physically
+    inconsistent; in the right order it is valid.
     """
     for link, inertial, six in tensors(robot):
         slip = slip_of(link, inertial, six, robot)
         if slip is not None and slip.kind == "order":
             yield Problem(
                 link,
-                f"the numbers of the inertia of link '{link.name}' are in the wrong order; "
+                f"components of the inertia of link '{link.name}' are in the wrong order; "
                 f"write {attributes_text(slip.tensor)}",
                 at=inertial.inertia,
                 data={"inertia": list(slip.tensor)},
@@ -62,11 +62,12 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
     of_motion=True,
 )
 def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
-    """One number of an inertia is off by a power of ten.
+    """One component of an inertia is off by a power of ten.
 
-    As written no rigid body has the six; with the decimal point of just one of them moved, and in
-    one way only, a body of the link's size does. Where the link has a mesh or several shapes, a
-    moment is compared with those about the other two axes, in the proportions of the bounding box.
+    The tensor as written is physically inconsistent, and moving the decimal point of a single
+    component, in one way only, gives the tensor of a body of the link's size. For a mesh or
+    several shapes, a moment is compared with those about the other two axes, in the proportions
+    of the bounding box.
     """
     for link, inertial, six in tensors(robot):
         slip = slip_of(link, inertial, six, robot)
@@ -74,8 +75,8 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
             value = slip.tensor[SIX.index(slip.name)]
             yield Problem(
                 link,
-                f"{slip.name} of link '{link.name}' is off by a power of ten, so no rigid body has "
-                f"this inertia; write {value:.12g}",
+                f"{slip.name} of link '{link.name}' is off by a power of ten, which makes the "
+                f"inertia physically inconsistent; write {value:.12g}",
                 at=inertial.inertia.attribute_place(slip.name),
                 data={"inertia": list(slip.tensor)},
                 effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
@@ -85,12 +86,12 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
 @inertia_component_slip.fix(UNSAFE)
 @inertia_off_by_power_of_ten.fix(UNSAFE)
 def write_without_slip(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write what was meant."""
+    """Write the intended tensor."""
     return write_proposed_inertia(problem, context)
 
 
 def slip_of(link: Link, inertial: Inertial, six: SymmetricTensor, robot: Robot) -> Slip | None:
-    """The slip that explains a tensor no body has, if it is one of these."""
+    """Find the mistake that explains a physically inconsistent tensor."""
     if is_zero(six, link.mass) or is_consistent(six):
         return None
     proposal = proposal_of(link, inertial, six)
@@ -104,10 +105,11 @@ def slip_of(link: Link, inertial: Inertial, six: SymmetricTensor, robot: Robot) 
 def _moment_of_box(
     link: Link, inertial: Inertial, six: SymmetricTensor, box: Bounds | None
 ) -> Slip | None:
-    """The one moment that is off by a power of ten, by the other two and the bounding box.
+    """Find the one moment off by a power of ten, by the other two and the bounding box.
 
-    None for one solid shape, whose tensor is known, for numbers that xacro computes, where no
-    decimal point was slipped, and where the axes of the inertial are oblique to those of the link.
+    Returns:
+        None for a single solid shape, whose tensor is known, for components that xacro computes,
+        and if the axes of the inertial are oblique to those of the link.
     """
     if solid_tensor(link) is not None or _is_computed(inertial):
         return None
@@ -122,7 +124,7 @@ def _moment_of_box(
 
 
 def _is_computed(inertial: Inertial) -> bool:
-    """Whether an inertia is written as expressions of xacro."""
+    """Tell whether an inertia is written as xacro expressions."""
     if inertial.inertia is None:
         return False
     place = inertial.inertia.place
@@ -140,9 +142,9 @@ def _is_computed(inertial: Inertial) -> bool:
 def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
     """An ``<inertia>`` has ``iyx``, ``izx`` or ``izy``.
 
-    The tensor is symmetric and readers take the upper half. Where the lower half says something
-    else, another matrix was meant. Where the upper half lacks the number, the attribute has the
-    wrong name.
+    The tensor is symmetric and readers take only the upper half. If the lower half has other
+    values, another matrix was intended. If the upper half lacks the component, the attribute has
+    the wrong name.
     """
     for link in robot.links:
         if link.inertial is None or link.inertial.inertia is None:
@@ -153,14 +155,14 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
                 continue
             repeats = _repeats_twin(element, name)
             if repeats:
-                remedy = "take it out"
+                remedy = "remove it"
             elif twin in element.attributes:
-                remedy = f"it differs from {twin}, which is read; write one"
+                remedy = f"its value differs from {twin}, which is read; write one of them"
             else:
                 remedy = f"rename it to {twin}, which is missing"
             yield Problem(
                 link,
-                f"{name} in the inertia of link '{link.name}' is not read; {remedy}",
+                f"readers ignore {name} in the inertia of link '{link.name}'; {remedy}",
                 at=element.attribute_place(name),
                 effects=None if twin in element.attributes else (),
                 data={"twin": twin, "repeats": repeats},
@@ -171,15 +173,15 @@ _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 
 
 def _repeats_twin(element: Element, name: str) -> bool:
-    """Whether ``iyx``, ``izx`` or ``izy`` of an ``<inertia>`` is the number in the upper half."""
+    """Tell whether ``iyx``, ``izx`` or ``izy`` has the value of its twin in the upper half."""
     mine, its = (number(element.attributes.get(one)) for one in (name, _TWINS[name]))
     return mine is not None and mine == its
 
 
 @redundant_inertia_attributes.fix(SAFE)
 def remove_repeated_product(problem: Problem, _context: FixContext) -> Proposal | None:
-    """Remove what is not read and repeats what is."""
+    """Remove an attribute that repeats the one that is read."""
     found = attribute_at(problem)
     if found is None or not problem.data["repeats"]:
         return None
-    return safe(f"take {found[1]} out", remove_attribute(*found))
+    return safe(f"remove {found[1]}", remove_attribute(*found))

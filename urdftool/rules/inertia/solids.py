@@ -1,4 +1,4 @@
-"""What the shapes of a link say of its mass: the box around them, their volume, their moments."""
+"""Mass properties that the geometry of a link implies: bounding box, volume and moments."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from ...model.pose import matrix_product, pose_of, transpose
 from ...model.shapes import shape_name
 
 DENSITY = 1000.0
-"""Density [kg/m³] of the shapes of a link whose mass is not written: that of water."""
+"""Density [kg/m³] of links without a mass: that of water."""
 
 
 def box_of(link: Link) -> Bounds | None:
-    """The box around a link's shapes in the link frame; None unless all are primitives."""
+    """Compute the bounding box of a link in its frame; None if not all shapes are primitives."""
     found: Bounds | None = None
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     for shape in shapes:
@@ -38,7 +38,7 @@ def box_of(link: Link) -> Bounds | None:
 
 
 def solid_volume(geometry: Geometry | None) -> float:
-    """Its volume [m³]; 0 if it is no primitive."""
+    """Compute the volume [m³]; 0 if it is not a primitive."""
     if isinstance(geometry, Box):
         return abs(math.prod(geometry.size))
     if isinstance(geometry, Sphere):
@@ -51,9 +51,12 @@ def solid_volume(geometry: Geometry | None) -> float:
 
 
 def centre_of_solids(link: Link) -> Vector | None:
-    """The centre of mass [m] in the link frame, were each of a link's shapes solid and alike.
+    """Compute the center of mass [m] in the link frame, as if all shapes were solid and alike.
 
-    What collides counts, or what is seen where nothing does. None unless all are primitives.
+    Collision geometry counts, or visual geometry if there is none.
+
+    Returns:
+        None if not all are primitives.
     """
     shapes: list[Visual | Collision] = [*(link.collisions or link.visuals)]
     volumes = [solid_volume(shape.geometry) for shape in shapes]
@@ -69,7 +72,7 @@ def centre_of_solids(link: Link) -> Vector | None:
 
 
 def _disc(radius: float) -> float:
-    return math.pi * radius * radius  # of a power too large Python makes no infinity
+    return math.pi * radius * radius  # ** raises OverflowError where * returns infinity
 
 
 def _ball(radius: float) -> float:
@@ -77,10 +80,11 @@ def _ball(radius: float) -> float:
 
 
 def solid_moments(link: Link) -> Vector | None:
-    """Moments [kg·m²] of a link's one shape, were it solid, along the axes of its ``<inertial>``.
+    """Compute the moments [kg·m²] of a link's only shape as a solid, along the inertial's axes.
 
-    None where the link has several shapes, none that is a primitive, or one that is turned against
-    the ``<inertial>``.
+    Returns:
+        None if the link has several shapes, no primitive, or one that is rotated relative to the
+        ``<inertial>``.
     """
     inertial = link.inertial
     shape = only_shape(link)
@@ -92,9 +96,10 @@ def solid_moments(link: Link) -> Vector | None:
 
 
 def solid_tensor(link: Link) -> SymmetricTensor | None:
-    """The tensor [kg·m²] of a link's one shape, were it solid, along the axes of its inertial.
+    """Compute the tensor [kg·m²] of a link's only shape as a solid, along the inertial's axes.
 
-    None where the link has several shapes, or none that is a primitive.
+    Returns:
+        None if the link has several shapes, or no primitive.
     """
     inertial, shape = link.inertial, only_shape(link)
     if inertial is None or shape is None or not inertial.mass:
@@ -110,7 +115,7 @@ def solid_tensor(link: Link) -> SymmetricTensor | None:
 
 
 def only_shape(link: Link) -> Visual | Collision | None:
-    """A link's collision if it has one, or its visual; None where there are several."""
+    """Get the link's only collision, or else its only visual; None if there are several."""
     shapes: Sequence[Visual | Collision] = link.collisions or link.visuals
     return shapes[0] if len(shapes) == 1 else None
 
@@ -130,7 +135,7 @@ def _moments(geometry: Geometry | None, mass: float) -> Vector | None:
 
 
 def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
-    """Whether a link's shapes are only a few millimeters large, as those of a stand-in are.
+    """Tell whether a link's geometry is at most a few millimeters large, as that of a placeholder.
 
     The inertia of a solid of that size is so small that no joint should move it alone.
     """
@@ -147,7 +152,7 @@ def solid_kind(link: Link) -> str:
 
 
 def solid_text(link: Link) -> str:
-    """What to write: ``; a solid box of that mass has ixx 1, iyy 2, izz 3``, or nothing."""
+    """Describe the inertia to write: ``; a solid box of 2 kg has ixx 1, …``; may be empty."""
     moments, shape = solid_moments(link), only_shape(link)
     if moments is None or shape is None or shape.geometry is None:
         return ""

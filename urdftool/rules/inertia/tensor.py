@@ -1,4 +1,4 @@
-"""Inertia tensors that no rigid body has, or hardly any."""
+"""Check that inertia tensors are physically consistent and not singular."""
 
 from __future__ import annotations
 
@@ -40,16 +40,16 @@ _NOT_GAZEBO = ("mujoco", "pybullet", "urdfdom, KDL, pinocchio", "drake")
     effects={
         _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
-        "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
+        "pybullet": "uses its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
-        "drake": "warns, and takes another inertia",
+        "drake": "warns, and uses another inertia",
     },
 )
 def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
     """An inertia tensor has a negative principal moment.
 
-    About that axis the body would turn against the torque. A sign is wrong, or a product of inertia
-    is larger than the moments beside it allow.
+    About that axis the body would rotate against the torque. A sign is wrong, or a product of
+    inertia is too large for the moments of its axes.
     """
     for link, inertial, six in tensors(robot):
         moments = principal_moments(six)
@@ -72,9 +72,9 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     effects={
         _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
-        "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
+        "pybullet": "uses its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
-        "drake": "warns, and takes another inertia",
+        "drake": "warns, and uses another inertia",
     },
 )
 def inertia_triangle_inequality(
@@ -82,10 +82,11 @@ def inertia_triangle_inequality(
 ) -> Iterator[Problem]:
     """The largest principal moment is larger than the sum of the other two.
 
-    No rigid body is like that: a moment sums squared distances from its axis, and of three axes at
-    right angles each distance counts in two. At best, for a flat plate, the largest equals the sum.
-    A radius and a length that were swapped are the usual cause. An excess of at most the part
-    ``rounding`` that the digits as written leave open is ``inertia-triangle-inequality-rounding``.
+    Such a tensor is physically inconsistent: a moment sums squared distances from its axis, and
+    each distance counts in two of three perpendicular axes. The limit is a flat plate, whose
+    largest moment equals the sum. Usually a radius and a length were swapped. An excess of at most
+    ``rounding`` (relative) that the written digits explain is reported by
+    ``inertia-triangle-inequality-rounding`` instead.
     """
     for link, inertial, six in tensors(robot):
         moments = low, middle, high = principal_moments(six)
@@ -103,7 +104,7 @@ def inertia_triangle_inequality(
             shown = [f"{value:.9g}" for value in (high, low, middle)]
         yield Problem(
             link,
-            f"inertia of link '{link.name}' belongs to no rigid body: principal moment "
+            f"inertia of link '{link.name}' is physically inconsistent: principal moment "
             f"{shown[0]} is larger than {shown[1]} + {shown[2]}"
             f"{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, max(six[0], six[3], six[5])),
@@ -115,7 +116,7 @@ def inertia_triangle_inequality(
 @inertia_not_positive_definite.fix(UNSAFE)
 @inertia_triangle_inequality.fix(UNSAFE)
 def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write what was meant, or what the shapes have."""
+    """Write the intended inertia, or that of the geometry."""
     return write_meant_inertia(problem, context)
 
 
@@ -125,9 +126,9 @@ def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | 
     effects={
         "mujoco": "rejects the file",
         _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
-        _PART: "accept it: the body that it is a part of has no such inertia",
+        _PART: "accept it: the inertia of the whole rigid body is consistent",
         "pybullet": "takes zero with URDF_USE_INERTIA_FROM_FILE",
-        "drake": "warns, and takes another inertia",
+        "drake": "warns, and uses another inertia",
         "urdfdom, KDL, pinocchio": "accept it without a message",
     },
     group="robot",
@@ -135,11 +136,11 @@ def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | 
 def inertia_triangle_inequality_rounding(
     robot: Robot, *, tolerance: float = EXACT, rounding: float = 0.01
 ) -> Iterator[Problem]:
-    """The largest principal moment is larger than the sum of the others by a rounding error.
+    """The largest principal moment exceeds the sum of the others by a rounding error.
 
-    For a flat plate the largest moment equals the sum of the others, and a few digits too few push
-    it above. Gazebo and MuJoCo allow nothing for that. How much the rounding may come to is told
-    by the digits that are written; more is ``inertia-triangle-inequality``.
+    For a flat plate the largest moment equals the sum of the others, and too few digits can make
+    it larger. Gazebo and MuJoCo have no tolerance for that. The number of written digits decides
+    which excess is rounding; a larger one is reported as ``inertia-triangle-inequality``.
     """
     for link, inertial, six in tensors(robot):
         moments = low, middle, high = principal_moments(six)
@@ -149,8 +150,8 @@ def inertia_triangle_inequality_rounding(
         if excess <= min(rounding * high, rounding_of(inertial.inertia)):
             yield Problem(
                 link,
-                f"principal moment {high:.9g} of link '{link.name}' is larger than the sum of the "
-                f"others by {excess:.1g}; write the moments with more digits, or lower the largest",
+                f"principal moment {high:.9g} of link '{link.name}' exceeds the sum of the others "
+                f"by {excess:.1g}; write the moments with more digits, or lower the largest",
                 at=inertial.inertia,
                 effects=[*_NOT_GAZEBO, _GAZEBO if is_rejected_by_gazebo(robot, link) else _PART],
                 data={"moments": list(moments), "excess": excess},
@@ -161,7 +162,7 @@ def inertia_triangle_inequality_rounding(
 def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the excess to each moment, which keeps the principal axes.
 
-    However small it is, PyBullet reads a tensor that breaks the inequality as zero.
+    PyBullet replaces any tensor that violates the inequality by zero, however small the excess.
     """
     inertial = context.link(problem).inertial
     if inertial is None or inertial.inertia is None:
@@ -184,7 +185,7 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
         set_attribute(element, name, f"{value + more:.10g}")
         for name, value in (("ixx", xx), ("iyy", yy), ("izz", zz))
     ]
-    return unsafe(f"make each moment {factor * excess:.1g} larger", *changes)
+    return unsafe(f"increase each moment by {factor * excess:.1g}", *changes)
 
 
 @rule(
@@ -194,20 +195,22 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
         "gz, gazebo-classic (accepted)": "accept it (sdformat 12.3)",
         "gz, gazebo-classic (noise)": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
-        "pinocchio": ("keeps the zeros, by which the mass matrix can be singular"),
+        "pinocchio": ("keeps the zeros, which can make the mass matrix singular"),
     },
     of_motion=True,
     group="robot",
 )
 def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -> Iterator[Problem]:
-    """A rigid body has a mass and no inertia: all six numbers are 0.
+    """A rigid body has a mass and no inertia: all six components are 0.
 
-    That is a point, and the slightest torque about it turns it infinitely fast. What counts is the
-    body: a point mass that is fixed to a link with an inertia is added to it, which does no harm,
-    and one that is fixed to the world never turns. A link that makes up at least ``part`` of the
-    mass of such a body is a remark, as its body then turns too easily. What is below the mass times
-    (10 µm)² is rounding, and counts as 0. MuJoCo reads every link before it merges them: six zeros
-    count as no inertia then, and it rejects a moment that is not 0 and below 1e-14 kg·m².
+    The body is a point, which any torque accelerates infinitely. Only the inertia of the whole
+    rigid body counts: a point mass that is fixed to a link with an inertia is added to it, and one
+    that is fixed to the world never rotates. A link with at least ``part`` of the mass of such a
+    body is an info, because the body's inertia is then too small.
+
+    Values below the mass times (10 µm)² are rounding, and count as 0. MuJoCo reads every link
+    before it merges them: it then treats six zeros as no inertia, and rejects nonzero moments below
+    1e-14 kg·m².
     """
     zero = [found for found in tensors(robot) if is_zero(found[2], found[0].mass)]
     if not zero:
@@ -218,7 +221,7 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
         is_part = len(links) > 1 and not body_inertia(robot, links).is_thin
         if (is_part and link.mass < part * mass_of(links)) or is_fixed_to_world(robot, link):
             continue
-        nothing = "as good as zero" if any(six) else "zero"
+        amount = "almost zero" if any(six) else "zero"
         joint = robot.tree.parent_joint(links[0].name)
         in_gazebo = "noise" if is_rejected_by_gazebo(robot, link) else "accepted"
         moves = not is_part and joint is not None and not joint.is_fixed
@@ -226,7 +229,7 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
         mild = INFO if is_part else WARNING
         yield Problem(
             link,
-            f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
+            f"inertia of link '{link.name}' is {amount} with a mass of {link.mass:g} kg"
             f"{solid_text(link)}",
             at=inertial.inertia,
             hint=recomputing_hint(robot, link),
@@ -242,24 +245,24 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
 
 @zero_inertia.full
 def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
-    """Report each link with a mass and no inertia, also where that is harmless.
+    """Report each link with a mass and no inertia, also if that is harmless.
 
-    It is where the link is fixed to the world, or to others with which it has an inertia.
+    It is harmless for a link that is fixed to the world, or to links with an inertia.
     """
     for link, inertial, six in tensors(robot):
         if is_zero(six, link.mass):
-            nothing = "as good as zero" if any(six) else "zero"
+            amount = "almost zero" if any(six) else "zero"
             members = [one for one, _ in attached_links(robot, link)]
             is_part = len(members) > 1 and not body_inertia(robot, members).is_thin
             is_held = is_fixed_to_world(robot, link)
-            why = f", though it weighs {link.mass:g} kg{solid_text(link)}"
+            why = f" with a mass of {link.mass:g} kg{solid_text(link)}"
             if is_part:
                 why = "; the links that it is fixed to have one"
             elif is_held:
-                why = "; it is fixed to the world and never turns"
+                why = "; it is fixed to the world and never rotates"
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' is {nothing}{why}",
+                f"inertia of link '{link.name}' is {amount}{why}",
                 at=inertial.inertia,
                 hint="" if is_part or is_held else recomputing_hint(robot, link),
                 data={"is_harmless": is_part or is_held},
@@ -268,7 +271,7 @@ def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
 
 _SINGULAR = {
     "gz, gazebo-classic, pinocchio, drake": "accept it",
-    "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",
+    "pybullet": "uses its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",
     "mujoco": "rejects the file: inertia must have positive eigenvalues",
 }
 
@@ -284,10 +287,9 @@ def singular_inertia(
 ) -> Iterator[Problem]:
     """A rigid body's inertia tensor is zero about one axis.
 
-    Only an infinitely thin rod is like that. About this axis the slightest torque accelerates the
-    body beyond all bounds. A thin part that is fixed to a link with an inertia does no harm, nor
-    does one that is fixed to the world, and neither is reported, except for MuJoCo: it rejects the
-    file for any link with a moment below 1e-14 kg·m².
+    Only an infinitely thin rod has such a tensor: any torque about this axis accelerates the body
+    infinitely. Parts that are fixed to a link with an inertia, or to the world, are not reported,
+    except for MuJoCo, which rejects the file for any link with a moment below 1e-14 kg·m².
     """
     for link, inertial, six in tensors(robot):
         if not _is_singular(six, link.mass, smallest):
@@ -350,7 +352,7 @@ def _is_fixed_to_more(robot: Robot, links: list[Link], smallest: float) -> bool:
 @zero_inertia.fix(UNSAFE)
 @singular_inertia.fix(UNSAFE)
 def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write what the shapes have."""
+    """Write the inertia of the geometry."""
     return write_inertia_of_shapes(problem, context)
 
 
@@ -366,20 +368,20 @@ def tiny_moving_inertia(
     lightest: float = 1e-3,
     step: float = 0.001,
 ) -> Iterator[Problem]:
-    """A joint moves next to no inertia, with a damping or an effort that is far too large for it.
+    """A joint moves a very small inertia with too much damping or effort for the time step.
 
-    A small inertia alone does no harm: PyBullet and MuJoCo ran a link of 1e-13 kg·m² for two
-    seconds against its stops, at steps of 1 ms and 4 ms, and position motors hold it. Two things
+    A small inertia alone is harmless: PyBullet and MuJoCo simulated a link of 1e-13 kg·m² for two
+    seconds against its limits, at steps of 1 ms and 4 ms, and position motors hold it. Two things
     make it diverge. PyBullet integrates damping explicitly and begins to oscillate at
-    I = d·Δt/2 (measured at d = 0.001 to 0.1 and 1 to 5 ms, within 1 %); MuJoCo does not, except
-    with RK4, at I = 0.36·d·Δt. A torque E moves the joint by E·Δt²/I within a step; a
-    controller that sets the torque at each step and reaches E at an error of 0.1 rad settles where
-    that is 0.01 rad and oscillates where it is 0.1 rad, in both.
+    I = d·Δt/2 (measured at d = 0.001 to 0.1 and 1 to 5 ms, within 1 %); MuJoCo does so only
+    with RK4, at I = 0.36·d·Δt. An effort E moves the joint by E·Δt²/I within a step; a
+    controller that updates the effort at each step and reaches E at an error of 0.1 rad settles if
+    that is 0.01 rad and oscillates if it is 0.1 rad, in both simulators.
 
-    I is the inertia about the axis of all that the joint carries, with all that carries it in
-    series; for a prismatic joint the mass. Reported are joints below ``smallest`` [kg·m²] or
-    ``lightest`` [kg] whose effort limit moves them over their whole range, or a turn, within one
-    ``step`` [s], and with the target pybullet those whose damping is too large.
+    I is the inertia about the joint axis of everything below the joint, in series with that of
+    everything above it; for a prismatic joint the mass. Joints below ``smallest`` [kg·m²] or
+    ``lightest`` [kg] are reported if their effort limit moves them over their whole range, or one
+    revolution, within one ``step`` [s], and with the target pybullet if their damping is too large.
     """
     poses: dict[str, Pose] | None = None
     whole: dict[str, list[Link]] = {}
@@ -402,30 +404,33 @@ def tiny_moving_inertia(
         lower, upper = limits_of(joint)
         reach = min(upper - lower, math.inf if slides else 2 * math.pi)
         unit, force, way = ("kg", "N", "m") if slides else ("kg·m²", "N·m", "rad")
+        quantity = "mass" if slides else "inertia"
         thrown = effort * step**2 / inertia
         if "pybullet" in targets and damping * step > 2 * inertia:
             least = damping * step / 2
+            lowered = "damping"
             why = f"its damping of {damping:g} makes it oscillate in PyBullet at {step * 1e3:g} ms"
         elif 0 < reach < thrown:
             least = effort * step**2 / reach
+            lowered = "effort limit"
             why = (
                 f"its effort limit of {effort:g} {force} moves it by {thrown:.2g} {way} within a "
-                f"step of {step * 1e3:g} ms"
+                f"time step of {step * 1e3:g} ms"
             )
         else:
             continue
         link = next(link for link in links if link.mass > 0)
         yield Problem(
             link,
-            f"joint '{joint.name}' moves an inertia of only {inertia:.2g} {unit}, and {why}. "
-            f"Raise the inertia of link '{link.name}' above {least:.2g} {unit}, or lower the other",
+            f"joint '{joint.name}' moves only {inertia:.2g} {unit}, and {why}. Raise the "
+            f"{quantity} of link '{link.name}' above {least:.2g} {unit}, or lower the {lowered}",
             at=(link.inertial.inertia or link.inertial) if link.inertial is not None else None,
             data={"joint": joint.name, "inertia": inertia, "least": least},
         )
 
 
 def _may_be_below(links: list[Link], most: float, slides: bool) -> bool:
-    """Whether the body of a joint's child may have so little inertia, judged without its axis."""
+    """Tell whether the child body of a joint may have so little inertia, without its axis."""
     if slides:
         return mass_of(links) < most
     tensors_of = [link.inertial.inertia for link in links if link.inertial is not None]
@@ -434,12 +439,12 @@ def _may_be_below(links: list[Link], most: float, slides: bool) -> bool:
 
 
 def _shown(moments: Vector) -> str:
-    least = 1e-12 * max(map(abs, moments))  # below it is what computing the moments leaves over
+    least = 1e-12 * max(map(abs, moments))  # smaller values are errors of the computation
     return ", ".join(f"{moment if abs(moment) > least else 0.0:.4g}" for moment in moments)
 
 
 def _component(inertial: Inertial, six: SymmetricTensor, moment: float) -> Place | None:
-    """Where a moment is written, if the moments are the principal ones; else the whole tensor."""
+    """Find where a principal moment is written; the whole tensor if the axes are others."""
     if inertial.inertia is None:
         return None
     if six[1] or six[2] or six[4]:

@@ -1,4 +1,4 @@
-"""The inertia tensors of a robot, as far as they can be judged."""
+"""Get the inertia tensors of a robot that can be checked."""
 
 from __future__ import annotations
 
@@ -21,10 +21,9 @@ SIX = COMPONENTS
 
 
 def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
-    """Links with mass and six numbers that are written and can be read.
+    """Get links with mass and six readable components, each with its inertial and tensor.
 
-    A tensor of which a number is missing or unreadable is another matter, and so is one without
-    mass; those are left out.
+    Missing or unreadable components, and tensors without mass, are left to other rules.
     """
     for link in robot.links:
         inertial = link.inertial
@@ -41,7 +40,7 @@ def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
 
 
 def is_zero(six: SymmetricTensor, mass: float) -> bool:
-    """Whether all six numbers are 0, except for noise of the program that computed them.
+    """Tell whether all six components are 0, except for numerical noise.
 
     Args:
         six: The six numbers [kg·m²].
@@ -51,29 +50,29 @@ def is_zero(six: SymmetricTensor, mass: float) -> bool:
 
 
 def is_positive(six: SymmetricTensor, tolerance: float = 1e-6) -> bool:
-    """Whether no principal moment is negative, except for rounding."""
+    """Tell whether no principal moment is negative, except for rounding."""
     return consistency(six).negativity <= tolerance
 
 
 EXACT = 1e-12
-"""Part of the largest moment by which computing the moments may be off."""
+"""Relative error of computed principal moments."""
 
 
 def is_accepted(six: SymmetricTensor) -> bool:
-    """Whether Gazebo and MuJoCo accept a tensor: positive, and no moment above the others' sum."""
+    """Tell whether Gazebo and MuJoCo accept a tensor: positive, triangle inequality satisfied."""
     found = consistency(six)
     return found.negativity < -EXACT and found.excess <= EXACT
 
 
 _LEAST_IN_MUJOCO = 1e-14
-"""Moment [kg·m²] below which MuJoCo 4.0 rejects a link, whatever it is fixed to."""
+"""Moment [kg·m²] below which MuJoCo 4.0 rejects a link, even if it is fixed to others."""
 
 
 def is_rejected_by_mujoco(six: SymmetricTensor) -> bool:
     """Tell whether MuJoCo rejects the file for a principal moment of a link.
 
-    It reads every link before it merges what is fixed together, the root too. Six zeros count as
-    no inertia at this point.
+    MuJoCo reads every link, the root too, before it merges those fixed together. At this point it
+    treats six zeros as no inertia.
 
     Args:
         six: The six numbers [kg·m²].
@@ -82,7 +81,7 @@ def is_rejected_by_mujoco(six: SymmetricTensor) -> bool:
 
 
 def has_inertia_that_mujoco_rejects(robot: Robot) -> bool:
-    """Tell whether a link, with mass or without, has an inertia that is zero about an axis."""
+    """Tell whether a link, with or without mass, has an inertia that is zero about an axis."""
     return any(
         is_rejected_by_mujoco(link.inertial.inertia.six)
         for link in robot.links
@@ -91,20 +90,20 @@ def has_inertia_that_mujoco_rejects(robot: Robot) -> bool:
 
 
 def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
-    """Whether Gazebo rejects the inertia of a link, after it lumped what is fixed together."""
+    """Tell whether Gazebo rejects the inertia of a link after lumping fixed joints."""
     whole = next((links for links in bodies(robot).values() if link in links), None)
     if whole is None:
         joint = robot.tree.parent_joint(link.name)
         if joint is not None and joint.is_fixed:
-            return False  # in a broken tree it is not known what it would be lumped into
+            return False  # a broken tree does not determine the body
         whole = [link]
     return consistency(body_inertia(robot, whole).tensor).excess > EXACT
 
 
 def rounding_of(inertia: Inertia) -> float:
-    """How far the largest moment may exceed the others' sum for want of digits [kg·m²].
+    """Compute how far rounding may raise the largest moment above the others' sum [kg·m²].
 
-    Each number may be off by half a unit of its last digit, and each moment by the norm of that.
+    Each component may be off by half a unit of its last digit, and each moment by the norm of that.
     """
     written = {} if inertia.xml is None else inertia.xml.attributes
     halves = [_half_a_digit(written.get(name, "")) for name in SIX]
@@ -114,7 +113,7 @@ def rounding_of(inertia: Inertia) -> float:
 
 
 def _half_a_digit(text: str) -> float:
-    """Half a unit of the last digit of a number as it is written; 0 for one that is exactly 0."""
+    """Compute half a unit of the last digit of a number as written; 0 for exactly 0."""
     try:
         value = Decimal(text.strip())
     except InvalidOperation:

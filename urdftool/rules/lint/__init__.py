@@ -1,4 +1,4 @@
-"""The linter itself."""
+"""Analysis limits and comments that suppress findings."""
 
 FILES = ("suppressions", "analysis", "comments")
 """Files with rules, in reading order."""

@@ -1,4 +1,4 @@
-"""What could not be looked at."""
+"""Report checks that were not done in full."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _READ = (".stl", ".obj", ".dae", ".ply", ".gltf", ".glb")
 
 @rule(INFO)
 def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Problem]:
-    """Something was not looked at in full: a mesh that cannot be read, or too many links.
+    """A check was not done in full: a mesh is unreadable, or the robot has too many links.
 
-    A clean run must not mean that nothing was looked at. The size of a mesh tells whether mass,
+    A run without findings must not hide skipped checks. The size of a mesh decides whether mass,
     inertia, scale and collision of its link are plausible, and whether links overlap; without it
-    these rules are silent. Meshes that are not there, or corrupt, have findings of their own. One
-    finding names the links. Others say that pairs of links were passed over by
-    ``self-collision-at-zero``, and count the joints that ``self-collision-in-range`` passed over,
-    in a robot of so many links that it would take minutes.
+    these rules report nothing. Missing and corrupt meshes are reported by other rules. One finding
+    names the links. In robots with so many links that the checks would take minutes, other
+    findings count the pairs that ``self-collision-at-zero`` and the joints that
+    ``self-collision-in-range`` skipped.
     """
     found = {}
     for use in mesh_uses(robot, description):
@@ -45,20 +45,20 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
         yield Problem(
             first.link,
             f"mesh '{first.uri}' of link '{first.link.name}' could not be read{more}; mass, "
-            "inertia, scale and overlaps were not checked there",
+            "inertia, scale and overlaps of the link were not checked",
             at=first.mesh.element.attribute_place("filename"),
         )
     if overlap.resting_in_part(robot):
         yield Problem(
             robot,
-            "whether links overlap where all joints are at rest was looked at for the first "
-            f"{overlap.RESTING} pairs only; more are near each other",
+            "overlaps with all joints at rest were checked for the first "
+            f"{overlap.RESTING} pairs of links only; more are near each other",
         )
     joints = overlap.passed_over(robot)
     if joints:
         yield Problem(
             joints[0],
-            f"whether a joint runs one link into another was not looked at from '{joints[0].name}' "
-            f"on, for {len(joints)} of {len(robot.moving_joints)} joints; the robot has too many "
+            f"self-collision in motion was not checked from joint '{joints[0].name}' on, for "
+            f"{len(joints)} of {len(robot.moving_joints)} joints, because the robot has too many "
             "links",
         )

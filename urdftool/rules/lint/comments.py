@@ -1,4 +1,4 @@
-"""How rules are silenced."""
+"""Check the comments that suppress rules."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ def _comments(document: Document) -> Iterator[tuple[re.Match[str], Place]]:
 
 @rule(INFO, default=False)
 def suppression_without_reason(document: Document) -> Iterator[Problem]:
-    """A comment silences a rule and does not say why.
+    """A comment suppresses a rule without a reason.
 
-    What follows the bracket is the reason. Without one nobody dares to take the comment away.
+    Write the reason after the bracket: without one, users cannot tell whether the comment is still
+    needed.
     """
     for match, place in _comments(document):
         if not match[3].strip():
@@ -36,9 +37,9 @@ def suppression_without_reason(document: Document) -> Iterator[Problem]:
 
 @rule(INFO, default=False)
 def blanket_suppression(document: Document) -> Iterator[Problem]:
-    """A comment silences whole families of rules.
+    """A comment suppresses whole families of rules.
 
-    It silences the rules that are yet to come as well. Naming the rule keeps the others.
+    It also suppresses rules that are added later. Name the rule to keep the others.
     """
     from .. import FAMILIES
 
@@ -47,6 +48,6 @@ def blanket_suppression(document: Document) -> Iterator[Problem]:
             if name in ("all", "ALL", "*") or name in FAMILIES or name.endswith("*"):
                 yield Problem(
                     document.root,
-                    f"urdftool-ignore[{name}] silences more than one rule; name the rule",
+                    f"urdftool-ignore[{name}] suppresses more than one rule; name the rule",
                     at=place,
                 )

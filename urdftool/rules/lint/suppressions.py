@@ -1,4 +1,4 @@
-"""The comments that silence rules; the engine that reads them reports these."""
+"""Rules about comments that suppress rules; the engine that reads the comments reports these."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ APPLIES_TO = ()
 
 @rule(WARNING)
 def unused_suppression() -> tuple[Problem, ...]:
-    """A comment silences a rule that finds nothing there.
+    """A comment suppresses a rule that finds nothing there.
 
-    The fault is mended, or the comment stands at the wrong line. Left behind, it hides the next
-    fault of the same kind.
+    The defect is fixed, or the comment is on the wrong line. Remove it: it would hide the next
+    defect of the same kind.
     """
     return ()
 
 
 @unused_suppression.fix(SAFE, of_file=True)
 def remove_comment(finding: Finding, context: FixContext) -> Proposal | None:
-    """Remove the comment, with its line where nothing else is on it."""
+    """Remove the comment, and its line if nothing else is on it."""
     place, data = finding.location, finding.location.file.data
     start, end = place.start, place.end
     begin = data.rfind(b"\n", 0, start) + 1
@@ -33,15 +33,15 @@ def remove_comment(finding: Finding, context: FixContext) -> Proposal | None:
     else:
         while data[start - 1 : start] in (b" ", b"\t"):
             start -= 1
-    return safe("take it away", Span(place.file, start, end, b""))
+    return safe("remove the comment", Span(place.file, start, end, b""))
 
 
 @rule(ERROR)
 def unknown_rule() -> tuple[Problem, ...]:
     """A comment names a rule that does not exist.
 
-    A misspelt rule in ``urdftool-ignore[…]`` silences nothing, and one that is not named at all
-    would silence everything.
+    A misspelled rule in ``urdftool-ignore[…]`` suppresses nothing, and an empty list would
+    suppress all rules.
     """
     return ()
 

@@ -1,4 +1,4 @@
-"""Mesh files and how they are named."""
+"""Mesh files: URIs, formats, scale and surfaces."""
 
 FILES = ("files", "uris", "file_names", "formats", "scale", "parts", "surface")
 """Files with rules, in reading order."""

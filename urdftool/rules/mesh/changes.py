@@ -1,4 +1,4 @@
-"""Change how meshes are named, and write mesh files in place or beside the old ones."""
+"""Change the URIs of meshes, and write mesh files in place or under new names."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def uses_at(problem: Problem, context: FixContext) -> list[MeshUse]:
     """List the uses of the mesh whose name or scale a problem points at.
 
     Returns:
-        Nothing where it points at no attribute.
+        An empty list if it points at no attribute.
     """
     found = attribute_at(problem)
     if found is None:
@@ -33,7 +33,7 @@ def files_at(problem: Problem, context: FixContext) -> list[MeshUse]:
     """List the uses of the mesh whose name a problem points at.
 
     Returns:
-        Nothing where its file is not there.
+        An empty list if the file does not exist.
     """
     return [use for use in uses_at(problem, context) if use.exists and use.path is not None]
 
@@ -46,10 +46,10 @@ def change_uses(
     Args:
         problem: The problem.
         context: The robot and its description.
-        change: Gives the change of one use, or None where it cannot be changed.
+        change: Returns the change of one use, or None if it cannot be changed.
 
     Returns:
-        Nothing where one of them cannot be changed.
+        An empty list if one of them cannot be changed.
     """
     changes = [change(use) for use in uses_at(problem, context)]
     return [] if None in changes else [one for one in changes if one is not None]
@@ -58,28 +58,28 @@ def change_uses(
 def rewrite_in_place(uses: Iterable[MeshUse], how: str) -> list[FileRewrite]:
     """Rewrite the files of meshes.
 
-    This is for changes after which all readers load the same, or for files that no other
-    description of the package names.
+    Use it for changes after which all readers load the same geometry, or for files that no other
+    description of the package uses.
 
     Args:
         uses: The meshes.
-        how: What is written, one of the constants of :mod:`urdftool.rules.file_rewrites`.
+        how: Content to write, one of the constants of :mod:`urdftool.rules.file_rewrites`.
     """
     paths = dict.fromkeys(shown_path(use.path) for use in uses if use.path is not None)
     return [FileRewrite(path, path, how) for path in paths]
 
 
 def write_beside(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
-    """Write a file beside a mesh, computed from it.
+    """Write a new file, computed from a mesh, to its folder.
 
     Args:
         use: The mesh.
         name: Name of the new file.
-        how: What is written, one of the constants of :mod:`urdftool.rules.file_rewrites`.
+        how: Content to write, one of the constants of :mod:`urdftool.rules.file_rewrites`.
 
     Returns:
-        Nothing where there is a file of that name with other content. Robots share meshes: one that
-        was written for another robot serves this one, too.
+        An empty list if a file of that name with other content exists. Robots share meshes: a
+        file that was written for another robot is reused.
     """
     old = Path(str(use.path))
     new = old.with_name(name)
@@ -98,7 +98,7 @@ def propose_compiler(context: FixContext) -> Proposal | None:
     """Propose a ``<mujoco><compiler>`` with the folder of the meshes.
 
     Returns:
-        None where there is a ``<mujoco>``, or the meshes are not in one folder.
+        None if there is a ``<mujoco>`` element, or the meshes are in several folders.
     """
     root: Element = context.robot.element
     if root.child("mujoco") is not None:
@@ -114,6 +114,6 @@ def propose_compiler(context: FixContext) -> Proposal | None:
     folder = os.path.relpath(folders.pop(), here).replace(os.sep, "/")
     line = f'\t<compiler meshdir="{folder}" discardvisual="false" strippath="true"/>'
     return unsafe(
-        "add <mujoco> with the folder of the meshes",
+        "add a <mujoco> element with the folder of the meshes",
         prepend_child(root, "<mujoco>", line, "</mujoco>"),
     )

@@ -1,4 +1,4 @@
-"""Which shapes urdfdom drops, because another element of their link cannot be read."""
+"""Determine which shapes urdfdom drops because of an unreadable element of their link."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 def is_dropped(use: MeshUse) -> bool:
     """Tell whether urdfdom drops the shape of a mesh.
 
-    It reads the inertial, the visuals and then the collisions of a link, and gives up on the link
-    at the first that it cannot read.
+    urdfdom reads the inertial, the visuals and then the collisions of a link, and stops at the
+    first element that it cannot read.
     """
     if not (_reads_inertial(use.link) and _reads_shapes(use.link, "visual")):
         return True

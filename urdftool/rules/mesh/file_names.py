@@ -1,4 +1,4 @@
-"""Names of mesh files that some readers take for something else."""
+"""Check names of mesh files that some readers misinterpret."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ APPLIES_TO = ("mesh",)
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet, pinocchio": "open a file with a blank in its name",
+        "mujoco, pybullet, pinocchio": "open a file with a space in its name",
     },
 )
 def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The name of a mesh file has a character that is special somewhere.
+    """The name of a mesh file has a special or non-ASCII character.
 
-    ``#``, ``?`` and ``%`` mean something in a URI, letters beyond ASCII are encoded in several
-    ways, and a blank ends a word.
+    ``#``, ``?`` and ``%`` have a meaning in URIs, non-ASCII letters are encoded in several ways,
+    and a space separates words. Some tools then do not find the file.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        if use.uri in told or malformation(use) or "${" in use.uri or "$(" in use.uri:
+        if use.uri in seen or malformation(use) or "${" in use.uri or "$(" in use.uri:
             continue
-        told.add(use.uri)
+        seen.add(use.uri)
         odd = sorted({c for c in use.uri if c in '#?%<>|*"' or c == " " or not c.isascii()})
         if odd:
-            what = "a blank" if odd == [" "] else " ".join(f"'{c}'" for c in odd)
+            what = "a space" if odd == [" "] else " ".join(f"'{c}'" for c in odd)
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' has {what} in its name; use letters, digits, _ and -",
@@ -49,7 +49,7 @@ def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem
 
 @unsafe_file_name.fix(UNSAFE, writes_meshes=True)
 def copy_under_plain_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Copy the file to a plain name, and use the copy."""
+    """Copy the file to a name of plain ASCII characters, and use the copy."""
     uses = files_at(problem, context)
     if not uses or uses[0].path is None:
         return None
@@ -58,7 +58,7 @@ def copy_under_plain_name(problem: Problem, context: FixContext) -> Proposal | N
 
 
 def _copy(uses: list[MeshUse], name: str) -> Proposal | None:
-    """Copy the file of a mesh to another name, and use the copy wherever the mesh is."""
+    """Copy the file of a mesh to another name, and use the copy in all places."""
     path = uses[0].path
     if path is None or not name or name == path.name or not uses[0].uri.endswith(path.name):
         return None
@@ -67,7 +67,7 @@ def _copy(uses: list[MeshUse], name: str) -> Proposal | None:
         return None
     pattern = re.escape(path.name) + "$"
     changes = [substitute(use.mesh.element, "filename", pattern, name) for use in uses]
-    return unsafe(f"copy it to '{name}' and name that", *changes, *new)
+    return unsafe(f"copy the file to '{name}' and use the copy", *changes, *new)
 
 
 @rule(
@@ -76,11 +76,11 @@ def _copy(uses: list[MeshUse], name: str) -> Proposal | None:
     effects={"mujoco": "cannot open package:// paths"},
 )
 def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A robot for MuJoCo names meshes by package.
+    """A robot for MuJoCo has package:// URIs of meshes.
 
-    MuJoCo does not know ROS packages. Its ``<mujoco><compiler meshdir="…" strippath="true"/>`` in
-    the URDF drops the folders and looks for the files in one place; before 3.7 it drops them
-    anyway.
+    MuJoCo does not resolve ROS packages. Add ``<mujoco><compiler meshdir="…" strippath="true"/>``
+    to the URDF: MuJoCo then removes the folders of the URIs and searches the files in ``meshdir``.
+    Before 3.7, MuJoCo always removes the folders.
     """
     for mujoco in robot.element.all("mujoco"):
         compiler = mujoco.child("compiler")
@@ -91,7 +91,7 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
             yield Problem(
                 use.link,
                 f"MuJoCo cannot open '{use.uri}'; "
-                'write <mujoco><compiler meshdir="…" strippath="true"/> into the robot',
+                'add <mujoco><compiler meshdir="…" strippath="true"/> to the robot',
                 at=use.mesh.element.attribute_place("filename"),
                 data={"uri": use.uri},
             )
@@ -109,21 +109,21 @@ def write_mesh_folder(problem: Problem, context: FixContext) -> Proposal | None:
     raised={"mujoco": ERROR},
     on=("mujoco",),
     effects={
-        "mujoco": "3.3 takes one file for both; 4.0 loads the two",
+        "mujoco": "3.3 uses one file for both; 4.0 loads both files",
     },
 )
 def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Problem]:
-    """Two mesh files have one name, but for their folders or endings.
+    """Two mesh files have the same name in different folders or formats.
 
-    MuJoCo before 4.0 calls a mesh by the name of its file alone: ``visual/arm.stl`` and
-    ``collision/arm.stl`` are both ``arm``. Visuals count where the robot's ``<compiler>`` keeps
-    them.
+    MuJoCo before 4.0 identifies a mesh by its file name without folder and suffix:
+    ``visual/arm.stl`` and ``collision/arm.stl`` are both ``arm``, and one file replaces the other.
+    Visuals count only if the robot's ``<compiler>`` keeps them.
     """
-    all_of_them = keeps_visuals(robot)
+    with_visuals = keeps_visuals(robot)
     first: dict[str, str] = {}
     found: dict[str, MeshUse] = {}
     for use in mesh_uses(robot, description):
-        if not (use.collides or all_of_them):
+        if not (use.collides or with_visuals):
             continue  # MuJoCo drops visuals
         stem = use.uri.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
         other = first.setdefault(stem, use.uri)
@@ -134,7 +134,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
         more = f" (and {len(found) - 1} more pairs)" if len(found) > 1 else ""
         yield Problem(
             use.link,
-            f"meshes '{first[stem]}' and '{use.uri}' are both '{stem}' to MuJoCo{more}; rename one",
+            f"MuJoCo names both meshes '{first[stem]}' and '{use.uri}' '{stem}'{more}; rename one",
             at=use.mesh.element.attribute_place("filename"),
             data={"uris": [first[stem], use.uri], "name": stem},
         )
@@ -142,7 +142,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
 
 @mesh_stem_collision.fix(UNSAFE, writes_meshes=True)
 def copy_under_own_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Copy the second file to a name with that of its folder, and use the copy."""
+    """Copy the second file to a name that includes its folder, and use the copy."""
     uses = files_at(problem, context)
     if not uses or uses[0].path is None:
         return None

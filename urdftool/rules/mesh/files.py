@@ -1,4 +1,4 @@
-"""Whether the files are there."""
+"""Check that mesh files exist and contain a mesh."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ _NOT_OPENED = "urdfdom, gz, gazebo-classic"
 @rule(
     ERROR,
     effects={
-        "rviz": "shows nothing there, and reports 'Could not load mesh resource'",
-        "gz": "shows nothing there",
+        "rviz": "shows nothing for this shape, and reports 'Could not load mesh resource'",
+        "gz": "shows nothing for this shape",
         "pybullet, drake (nowhere)": "reject the robot",
         "drake (above)": "rejects the robot",
         "mujoco": "rejects the robot",
@@ -44,14 +44,13 @@ _NOT_OPENED = "urdfdom, gz, gazebo-classic"
 def mesh_not_found(
     robot: Robot, description: Description, *, together: float = 3
 ) -> Iterator[Problem]:
-    """A mesh file is not there.
+    """A mesh file does not exist.
 
-    The path leads to no file, and the link is not seen or does not collide. Whoever looks at the
-    model with the meshes cached or in another checkout does not notice. A file that is wanted in
-    several places is one finding, and so are more than ``together`` files of one folder that is
-    not there.
+    The link then has no visual or no collision geometry, or readers reject the robot. It goes
+    unnoticed on machines that have the file in a cache or in another checkout. Several uses of one
+    file are one finding, and so are more than ``together`` missing files of one missing folder.
     """
-    wanted: dict[Path, list[MeshUse]] = {}
+    missing: dict[Path, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_absolute:
             continue
@@ -61,39 +60,40 @@ def mesh_not_found(
             or _is_in_own_package(use, description)
         ):
             continue
-        wanted.setdefault(Path(os.path.normpath(use.path)), []).append(use)
+        missing.setdefault(Path(os.path.normpath(use.path)), []).append(use)
     folders: dict[Path, list[Path]] = {}
-    for path in wanted:
+    for path in missing:
         folders.setdefault(_missing_folder(description.workspace, path), []).append(path)
     keeps = keeps_visuals(robot)
     for folder, paths in folders.items():
         if len(paths) > together and not description.workspace.exists(folder):
-            first = wanted[paths[0]][0]
+            first = missing[paths[0]][0]
             yield Problem(
                 first.link,
-                f"the folder '{shown_path(folder)}' is not there, and {len(paths)} meshes are "
-                f"wanted from it, first '{first.uri}'",
+                f"folder '{shown_path(folder)}' does not exist, but {len(paths)} meshes refer to "
+                f"it, first '{first.uri}'",
                 at=first.mesh.element.attribute_place("filename"),
                 data={"folder": str(folder), "count": len(paths)},
-                effects=_of_missing(keeps, [use for path in paths for use in wanted[path]]),
+                effects=_of_missing(keeps, [use for path in paths for use in missing[path]]),
             )
             continue
         for path in paths:
-            first = wanted[path][0]
+            first = missing[path][0]
             yield Problem(
                 first.link,
-                f"mesh '{first.uri}' of link '{first.link.name}' is not there: "
-                f"no file '{shown_path(path)}'{_elsewhere(description.workspace, path)}",
+                f"mesh file of link '{first.link.name}' does not exist: '{first.uri}' refers to "
+                f"'{shown_path(path)}'{_elsewhere(description.workspace, path)}",
                 at=first.mesh.element.attribute_place("filename"),
                 data={"uri": first.uri, "path": str(path)},
-                effects=_of_missing(keeps, wanted[path]),
+                effects=_of_missing(keeps, missing[path]),
             )
 
 
 def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
-    """The effects of a missing file: MuJoCo opens that of a visual only where it keeps visuals.
+    """Select the effects of a missing file.
 
-    RViz and gz do not look for that of a shape that urdfdom drops.
+    MuJoCo opens the file of a visual only if the robot keeps visuals. RViz and gz do not open the
+    file of a shape that urdfdom drops.
     """
     shown = () if all(map(is_dropped, uses)) else ("rviz", "gz")
     opened = keeps or any(use.collides for use in uses)
@@ -102,7 +102,7 @@ def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
 
 
 def _is_above(use: MeshUse) -> bool:
-    """Whether PyBullet finds a file: it looks in each folder above that of the description."""
+    """Tell whether PyBullet finds a file, as it searches all folders above the description."""
     path = use.uri.removeprefix("package://").removeprefix("file://")
     folder = Path(use.workspace.real_path(use.mesh.element.file.path)).parent
     folders = (folder, *folder.parents[:-1])
@@ -116,7 +116,7 @@ def _is_in_own_package(use: MeshUse, description: Description) -> bool:
 
 
 def _missing_folder(workspace: Workspace, path: Path) -> Path:
-    """The uppermost folder above a file that is not there; its own folder where that is there."""
+    """Find the uppermost missing folder above a missing file; the file's folder if that exists."""
     folder = path.parent
     while (
         folder != folder.parent
@@ -128,7 +128,7 @@ def _missing_folder(workspace: Workspace, path: Path) -> Path:
 
 
 def _elsewhere(workspace: Workspace, path: Path) -> str:
-    """A hint at a file of nearly that name there, or of that name elsewhere in the package."""
+    """Suggest a file of nearly that name in the folder, or of that name in the package."""
     try:
         names = [entry.name for entry in workspace.list_folder(path.parent)]
         near = nearest(path.name, names, 0.8)
@@ -141,7 +141,7 @@ def _elsewhere(workspace: Workspace, path: Path) -> str:
         return ""
     folder = str(own[1])
     other = _files_below(workspace, folder).get(path.name)
-    return f"; there is '{os.path.relpath(other, folder)}' in its package" if other else ""
+    return f"; the package has '{os.path.relpath(other, folder)}'" if other else ""
 
 
 @memoized
@@ -164,31 +164,31 @@ def _files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
     ERROR,
     effects={
         "pybullet, drake": (
-            "reject the robot on Linux, which tells capitals apart; macOS and Windows do not "
-            "by default"
+            "reject the robot on Linux, whose file names are case-sensitive; by default those of "
+            "macOS and Windows are not"
         ),
         "mujoco": "rejects the robot for a collision on Linux",
     },
 )
 def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh file is there under a name with other capitals.
+    """The name of a mesh file differs in case from the file on disk.
 
-    ``Base.STL`` and ``base.stl`` are one file on macOS and Windows and two on Linux, where robots
-    and build servers are.
+    ``Base.STL`` and ``base.stl`` are one file on macOS and Windows, but two files on Linux, which
+    robots and build servers use. There the file is not found.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        if use.path is None or use.exists or use.uri in told:
+        if use.path is None or use.exists or use.uri in seen:
             continue
         actual = actual_case(use.workspace, use.path)
         if actual is not None:
-            told.add(use.uri)
+            seen.add(use.uri)
             pairs = zip(actual.parts, use.path.parts, strict=True)
             same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
             shown = "/".join(actual.parts[same:])
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}' is called '{shown}' on disk; capitals must agree",
+                f"mesh '{use.uri}' is '{shown}' on disk, so Linux does not find it; match the case",
                 at=use.mesh.element.attribute_place("filename"),
                 data={"uri": use.uri, "name": shown},
             )
@@ -196,7 +196,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
 
 @mesh_case_mismatch.fix(SAFE)
 def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the name with the capitals that the file and its folders have on disk."""
+    """Write the name in the case that the file and its folders have on disk."""
 
     def change(use: MeshUse) -> Change | None:
         if use.path is None:
@@ -205,9 +205,9 @@ def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None
         if actual is None:
             return None
         new = use.uri
-        for wanted, there in zip(use.path.parts, actual.parts, strict=True):
-            if wanted != there:
-                head, found, tail = new.rpartition(wanted)
+        for missing, there in zip(use.path.parts, actual.parts, strict=True):
+            if missing != there:
+                head, found, tail = new.rpartition(missing)
                 if not found:
                     return None
                 new = head + there + tail
@@ -215,11 +215,11 @@ def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None
         return substitute(use.mesh.element, "filename", pattern, text)
 
     changes = change_uses(problem, context, change)
-    return safe("write it as the file is called", *changes) if changes else None
+    return safe("write the name of the file on disk", *changes) if changes else None
 
 
 def _tail(old: str, new: str) -> tuple[str, str]:
-    """Return where two names of one length differ: a pattern for the end of one, and the other."""
+    """Return a pattern for the differing end of the first of two names, and the second's end."""
     differs = next((i for i, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), 0)
     same = old.rfind("/", 0, differs) + 1
     return re.escape(old[same:]) + "$", new[same:].replace("\\", r"\\")
@@ -228,28 +228,29 @@ def _tail(old: str, new: str) -> tuple[str, str]:
 @rule(
     ERROR,
     effects={
-        "rviz": "shows nothing there",
+        "rviz": "shows nothing for this shape",
         "mujoco": (
-            "rejects the robot: 'perhaps this is an ASCII file?'; takes the hull of the points "
-            "of an OBJ without faces"
+            "rejects the robot: 'perhaps this is an ASCII file?'; for an OBJ without faces it uses "
+            "the convex hull of the points"
         ),
         "pybullet": "loads the link without the shape, with a warning",
-        "pinocchio": "rejects the shapes of the robot",
+        "pinocchio": "rejects the geometry of the robot",
         "drake": "rejects the robot for a collision",
     },
 )
 def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh file is there and holds no mesh.
+    """A mesh file exists, but does not contain a mesh.
 
-    An empty file, an STL file that ends before its last triangle, or a file without triangles: an
-    OBJ with points and lines alone, a COLLADA file whose geometry was left out at its export.
-    Readers say something about numbers or the format, or nothing.
+    It is empty, an STL file that ends before its last triangle, or a file without triangles: an
+    OBJ with only points and lines, or a COLLADA file that was exported without geometry. Readers
+    report wrong numbers or an unknown format, or show nothing without a message. Export the file
+    again.
     """
-    told: set[Path] = set()
+    seen: set[Path] = set()
     for use in mesh_uses(robot, description):
-        if use.path is None or not use.exists or use.path in told:
+        if use.path is None or not use.exists or use.path in seen:
             continue
-        told.add(use.path)
+        seen.add(use.path)
         wrong = what_is_wrong(use)
         if wrong and wrong != _LFS:
             yield Problem(
@@ -263,20 +264,20 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "rviz": "shows nothing there",
+        "rviz": "shows nothing for this shape",
         "mujoco": "rejects the robot: a wrong header or number of faces",
         "pybullet": "loads the link without the shape, with a warning",
-        "pinocchio": "rejects the shapes of the robot",
+        "pinocchio": "rejects the geometry of the robot",
         "drake": "rejects the robot for a collision",
     },
     group="repository",
 )
 def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh file is a pointer that git-lfs left in place of the file.
+    """A mesh file is a git-lfs pointer instead of the mesh.
 
-    The repository keeps its meshes in git-lfs, and this checkout has not fetched them: each mesh
-    is a text of three lines. Readers report numbers or formats that are wrong, or nothing. One
-    ``git lfs pull`` fetches all of them, so all pointers of a repository are one finding.
+    The repository keeps its meshes in git-lfs, and this checkout has not fetched them: each file
+    is a text of three lines. Readers report wrong numbers or formats, or nothing. ``git lfs pull``
+    fetches all files, so all pointers of a repository are one finding.
     """
     reported: set[Path] = set()
     for use in mesh_uses(robot, description):
@@ -289,13 +290,13 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
                 f"mesh '{use.uri}' {_LFS}",
                 at=use.mesh.element.attribute_place("filename"),
                 data={"uri": use.uri},
-                group="{count} mesh files are pointers of git-lfs, not the files themselves, in "
-                "the links {names}; run 'git lfs pull'",
+                group="{count} mesh files are git-lfs pointers instead of meshes, in the links "
+                "{names}; run 'git lfs pull'",
             )
 
 
 def what_is_wrong(use: MeshUse) -> str:
-    """What keeps a file from being a mesh, to be read after its name; empty where nothing does."""
+    """Describe why a file is not a mesh, to follow its name; empty if it is one."""
     if use.path is None:
         return ""
     try:
@@ -316,14 +317,14 @@ def what_is_wrong(use: MeshUse) -> str:
     if facts.kind == "empty":
         return "is an empty file"
     if facts.kind == "unknown":
-        return "is no STL file"
+        return "is not an STL file"
     if facts.kind == "binary" and facts.triangles == 0:
         return "has no triangles"
     expected = facts.expected_bytes
     if expected is not None and facts.bytes < expected:
         return (
-            f"ends too early: {facts.triangles} triangles want {expected} bytes, "
-            f"and it has {facts.bytes}"
+            f"is truncated: {facts.triangles} triangles need {expected} bytes, but the file has "
+            f"{facts.bytes}"
         )
     return ""
 
@@ -332,18 +333,18 @@ _FACES = {
     ".obj": (b"\nf ", re.compile(rb"(?:^|[\r\n])[ \t]*fo?[ \t]")),
     ".dae": (b"<triangles", re.compile(rb"<(?:\w+:)?(?:triangles|polylist|polygons|tri\w+s)\b")),
 }
-"""What begins a face, by the ending of a file: what it mostly is, and all that it may be."""
+"""Beginning of a face by the suffix of a file: the usual one, and a pattern for all."""
 
 
 def _has_no_faces(file: BinaryIO, suffix: str) -> bool:
-    """Whether a file of points says nothing of how they are joined."""
+    """Tell whether a mesh file has no faces."""
     if suffix not in _FACES:
         return False
     mostly, any_of = _FACES[suffix]
     with mmap(file.fileno(), 0, access=ACCESS_READ) as data:
         if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-            return False  # UTF-16, in which every second byte is none of a letter
+            return False  # UTF-16, which the patterns of bytes do not match
         return data.find(mostly) < 0 and any_of.search(data) is None
 
 
-_LFS = "is a pointer of git-lfs, not the file itself; run 'git lfs pull'"
+_LFS = "is a git-lfs pointer instead of the mesh; run 'git lfs pull'"

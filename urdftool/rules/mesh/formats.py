@@ -1,4 +1,4 @@
-"""Formats of mesh files, and who reads them."""
+"""Check formats of mesh files against the formats that readers support."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ _OF_TEXT = ("pybullet", "rviz", "gz", "pinocchio")
 
 
 def _first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
-    """The first use of each file that is named, collisions before visuals."""
+    """Get the first use of each mesh file, collisions before visuals."""
     uses = mesh_uses(robot, description)
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in (*(u for u in uses if u.collides), *(u for u in uses if not u.collides)):
-        if use.uri and use.uri not in told:
-            told.add(use.uri)
+        if use.uri and use.uri not in seen:
+            seen.add(use.uri)
             yield use
 
 
 _OF_FORMAT = {
     "mujoco (collision)": "rejects the file: no decoder found",
     "pybullet (not read)": "rejects the file: invalid mesh filename extension",
-    "drake (collision)": "rejects the file: it makes a convex hull of OBJ, VTK and glTF alone",
-    "pinocchio (collision in PLY)": "reads what assimp reads, PLY too",
+    "drake (collision)": "rejects the file: it computes convex hulls of OBJ, VTK and glTF only",
+    "pinocchio (collision in PLY)": "reads all formats of assimp, including PLY",
 }
 
 
@@ -50,12 +50,13 @@ _OF_FORMAT = {
 def unsupported_mesh_format(
     robot: Robot, description: Description, targets: frozenset[str]
 ) -> Iterator[Problem]:
-    """A mesh is in a format that a reader does not have.
+    """A mesh is in a format that a target does not read.
 
-    MuJoCo reads STL, OBJ and its own MSH, and of a URDF the collisions only, unless told otherwise;
-    PyBullet OBJ, STL and part of COLLADA; Gazebo COLLADA, STL and OBJ, and new Gazebo glTF and FBX.
+    MuJoCo reads STL, OBJ and its own MSH, and by default only for collisions; PyBullet OBJ, STL
+    and part of COLLADA; Gazebo COLLADA, STL and OBJ, and new Gazebo also glTF and FBX. The targets
+    that are configured decide what is reported. Convert the file.
     """
-    told: set[tuple[str, str]] = set()
+    seen: set[tuple[str, str]] = set()
     for use in _first_uses(robot, description):
         ending = ending_of(use.uri)
         if not ending or is_odd(ending) or (use.path is not None and not use.exists):
@@ -66,17 +67,17 @@ def unsupported_mesh_format(
             if target in targets and ending not in known and (target != "mujoco" or use.collides)
         ]
         key = ending, " and ".join(who)
-        if who and key not in told:
-            told.add(key)
+        if who and key not in seen:
+            seen.add(key)
             same = [u for u in _first_uses(robot, description) if ending_of(u.uri) == ending]
             more = f" (and {len(same) - 1} more)" if len(same) > 1 else ""
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}'{more} is a format that {' and '.join(who)} cannot read; "
+                f"{' and '.join(who)} cannot read the format of mesh '{use.uri}'{more}; "
                 + (
-                    "it is binary STL by its ending: rename it to .stl"
+                    "its suffix means binary STL: rename it to .stl"
                     if ending == "stlb"
-                    else f"convert it, for instance to {READ_BY[who[0]][0]}"
+                    else f"convert it, for example to {READ_BY[who[0]][0]}"
                 ),
                 at=use.mesh.element.attribute_place("filename"),
                 effects=_effects_of_format(ending, any(u.collides for u in same)),
@@ -85,7 +86,7 @@ def unsupported_mesh_format(
 
 
 def _effects_of_format(ending: str, collides: bool) -> list[str]:
-    """Select what readers do with meshes of a suffix, of which one may be a collision."""
+    """Select the effects on meshes of a suffix, of which one may be a collision."""
     rejecting = rejecting_readers(ending, collides)
     keys = [key for key in _OF_FORMAT if key.partition(" (")[0] in rejecting]
     if ending == "ply" and collides:
@@ -95,7 +96,7 @@ def _effects_of_format(ending: str, collides: bool) -> list[str]:
 
 @unsupported_mesh_format.fix(UNSAFE, writes_meshes=True)
 def convert_ply_to_stl(problem: Problem, context: FixContext) -> Proposal | None:
-    """Convert PLY files to STL, beside them, if they are collisions and so lose no colors."""
+    """Convert PLY files of collisions to new STL files, which have no colors to lose."""
     uses = [
         use
         for use in mesh_uses(context.robot, context.description)
@@ -117,10 +118,10 @@ def _stl(use: MeshUse) -> StlHeader | None:
 
 @memoized
 def stl_facts_of(workspace: Workspace, path: Path) -> StlHeader:
-    """Return what the beginning of an STL file tells.
+    """Read the beginning of an STL file.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
     """
     return read_stl_header(workspace.local(path))
 
@@ -131,16 +132,16 @@ def stl_facts_of(workspace: Workspace, path: Path) -> StlHeader:
     effects={
         "mujoco": "rejects the file",
         "pybullet": "loads the link without the shape",
-        "rviz": "does not load it: rviz reads binary STL only",
+        "rviz": "does not load it: RViz reads binary STL only",
         "gz": "reads it",
         "pinocchio": "reads it",
     },
 )
 def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
-    """An STL file is written as text.
+    """An STL file is in the ASCII format.
 
-    It is five times as large as the binary form and slow to read; MuJoCo rejects it, PyBullet and
-    RViz show nothing of it.
+    MuJoCo rejects ASCII STL; PyBullet and RViz show nothing. It is also about five times as large
+    as binary STL and slow to read. Convert the file to binary STL.
     """
     keeps = keeps_visuals(robot)
     for use in _first_uses(robot, description):
@@ -148,7 +149,7 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
         if facts is not None and facts.kind == "ascii":
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}' is STL as text; write it as binary STL",
+                f"mesh '{use.uri}' is ASCII STL, which many readers reject; convert it",
                 at=use.mesh.element.attribute_place("filename"),
                 effects=[*["mujoco"] * (keeps or use.collides), *_OF_TEXT],
                 data={"uri": use.uri},
@@ -157,14 +158,14 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
 
 @ascii_stl.fix(BOTH, writes_meshes=True)
 def write_binary_stl(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the same triangles in the binary form.
+    """Write the same triangles as binary STL.
 
-    PyBullet cannot read the text, so what collides has a shape there only afterwards.
+    PyBullet cannot read ASCII STL, so the fix adds collision geometry there.
     """
     uses = files_at(problem, context)
     make = unsafe if any(use.collides for use in uses) else safe
     rewrites = rewrite_in_place(uses[:1], BINARY)
-    return make("write it as binary STL", *rewrites) if rewrites else None
+    return make("convert it to binary STL", *rewrites) if rewrites else None
 
 
 @rule(
@@ -172,7 +173,7 @@ def write_binary_stl(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "rviz": (
             "reads it as binary; releases before Foxy 8.2.8, Humble 11.2.5 and Rolling 12.2.0 "
-            "warn of it or reject it"
+            "warn or reject it"
         ),
         "mujoco, pybullet, pinocchio": "read it as binary",
     },
@@ -181,34 +182,34 @@ def write_binary_stl(problem: Problem, context: FixContext) -> Proposal | None:
 def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iterator[Problem]:
     """A binary STL file begins with the word ``solid``.
 
-    That word is the mark of the text form. The 80 bytes before the triangles may hold anything, and
-    one exporter in fifteen writes it there; loaders that look no further read the file as text and
-    fail. The readers of robots look further today, so the rule is off by default.
+    ASCII STL begins with that word. The 80 bytes of the binary header may hold any text, and about
+    one exporter in fifteen writes ``solid``; readers that check only this word read the file as
+    text and fail. Current readers of robots check more, so the rule is off by default.
     """
     found = [use for use in _first_uses(robot, description) if _begins_with_solid(use)]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
             found[0].link,
-            f"mesh '{found[0].uri}'{more} is binary STL that begins with 'solid', as text does; "
-            "overwrite the first 80 bytes",
+            f"binary STL mesh '{found[0].uri}'{more} begins with 'solid', as ASCII STL does; "
+            "overwrite the 80 bytes of its header",
             at=found[0].mesh.element.attribute_place("filename"),
             data={"uris": [use.uri for use in found]},
         )
 
 
 def _begins_with_solid(use: MeshUse) -> bool:
-    """Tell whether a mesh is binary STL with the mark of the text form."""
+    """Tell whether a mesh is binary STL that begins with ``solid``."""
     facts = _stl(use)
     return facts is not None and facts.kind == "binary" and facts.begins_with_solid
 
 
 @binary_stl_starts_with_solid.fix(SAFE, writes_meshes=True)
 def overwrite_first_word(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write another word at the head of each of the files."""
+    """Overwrite the first word of each file."""
     uses = mesh_uses(context.robot, context.description)
     rewrites = rewrite_in_place(filter(_begins_with_solid, uses), HEADED)
-    return safe("write another word there", *rewrites) if rewrites else None
+    return safe("overwrite the first word of the header", *rewrites) if rewrites else None
 
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
@@ -219,7 +220,7 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
     WARNING,
     effects={
         "rviz, pybullet (unit)": "apply the unit",
-        "rviz, pybullet (both)": "apply the unit and not the axis",
+        "rviz, pybullet (both)": "apply the unit, but not the axis",
         "moveit (collision)": "applies neither",
     },
 )
@@ -228,16 +229,17 @@ def dae_unit_or_axis(
 ) -> Iterator[Problem]:
     """A COLLADA file is not in meters.
 
-    It may say its unit and which way is up, and readers differ in what they do with it: the same
-    mesh is larger in one than in another by a hundred or a thousand. Export it in meters. An axis
-    other than z alone is not reported: RViz, MoveIt, Gazebo, PyBullet and Pinocchio do not turn the
-    mesh. More than ``together`` meshes that say the same are one finding.
+    A COLLADA file may declare its unit and its up axis. Readers treat both differently: the same
+    mesh is a hundred or a thousand times larger in one reader than in another. Export the file in
+    meters. An up axis other than z alone is not reported, because RViz, MoveIt, Gazebo, PyBullet
+    and Pinocchio do not rotate the mesh. More than ``together`` meshes with the same unit and axis
+    are one finding.
     """
     found: dict[tuple[tuple[str, str], ...], list[MeshUse]] = {}
     for use in _first_uses(robot, description):
-        said = unit_and_axis(use)
-        if "unit" in said:
-            found.setdefault(tuple(said.items()), []).append(use)
+        declared = unit_and_axis(use)
+        if "unit" in declared:
+            found.setdefault(tuple(declared.items()), []).append(use)
     colliding = {use.uri for use in mesh_uses(robot, description) if use.collides}
     for facts, uses in found.items():
         several = len(uses) > together
@@ -247,7 +249,7 @@ def dae_unit_or_axis(
         for use in uses[:1] if several else uses:
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}'{more}: {what}, which readers take differently; "
+                f"mesh '{use.uri}'{more}: {what}, which readers apply differently; "
                 "export it in meters",
                 at=use.mesh.element.attribute_place("filename"),
                 effects=(
@@ -258,21 +260,21 @@ def dae_unit_or_axis(
 
 
 def unit_and_axis(use: MeshUse) -> dict[str, str]:
-    """What a COLLADA file says of its ``unit`` and ``axis``, as far as not metres with z up."""
-    said: dict[str, str] = {}
+    """Describe the ``unit`` and ``axis`` of a COLLADA file that differ from meters and z up."""
+    found: dict[str, str] = {}
     if use.path is None or not use.exists or ending_of(use.uri) != "dae":
-        return said
+        return found
     try:
         with use.workspace.open(use.path) as file:
             head = file.read(16384)
     except OSError:
-        return said
+        return found
     unit, up = _UNIT.search(head), _UP.search(head)
     if unit and not _is_one(unit[1]):
-        said["unit"] = f"its unit is {unit[1].decode('ascii', 'replace')} m"
+        found["unit"] = f"the unit is {unit[1].decode('ascii', 'replace')} m"
     if up and up[1].upper() != b"Z_UP":
-        said["axis"] = f"it says {up[1].decode('ascii', 'replace')}"
-    return said
+        found["axis"] = f"the up axis is {up[1].decode('ascii', 'replace')}"
+    return found
 
 
 def _is_one(text: bytes) -> bool:
@@ -291,10 +293,11 @@ def _is_one(text: bytes) -> bool:
     },
 )
 def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A collision is a COLLADA file.
+    """A collision mesh is a COLLADA file.
 
-    Materials, lights and a tree of scenes are of no use to a contact, and units and axes may go
-    wrong on the way. OBJ says what is needed, and MuJoCo, Drake and PyBullet read it.
+    Collision geometry does not need materials, lights and a scene tree, and readers treat units
+    and axes of COLLADA differently. MuJoCo and Drake reject COLLADA. Convert the file to OBJ, which
+    MuJoCo, Drake and PyBullet read.
     """
     uses = [u for u in mesh_uses(robot, description) if u.collides and ending_of(u.uri) == "dae"]
     if uses:
@@ -302,7 +305,8 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
         more = f" (and {count - 1} more)" if count > 1 else ""
         yield Problem(
             uses[0].link,
-            f"collision mesh '{uses[0].uri}'{more} is COLLADA; OBJ is enough for a collision",
+            f"collision mesh '{uses[0].uri}'{more} is COLLADA, which MuJoCo and Drake reject; "
+            "convert it to OBJ",
             at=uses[0].mesh.element.attribute_place("filename"),
             data={"uris": list(dict.fromkeys(use.uri for use in uses))},
         )
@@ -310,7 +314,7 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
 
 @dae_as_collision.fix(UNSAFE, writes_meshes=True)
 def convert_collada_to_stl(problem: Problem, context: FixContext) -> Proposal | None:
-    """Convert COLLADA files to STL, beside them, if readers agree on their unit and axes."""
+    """Convert COLLADA files to new STL files, if readers agree on their unit and axes."""
     uses = mesh_uses(context.robot, context.description)
     found = [use for use in uses if use.collides and use.uri.lower().endswith(".dae")]
     if any(not use.exists or unit_and_axis(use) for use in found):
@@ -319,7 +323,7 @@ def convert_collada_to_stl(problem: Problem, context: FixContext) -> Proposal | 
 
 
 def _convert_to_stl(uses: list[MeshUse]) -> Proposal | None:
-    """Write meshes as STL under a free name beside them, and use these."""
+    """Write meshes as STL under unused names in their folders, and use these files."""
     changes: list[Change | FileRewrite] = []
     for use in uses:
         if use.path is None:
@@ -332,4 +336,4 @@ def _convert_to_stl(uses: list[MeshUse]) -> Proposal | None:
             return None
         old = re.escape(os.path.splitext(use.uri)[1]) + r"(?=\s*$)"
         changes += [substitute(use.mesh.element, "filename", old, ending), *new]
-    return unsafe("convert it to STL, beside it", *dict.fromkeys(changes)) if changes else None
+    return unsafe("convert it to a new STL file", *dict.fromkeys(changes)) if changes else None

@@ -1,4 +1,4 @@
-"""The objects of an OBJ file, as MuJoCo reads them: the first of several."""
+"""Read the first of several objects of an OBJ file, as MuJoCo does."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from ...model.pose import cross, dot
 from ...workspace import Workspace, memoized
 
 _FLAT = 1e-9
-"""Volume of an object, relative to the cube of its size, up to which it counts as flat."""
+"""Volume of an object, relative to the cube of its size, below which it counts as flat."""
 
 
 @memoized
 def is_first_object_flat(workspace: Workspace, path: Path) -> bool:
     """Tell whether an OBJ file has several objects and the faces of the first lie in a plane.
 
-    A statement ``o`` or ``g`` begins an object. A file that cannot be read has none.
+    A statement ``o`` or ``g`` begins an object. An unreadable file has no objects.
     """
     try:
         text = workspace.read_bytes(path).decode("utf-8", "replace")
@@ -27,7 +27,7 @@ def is_first_object_flat(workspace: Workspace, path: Path) -> bool:
 
 
 def _first_of_several(text: str) -> list[Vector]:
-    """List the corners of the faces of the first object; none if there is no second object."""
+    """List the corners of the faces of the first object; empty without a second object."""
     points: list[Vector] = []
     first: list[Vector] = []
     ended = False

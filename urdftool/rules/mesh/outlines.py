@@ -1,4 +1,4 @@
-"""How far the shapes of a link reach, meshes included: their points are read once."""
+"""Compute bounding boxes of shapes, meshes included; each mesh is read once."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 ShapeKind = Literal["visuals", "collisions", "all"]
 
-LARGEST = 10.0  # [m] a mesh that is longer is in millimetres
+LARGEST = 10.0  # [m] a longer mesh is in millimeters
 SMALLEST = 0.001
 
 
 def outline_of(use: MeshUse) -> ConvexPoints | None:
-    """The points of a mesh in the frame of its file, unscaled; None if it has none."""
+    """Get the convex points of a mesh in its own frame, unscaled; None if it has none."""
     if use.path is None or not use.exists:
         return None
     try:
@@ -44,17 +44,17 @@ def _outline(workspace: Workspace, path: Path, gltf_up: GltfUp) -> ConvexPoints 
 
 
 def box_of(use: MeshUse, pose: Pose = IDENTITY) -> Bounds | None:
-    """The box around a mesh as scaled [m], in the frame in which its link has the given pose."""
+    """Compute the bounding box of a scaled mesh [m], in a frame in which its link has a pose."""
     found = outline_of(use)
     at = pose @ pose_of(use.shape.origin)
     return None if found is None else Bounds(*found.box(use.mesh.scale, *at))
 
 
 class Reaches:
-    """The boxes around the shapes of a robot's links, each worked out when it is asked for."""
+    """Bounding boxes of the shapes of a robot's links, each computed on first use."""
 
     def __init__(self, robot: Robot) -> None:
-        """Know where the meshes are, and read none yet."""
+        """Store the robot; meshes are read later."""
         self.robot = robot
         self._uses: dict[int, MeshUse] | None = None
         self._boxes: dict[int, Bounds | None] = {}
@@ -65,7 +65,7 @@ class Reaches:
         }
 
     def use_of(self, shape: Visual | Collision) -> MeshUse | None:
-        """The file of a shape that is a mesh."""
+        """Get the mesh use of a shape; None if it is not a mesh."""
         if self._uses is None:
             source = self.robot.source
             uses = mesh_uses(self.robot, source) if source is not None else []
@@ -73,7 +73,7 @@ class Reaches:
         return self._uses.get(id(shape))
 
     def shape(self, shape: Visual | Collision) -> Bounds | None:
-        """The box around one shape, in the frame of its link; None where it is not known."""
+        """Get the bounding box of one shape, in the frame of its link; None if unknown."""
         if id(shape) in self._in_millimeters:
             return None
         if not isinstance(shape.geometry, Mesh):
@@ -87,11 +87,11 @@ class Reaches:
         box = box_of(use) if use is not None and 0 not in use.mesh.scale else None
         if box is None:
             return None
-        # one in another unit has findings of its own, and says nothing of the link
+        # a mesh in another unit is reported by itself, and does not show the size of the link
         return box if SMALLEST < max(box.size) < LARGEST else None
 
     def shapes(self, shapes: list[Visual] | list[Collision]) -> Bounds | None:
-        """The box around several; None where there is none, or one whose box is not known."""
+        """Get the bounding box of several shapes; None if one is unknown or there are none."""
         box: Bounds | None = None
         for shape in shapes:
             other = self.shape(shape)
@@ -101,22 +101,22 @@ class Reaches:
         return box
 
     def link(self, link: Link) -> Bounds | None:
-        """The box around all that is seen of a link or touches; None where it is not known.
+        """Get the bounding box of all shapes of a link; None if unknown.
 
-        It is not known either where the two do not meet, so that one of them is at a wrong place.
+        It is also unknown if visuals and collisions do not overlap, because one is misplaced.
         """
         if id(link) not in self._links:
             self._links[id(link)] = self._link(link)
         return self._links[id(link)]
 
     def attached(self, link: Link) -> Attached:
-        """Return a link and all that is rigidly attached to it, with poses in its frame."""
+        """Get a link and all links rigidly attached to it, with poses in its frame."""
         if id(link) not in self._attached:
             self._attached[id(link)] = attached_links(self.robot, link)
         return self._attached[id(link)]
 
     def counted(self, link: Link) -> Attached:
-        """List the attached links with shapes that hardly have a mass of their own."""
+        """Get the attached links with geometry that hardly have a mass of their own."""
         return [
             (other, at)
             for other, at in self.attached(link)[1:]
@@ -124,16 +124,16 @@ class Reaches:
         ]
 
     def meant(self, link: Link, box: Bounds) -> Bounds | None:
-        """Return the box around the shapes that a link's inertial may be written for.
+        """Get the bounding box of all geometry that a link's inertial may describe.
 
-        These are its own and those of attached links that hardly have a mass of their own.
+        It includes attached links that hardly have a mass of their own.
 
         Args:
             link: The link.
-            box: That around its own shapes.
+            box: Bounding box of its own geometry.
 
         Returns:
-            The box [m]; None where that of an attached link is not known.
+            The box [m]; None if that of an attached link is unknown.
         """
         for other, at in self.counted(link):
             more = self.body(link, "all", [(other, at)])
@@ -145,15 +145,15 @@ class Reaches:
     def body(
         self, link: Link, part: ShapeKind = "all", members: Attached | None = None
     ) -> Bounds | None:
-        """Return the box around the shapes of a link and of all that is rigidly attached to it.
+        """Get the bounding box of a link and of all links rigidly attached to it.
 
         Args:
             link: The link in whose frame the box is.
             part: Which shapes count: ``visuals``, ``collisions`` or ``all``.
-            members: The links that count, with their poses; all that are attached if None.
+            members: The links that count, with their poses; all attached links if None.
 
         Returns:
-            The box [m]; None where there is no such shape, or the box of one is not known.
+            The box [m]; None if there is no such shape, or the box of one is unknown.
         """
         box: Bounds | None = None
         for member, pose in self.attached(link) if members is None else members:
@@ -168,7 +168,7 @@ class Reaches:
         return box if box is not None and any(box.size) else None
 
     def _at(self, shape: Visual | Collision, pose: Pose) -> Bounds | None:
-        """Return the box around a shape whose link has a pose."""
+        """Compute the bounding box of a shape whose link has a pose."""
         if pose is IDENTITY:
             return self.shape(shape)
         if id(shape) in self._in_millimeters:
@@ -189,5 +189,5 @@ class Reaches:
 
 
 def reaches(robot: Robot) -> Reaches:
-    """The boxes of a robot; the same for all rules that ask."""
+    """Get the bounding boxes of a robot, shared by all rules."""
     return robot.memo.get("reaches", lambda: Reaches(robot))

@@ -1,4 +1,4 @@
-"""What a mesh file refers to itself."""
+"""Check files that mesh files refer to."""
 
 from __future__ import annotations
 
@@ -20,41 +20,41 @@ _OBJ = re.compile(rb"^mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
 _DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
 _GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')
 _RELIEF = re.compile(r"normal|bump|height|specular|_nrm", re.IGNORECASE)
-_MOST = 4_000_000  # bytes that are looked at
+_MOST = 4_000_000  # bytes that are searched
 
 
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet, drake": "do not reject the robot for it",
+        "mujoco, pybullet, drake": "load the robot anyway",
     },
 )
 def missing_mesh_dependency(
     robot: Robot, description: Description, *, together: float = 3
 ) -> Iterator[Problem]:
-    """A file that a mesh refers to is not beside it.
+    """A file that a mesh refers to does not exist.
 
-    The colours of an OBJ file are in an MTL file, the pictures of a COLLADA file and the buffers of
-    a glTF file in files of their own. They are left behind when a mesh is copied. Without its
-    colors or pictures a mesh keeps its shape, which is a remark; without its buffers it has none.
+    An OBJ file has its colors in an MTL file, a COLLADA file its textures and a glTF file its
+    buffers in separate files, which are easily left behind when a mesh is copied. Without colors
+    or textures a mesh keeps its shape, which is an info; without its buffers it has no shape.
     More than ``together`` such meshes are one finding.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     found: list[tuple[MeshUse, tuple[str, ...]]] = []
     for use in mesh_uses(robot, description):
-        if use.path is None or not use.exists or use.uri in told or use.collides:
+        if use.path is None or not use.exists or use.uri in seen or use.collides:
             continue
-        told.add(use.uri)
+        seen.add(use.uri)
         missing = _missing(use.workspace, use.path)
         if missing:
             found.append((use, missing))
     several = len(found) > together
     for use, missing in found[:1] if several else found:
         named = [names for _, names in found] if several else [missing]
-        others = f" (and {len(found) - 1} more meshes to theirs)" if several else ""
+        others = f" (and {len(found) - 1} more meshes)" if several else ""
         yield Problem(
             use.link,
-            f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it{others}",
+            f"mesh '{use.uri}' refers to {quoted(missing)}, but the file does not exist{others}",
             at=use.mesh.element.attribute_place("filename"),
             severity=None if any(_has_shape(name) for one in named for name in one) else INFO,
             data={"uri": use.uri, "names": list(missing)},
@@ -62,13 +62,13 @@ def missing_mesh_dependency(
 
 
 def _has_shape(name: str) -> bool:
-    """Tell whether a file that a mesh refers to holds its vertices: a buffer of glTF."""
+    """Tell whether a file that a mesh refers to holds its vertices (a glTF buffer)."""
     return name.lower().endswith((".bin", ".glbin"))
 
 
 @memoized
 def _missing(workspace: Workspace, path: Path) -> tuple[str, ...]:
-    """What a mesh refers to and is not there; looked up once for a run."""
+    """Find the missing files that a mesh refers to; cached for a run."""
     return tuple(_look(workspace, path))
 
 
@@ -85,17 +85,17 @@ def _look(workspace: Workspace, path: Path) -> Iterator[str]:
     for name in dict.fromkeys(match[1] for match in pattern.finditer(data)):
         text = unquote(name.decode("utf-8", "replace")).removeprefix("file://")
         if ending == ".dae" and _RELIEF.search(text):
-            continue  # readers of COLLADA for robots use the diffuse image alone
+            continue  # readers of robots use only the diffuse texture of COLLADA
         if text.startswith(("data:", "http:", "https:", "#")) or (
             ending == ".dae" and "." not in text
         ):
-            continue  # inside the file, elsewhere, or the name of an image in it
+            continue  # embedded, remote, or the name of an embedded image
         if not workspace.exists(path.parent / text.replace("\\", "/")):
             yield text
 
 
 def buffers_of(workspace: Workspace, path: Path) -> list[Path]:
-    """List the files that a reader of a glTF file opens besides it."""
+    """List the files that a reader of a glTF file opens in addition to it."""
     if path.suffix.lower() != ".gltf":
         return []
     try:

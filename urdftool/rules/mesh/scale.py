@@ -1,4 +1,4 @@
-"""How large a mesh is."""
+"""Check the size and the scale of meshes."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ from .uses import MeshUse, mesh_uses
 
 APPLIES_TO = ("mesh",)
 
-_SAMPLE = 300  # triangles, from the beginning, the middle and the end
+_SAMPLE = 300  # triangles, from the beginning, middle and end of a file
 
 
 @memoized
 def sampled_extent(workspace: Workspace, path: Path) -> tuple[float, float, float] | None:
-    """Lengths of the box around some triangles of a binary STL file: it is at least so large."""
+    """Compute the size of a sample of a binary STL file, a lower bound of its size."""
     try:
         return _sample(workspace.local(path))
     except OSError:
@@ -50,11 +50,11 @@ def _sample(path: Path) -> tuple[float, float, float] | None:
     return sample_extent(path, facts, _SAMPLE)
 
 
-_LOOKED_AT = 400_000  # bytes
+_LOOKED_AT = 400_000  # [bytes]
 
 
 def rough_size(use: MeshUse) -> float | None:
-    """About the largest length of a mesh as scaled [m]; None where that cannot be told cheaply."""
+    """Estimate the largest length of a scaled mesh [m]; None if that is slow or impossible."""
     if use.path is None or not use.exists:
         return None
     ending = use.path.suffix.lower()
@@ -68,7 +68,7 @@ def rough_size(use: MeshUse) -> float | None:
 
 
 def _largest(use: MeshUse, whole: bool = False) -> float | None:
-    """The largest length of a mesh as scaled [m], or of a sample of it."""
+    """Compute the largest length of a scaled mesh, or of a sample of it [m]."""
     if use.path is None or not use.exists:
         return None
     if use.path.suffix.lower() != ".stl":
@@ -97,44 +97,43 @@ def _largest(use: MeshUse, whole: bool = False) -> float | None:
 def mesh_in_millimetres(
     robot: Robot, description: Description, *, largest: float = 10.0
 ) -> Iterator[Problem]:
-    """A mesh is larger than ``largest`` [m].
+    """A mesh is larger than ``largest`` [m]: its file is probably in millimeters.
 
-    STL has no unit, and CAD programs write millimetres. Of thousands of meshes in real robots none
-    is between two and a hundred metres large: it is one or the other. ``scale="0.001 0.001 0.001"``
-    mends it. A world in which nothing moves may be as large as that, and is left alone unless it is
-    an STL file.
+    STL files have no unit, and CAD programs often export millimeters, but readers take meters.
+    Real robots have no meshes between 2 m and 100 m. Add ``scale="0.001 0.001 0.001"``. In a world
+    without moving parts, only STL files are reported, because such a world may be that large.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        length = _largest(use) if use.uri not in told else None
+        length = _largest(use) if use.uri not in seen else None
         if length is not None and length > largest:
             if not robot.moving_joints and not use.uri.lower().endswith(".stl"):
                 continue
-            told.add(use.uri)
+            seen.add(use.uri)
             yield _of_large_mesh(use, length, largest)
 
 
 @mesh_in_millimetres.full
 def every_mesh_in_millimetres(robot: Robot) -> Iterator[Problem]:
-    """Report each link with a mesh that is too large; none of a robot without a description."""
+    """Report each link with a mesh that is too large; only robots with a description have any."""
     description = robot.source
     largest = mesh_in_millimetres.thresholds["largest"]
-    told: set[tuple[str, str]] = set()
+    seen: set[tuple[str, str]] = set()
     for use in mesh_uses(robot, description) if description is not None else ():
-        length = _largest(use) if (use.link.name, use.uri) not in told else None
+        length = _largest(use) if (use.link.name, use.uri) not in seen else None
         if length is None or length <= largest:
             continue
         if robot.moving_joints or use.uri.lower().endswith(".stl"):
-            told.add((use.link.name, use.uri))
+            seen.add((use.link.name, use.uri))
             yield _of_large_mesh(use, length, largest)
 
 
 def _of_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
-    length = _largest(use, whole=True) or length  # a sample is at least so large
+    length = _largest(use, whole=True) or length  # a sample is a lower bound
     right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
     return Problem(
         use.link,
-        f"mesh '{use.uri}' is {length:.3g} m large, as if in millimetres{right}",
+        f"mesh '{use.uri}' is {length:.3g} m long, so it is probably in millimeters{right}",
         at=use.mesh.element.attribute_place("filename"),
         data={
             "uri": use.uri,
@@ -147,7 +146,7 @@ def _of_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
 
 @mesh_in_millimetres.fix(UNSAFE)
 def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | None:
-    """Scale the file by a thousandth in all places, if it has no scale in any of them."""
+    """Scale the file by 0.001 in all its uses, if none of them has a scale."""
     uses = uses_at(problem, context)
     if not uses or any(use.mesh.element.get("scale") for use in uses):
         return None
@@ -159,32 +158,32 @@ def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | Non
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet": "scale a mesh in meters to a grain of sand",
+        "mujoco, pybullet": "scale a mesh in meters to less than a millimeter",
     },
 )
 def mesh_scaled_twice(
     robot: Robot, description: Description, *, smallest: float = 0.001
 ) -> Iterator[Problem]:
-    """A mesh is smaller than ``smallest`` [m].
+    """A mesh is smaller than ``smallest`` [m]: it was probably scaled twice.
 
-    The file is in metres already, and ``scale`` makes a thousandth of it. No real link is smaller
-    than a millimetre.
+    The file is already in meters, and ``scale`` reduces it by 1000 again. Real links are larger
+    than a millimeter. Remove the scale.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        if use.uri in told or min(map(abs, use.mesh.scale)) == 0:
+        if use.uri in seen or min(map(abs, use.mesh.scale)) == 0:
             continue
         length = _largest(use)
         if length is None or length >= smallest:
             continue
         length = _largest(use, whole=True)
         if length is not None and 0 < length < smallest:
-            told.add(use.uri)
+            seen.add(use.uri)
             scale = use.mesh.element.get("scale") or ""
-            right = "; take the scale away" if scale else ""
+            right = "; remove the scale" if scale else ""
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}' is {length * 1000:.3g} mm large{right}",
+                f"mesh '{use.uri}' is only {length * 1000:.3g} mm long{right}",
                 at=use.mesh.element.attribute_place("scale"),
                 data={"uri": use.uri, "length": length, "limit": smallest, "scale": scale},
             )
@@ -192,12 +191,12 @@ def mesh_scaled_twice(
 
 @mesh_scaled_twice.fix(UNSAFE)
 def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the scale in all places, if it is a thousandth in each."""
+    """Remove the scale in all uses, if it is 0.001 in each."""
     uses = uses_at(problem, context) if problem.data["scale"] else []
     if not uses or any(not math.isclose(part, 0.001) for use in uses for part in use.mesh.scale):
         return None
     changes = [remove_attribute(use.mesh.element, "scale") for use in uses]
-    return unsafe("take the scale away", *changes)
+    return unsafe("remove the scale", *changes)
 
 
 @rule(
@@ -205,17 +204,17 @@ def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
     raised={"gz": ERROR},
     effects={
         "mujoco": "mirrors the mesh",
-        "gz (visual)": "takes the scale as written; Ogre 2 shows the inner side of the triangles",
+        "gz (visual)": "takes the scale as written; Ogre 2 shows the back sides of the triangles",
         "gz (collision)": "takes the scale as written",
         "urdfdom, gazebo-classic, pybullet": "take the scale as written",
     },
 )
 def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is mirrored by its scale.
+    """A mesh is mirrored by a negative scale.
 
-    A negative factor turns the triangles inside out, which readers do not undo: light falls on the
-    wrong side, or the outer side is not drawn. A left hand needs a mesh of its own. The file
-    itself stays as it is where other links use it. One finding names the meshes.
+    A negative factor turns the triangles inside out, which readers do not correct: the mesh is lit
+    from the wrong side, or only its back sides are drawn. Use a mirrored copy of the file; other
+    links may use the original. One finding names all such meshes.
     """
     found = []
     for use in mesh_uses(robot, description):
@@ -228,8 +227,8 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
         visual = any(not use.collides for use in found)
         yield Problem(
             found[0].link,
-            f"mesh '{found[0].uri}'{more} is mirrored by its scale; "
-            "name a mirrored copy of the file instead, with its triangles turned",
+            f"mesh '{found[0].uri}'{more} has a negative scale, which turns its triangles inside "
+            "out; use a mirrored copy of the file",
             at=found[0].mesh.element.attribute_place("scale"),
             effects=(
                 "mujoco",
@@ -242,7 +241,7 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
 
 @mirrored_scale.fix(UNSAFE, writes_meshes=True)
 def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write files that are mirrored themselves, if they are STL and so lose no colors."""
+    """Write mirrored files, for STL files only because they have no colors to lose."""
     changes: list[Change | FileRewrite] = []
     for use in mesh_uses(context.robot, context.description):
         x, y, z = use.mesh.scale
@@ -259,7 +258,7 @@ def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | Non
         scale = " ".join(f"{abs(factor):.12g}" for factor in (x, y, z))
         changes.append(substitute(element, "filename", r"\.(?=\w+\s*$)", f"_mirrored_{axes}."))
         changes += [set_attribute(element, "scale", scale), *new]
-    return unsafe("mirror the file, beside it", *dict.fromkeys(changes)) if changes else None
+    return unsafe("use a mirrored copy of the file", *dict.fromkeys(changes)) if changes else None
 
 
 @rule(
@@ -269,13 +268,13 @@ def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | Non
     },
 )
 def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Problem]:
-    """One mesh file is used with two scales.
+    """A mesh file is used with two different scales.
 
-    A link collides with the mesh that is seen, or left and right share one, and the factors differ:
-    one of them was forgotten, or lost a power of ten. Signs do not count, as mirrored parts have
-    them. A mesh stretched to several shapes, as a cube that is the top and the legs of a table, is
-    not reported: unless a link shows one and collides with the other, two scales count where both
-    are uniform or differ by a power of ten.
+    The visual and the collision of a link, or its left and right parts, share a file, but a scale
+    was forgotten or lost a power of ten on one of them. Signs are ignored, because mirrored parts
+    have negative ones. A mesh that is stretched to several shapes, such as a cube for the top and
+    the legs of a table, is not reported: unless the visual and the collision of one link differ,
+    two scales are compared only if both are uniform or differ by a power of ten.
     """
     uses: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
@@ -291,8 +290,8 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
                 continue
             yield Problem(
                 use.link,
-                f"mesh '{uri}' of link '{use.link.name}' is scaled by {_words(scale)}, and "
-                f"elsewhere by {_words(usual)}",
+                f"mesh '{uri}' of link '{use.link.name}' has scale {_words(scale)}, but "
+                f"{_words(usual)} in other places; use one scale",
                 at=use.mesh.element.attribute_place("scale")
                 if "scale" in use.mesh.element.attributes
                 else use.mesh.element,
@@ -304,7 +303,7 @@ def _is_uniform(scale: tuple[float, ...]) -> bool:
 
 
 def _is_power_of_ten(scale: tuple[float, ...], usual: tuple[float, ...]) -> bool:
-    """Whether one scale is a power of ten times the other, along each axis."""
+    """Tell whether one scale is a power of ten times the other, along each axis."""
     if not (min(scale) > 0 and min(usual) > 0):
         return False
     powers = [math.log10(a / b) for a, b in zip(scale, usual, strict=True)]
@@ -312,7 +311,7 @@ def _is_power_of_ten(scale: tuple[float, ...], usual: tuple[float, ...]) -> bool
 
 
 def _is_pair(use: MeshUse, same: list[MeshUse]) -> bool:
-    """Whether a link shows the mesh once and collides with it once."""
+    """Tell whether one visual and one collision of a link use the mesh."""
     kinds = [other.collides for other in same if other.link is use.link]
     return sorted(kinds) == [False, True]
 
@@ -330,12 +329,12 @@ def _words(scale: tuple[float, ...]) -> str:
 def mesh_scale_out_of_line(
     robot: Robot, description: Description, *, several: float = 4
 ) -> Iterator[Problem]:
-    """One mesh is scaled by another power of ten than all others of the robot.
+    """The scale of one mesh differs by a power of ten from all others of the robot.
 
-    The meshes of a robot come from one program in one unit. Where ``several`` or more of a format
-    have one scale and a single one is off by a power of ten, a zero was lost. A factor of 1000 is
-    that of a file in another unit, meters or millimeters, and not reported;
-    ``mesh-in-millimetres`` and ``mesh-scaled-twice`` say where the file itself shows it wrong.
+    The meshes of a robot usually come from one program in one unit. If ``several`` or more files
+    of a format have one scale and a single one differs by a power of ten, a zero was lost. A factor
+    of 1000 is not reported, because such a file is in another unit (meters or millimeters);
+    ``mesh-in-millimetres`` and ``mesh-scaled-twice`` report files whose size shows a wrong one.
     """
     formats: dict[str, dict[str, MeshUse]] = {}
     for use in mesh_uses(robot, description):
@@ -355,7 +354,7 @@ def mesh_scale_out_of_line(
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' of link '{use.link.name}' is scaled {factor:g} times as much as "
-                f"the other {scales.count(usual)} meshes",
+                f"the other {scales.count(usual)} meshes; check its scale",
                 at=use.mesh.element.attribute_place("scale"),
                 data={"uri": use.uri, "factor": factor},
             )
@@ -370,9 +369,9 @@ def mesh_scale_out_of_line(
     },
 )
 def bad_scale(robot: Robot) -> Iterator[Problem]:
-    """A mesh is scaled by zero.
+    """A mesh has a scale of zero.
 
-    Nothing is left of it: the mesh is flat, or a point.
+    The mesh is then flat, or a point. Write nonzero factors.
     """
     for link, shape in robot.shapes:
         mesh = shape.geometry
@@ -383,7 +382,8 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
         if values is not None and 0 in values:
             yield Problem(
                 link,
-                f"a mesh of link '{link.name}' is scaled by '{text}'; no factor may be 0",
+                f"scale '{text}' of a mesh of link '{link.name}' has a factor 0, which makes it "
+                "flat; write nonzero factors",
                 at=mesh.element.attribute_place("scale"),
                 data={"scale": list(values)},
             )
@@ -397,16 +397,17 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
     },
 )
 def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is scaled by different factors.
+    """A mesh is scaled by different factors along its axes.
 
-    Light and inertia computed from the file itself no longer fit its shape.
+    Lighting and inertia that are computed from the file then do not fit the scaled shape. Scale
+    the mesh file itself.
     """
     for use in mesh_uses(robot, description):
         factors = [abs(factor) for factor in use.mesh.scale]
         if max(factors) - min(factors) > 0.01 * max(factors):
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}' is scaled by {use.mesh.element.get('scale')}; "
+                f"mesh '{use.uri}' has the non-uniform scale {use.mesh.element.get('scale')}; "
                 "scale the file itself",
                 at=use.mesh.element.attribute_place("scale"),
                 data={"uri": use.uri, "scale": list(use.mesh.scale)},
@@ -425,18 +426,19 @@ def heavy_visual(
 ) -> Iterator[Problem]:
     """A visual mesh is very large.
 
-    More than ``most`` triangles or ``megabytes`` make RViz slow and the repository heavy.
+    More than ``most`` triangles, or ``megabytes`` [MB], make RViz slow and the repository large.
+    Simplify the mesh.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        if use.collides or use.uri in told or use.size is None:
+        if use.collides or use.uri in seen or use.size is None:
             continue
-        told.add(use.uri)
+        seen.add(use.uri)
         size = use.size
         if size > megabytes * 1e6 or size > HEADER_BYTES + TRIANGLE_BYTES * most:
             yield Problem(
                 use.link,
-                f"visual mesh '{use.uri}' has {size / 1e6:.0f} MB; simplify it",
+                f"visual mesh '{use.uri}' is {size / 1e6:.0f} MB large; simplify it",
                 at=use.mesh.element.attribute_place("filename"),
                 data={"uri": use.uri, "bytes": size},
             )

@@ -1,4 +1,4 @@
-"""The surfaces of collision meshes: closed, the right way out, without slivers, convex."""
+"""Check surfaces of collision meshes: holes, orientation, degenerate triangles, convexity."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 MOST_SLIVERS = 0.2
-"""Part of a mesh's triangles that may have no area without harm."""
+"""Part of a mesh's triangles that may have no area."""
 
 
 @memoized
@@ -59,17 +59,17 @@ def _surfaces(
     Args:
         robot: The robot.
         description: Its description.
-        concerns: Whether the meshes of a link are wanted.
+        concerns: Tells whether to include the meshes of a link.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        if not use.collides or not use.exists or use.path is None or use.uri in told:
+        if not use.collides or not use.exists or use.path is None or use.uri in seen:
             continue
         if use.path.suffix.lower() not in (".stl", ".obj"):
-            continue  # slow to read, and made to be looked at
+            continue  # slow to read, and meant for display
         if not concerns(robot, use.link):
             continue
-        told.add(use.uri)
+        seen.add(use.uri)
         try:
             found = _surface(use.workspace, use.path)
         except OSError:
@@ -79,14 +79,14 @@ def _surfaces(
 
 
 def _is_weighed(robot: Robot, link: Link) -> bool:
-    """Tell whether MuJoCo weighs a link by its collisions: it moves, and has no inertial."""
+    """Tell whether MuJoCo computes a link's mass from its collisions: moving, no inertial."""
     if link.inertial is not None or is_fixed_to_world(robot, link):
         return False
     return all(robot.tree.parent_joint(one.name) for one, _ in attached_links(robot, link))
 
 
 def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str]) -> list[Problem]:
-    """One finding for the robot: the first mesh, with a word of the case, and the others' links."""
+    """Combine findings: the first mesh with its details, and the links of the others."""
     if not found:
         return []
     (use, what), rest = found[0], found[1:]
@@ -100,7 +100,7 @@ def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str
 @rule(
     INFO,
     effects={
-        "mujoco": "takes the mass, center and inertia of the link from it, changed by the hole",
+        "mujoco": "computes mass, center and inertia of the link from it, changed by the hole",
     },
 )
 def not_watertight(
@@ -108,11 +108,11 @@ def not_watertight(
 ) -> Iterator[Problem]:
     """The surface of a collision mesh has a hole, and its link has no ``<inertial>``.
 
-    What is open has no inside: volume, center of mass and inertia computed from it are wrong. They
-    are computed where the link has none of its own; the shape for contacts is the same with the
-    hole, as readers take the convex hull or the triangles. Small holes do no harm: it is reported
-    where closing them changes one of the three by more than the part ``change``. One finding names
-    the links.
+    An open surface has no defined inside, so mass, center of mass and inertia that are computed
+    from it are wrong. Simulators compute them for a link without an inertial; contacts are not
+    affected, because they use the convex hull or the triangles. It is reported if closing the
+    holes changes volume, center or inertia by more than ``change`` (relative). One finding names
+    all such links.
     """
     found: list[tuple[MeshUse, str]] = []
     for use, path, surface in _surfaces(robot, description, _is_weighed):
@@ -120,19 +120,19 @@ def not_watertight(
             continue
         changed = _change_by_closing(use.workspace, path)
         if changed is not None and changed > change:
-            much = f"by {changed * 100:.0f} %" if changed < 1 else "altogether"
+            much = f"by {changed * 100:.0f} %" if changed < 1 else "completely"
             found.append(
                 (
                     use,
-                    f"{surface.open_edges} open edges, and closing them changes its volume, "
-                    f"center or inertia {much}",
+                    f"{surface.open_edges} open edges (closing them changes volume, center or "
+                    f"inertia {much})",
                 )
             )
     yield from _together(
         found,
         lambda use: (
             f"collision mesh '{use.uri}' of link '{use.link.name}', which has no <inertial>, is "
-            "not closed: it has {}"
+            "not watertight: {}"
         ),
     )
 
@@ -146,17 +146,17 @@ def not_watertight(
     },
 )
 def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The triangles of a collision mesh look inwards.
+    """The triangles of a collision mesh face inward.
 
-    The surface is closed and its volume is negative: every normal points into the body, and mass
-    properties that are computed of it are negative. Turn the winding of the triangles.
+    The surface is closed and its volume is negative: every normal points into the body, and the
+    mass properties that are computed from it are negative. Reverse the triangles.
     """
     for use, _, surface in _surfaces(robot, description):
         if surface.inside_out:
             yield Problem(
                 use.link,
-                f"collision mesh '{use.uri}' of link '{use.link.name}' is inside out; turn its "
-                "triangles round",
+                f"collision mesh '{use.uri}' of link '{use.link.name}' is inside out; reverse its "
+                "triangles",
                 at=use.mesh.element.attribute_place("filename"),
                 data={"uri": use.uri},
             )
@@ -164,12 +164,12 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
 
 @inverted_mesh.fix(UNSAFE, writes_meshes=True)
 def turn_triangles(problem: Problem, context: FixContext) -> Proposal | None:
-    """Turn the triangles of the file, if no other description names it."""
+    """Reverse the triangles of the file, if no other description uses it."""
     uses = [use for use in files_at(problem, context) if use.uri.lower().endswith(".stl")]
     if not uses:
         return None
     check_alone(context, str(uses[0].path and uses[0].path.name), robots=True)
-    return unsafe("turn its triangles round", *rewrite_in_place(uses[:1], TURNED))
+    return unsafe("reverse its triangles", *rewrite_in_place(uses[:1], TURNED))
 
 
 @rule(
@@ -184,9 +184,9 @@ def degenerate_triangles(
 ) -> Iterator[Problem]:
     """Many triangles of a collision mesh have no area.
 
-    Two of their corners are one, or all three lie on a line. They have no normal and add nothing to
-    the shape; some are left by every exporter, and that many tell of a broken one. ``most`` is the
-    part that is let pass. One finding names the links.
+    Two of their corners coincide, or all three lie on a line, so they have no normal. Most
+    exporters leave a few; this many are the sign of a broken export. ``most`` is the tolerated
+    part. One finding names all such links.
     """
     found = [
         (use, f"{surface.flat} of its {surface.faces} triangles")
@@ -195,7 +195,7 @@ def degenerate_triangles(
     yield from _together(
         found,
         lambda use: (
-            f"collision mesh '{use.uri}' of link '{use.link.name}' has slivers: {{}} have no area"
+            f"collision mesh '{use.uri}' of link '{use.link.name}' is degenerate: {{}} have no area"
         ),
     )
 
@@ -203,7 +203,7 @@ def degenerate_triangles(
 def _with_slivers(
     robot: Robot, description: Description, most: float = MOST_SLIVERS
 ) -> list[tuple[MeshUse, Surface]]:
-    """List the collision meshes of which more than a part of the triangles has no area."""
+    """List the collision meshes with more than a part of triangles without area."""
     return [
         (use, surface)
         for use, _, surface in _surfaces(robot, description)
@@ -213,9 +213,9 @@ def _with_slivers(
 
 @degenerate_triangles.fix(UNSAFE, writes_meshes=True)
 def remove_collapsed_triangles(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove triangles of which two corners are one, which leaves no hole.
+    """Remove triangles with two coinciding corners, which leaves no hole.
 
-    Where three different corners lie on a line, nothing is removed, since that leaves gaps.
+    Triangles with three different corners on a line stay, because removing them leaves gaps.
     """
     found = _with_slivers(context.robot, context.description)
     uses = [use for use, _ in found]
@@ -229,18 +229,18 @@ def remove_collapsed_triangles(problem: Problem, context: FixContext) -> Proposa
         if surface.flat - removed > 0.01 * (surface.faces - removed):
             return None
         check_alone(context, str(use.path and use.path.name), robots=True)
-    return unsafe("take them away", *rewrite_in_place(uses, WITHOUT_COLLAPSED))
+    return unsafe("remove triangles without area", *rewrite_in_place(uses, WITHOUT_COLLAPSED))
 
 
 @rule(
     INFO,
     on=("mujoco", "pybullet"),
     effects={
-        "mujoco": "collides with its convex hull: a ball between two prongs touches them",
+        "mujoco": "uses its convex hull for contact: a ball between two prongs touches it",
         "pybullet": (
-            "collides with its convex hull; of an OBJ of several objects, with a hull of each"
+            "uses its convex hull for contact; for an OBJ with several objects, the hull of each"
         ),
-        "pybullet (concave)": "collides with its triangles, because the collision is concave",
+        "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
     },
     group="robot",
 )
@@ -249,10 +249,11 @@ def nonconvex_collision_mesh(
 ) -> Iterator[Problem]:
     """A collision mesh is far from convex.
 
-    MuJoCo and PyBullet fill a mesh up to its convex hull: a bowl becomes a plug, and a gripper
-    closes on air. It is reported where the hull has more than ``ratio`` times the volume.
-    ``urdftool collision`` cuts it into convex pieces. PyBullet keeps the triangles of a
-    ``<collision>`` with the attribute ``concave``, which is reported for MuJoCo only.
+    MuJoCo and PyBullet use the convex hull of a mesh for contact: a bowl is filled, and a gripper
+    touches objects before it closes. It is reported if the hull has more than ``ratio`` times the
+    volume of the mesh. ``urdftool collision`` decomposes it into convex parts. PyBullet keeps the
+    triangles of a ``<collision>`` with the attribute ``concave``; these are reported for MuJoCo
+    only.
     """
     for use, path, surface in _surfaces(robot, description):
         if surface.open_edges or not surface.consistent or surface.volume == 0:
@@ -265,15 +266,15 @@ def nonconvex_collision_mesh(
             continue
         yield Problem(
             use.link,
-            f"collision mesh '{use.uri}' of link '{use.link.name}' is not convex: its hull has "
-            f"{hull / abs(surface.volume):.2g} times its volume",
+            f"collision mesh '{use.uri}' of link '{use.link.name}' is not convex: the volume of "
+            f"its convex hull is {hull / abs(surface.volume):.2g} times as large",
             at=use.mesh.element.attribute_place("filename"),
             data={"uri": use.uri, "ratio": hull / abs(surface.volume), "limit": ratio},
-            hint="'urdftool collision' cuts it into convex pieces",
+            hint="'urdftool collision' decomposes it into convex parts",
             group=""
             if concave
-            else "{count} collision meshes are far from convex, and engines fill them up to their "
-            "hulls, in the links {names}",
+            else "{count} collision meshes are far from convex, and physics engines use their "
+            "convex hulls, in the links {names}",
             effects=("mujoco", "pybullet (concave)" if concave else "pybullet"),
             alike=concave,
         )

@@ -1,4 +1,4 @@
-"""How a mesh file is named."""
+"""Check the URIs of mesh files."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ APPLIES_TO = ("mesh",)
 def absolute_path(
     robot: Robot, description: Description, *, together: float = 3
 ) -> Iterator[Problem]:
-    r"""A mesh is named by a path from the root of a disk.
+    r"""A mesh has an absolute path.
 
-    ``/home/…``, ``C:\…`` or ``file:///…`` is right on the machine it was written on. What xacro
-    makes of ``file://$(find NAME)`` is not meant: that is found anew on every machine. Where the
-    file is not on this machine either, it is an error, and more than ``together`` such files of one
-    folder are one.
+    ``/home/…``, ``C:\…`` or ``file:///…`` works only on the machine where it was written; write a
+    ``package://`` URI. ``file://$(find NAME)`` in xacro is accepted, because each machine resolves
+    it. If the file does not exist on this machine either, it is an error, and more than
+    ``together`` such files of one folder are one finding.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     lost: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
-        if not use.is_absolute or use.uri in told or "$" in use.written:
+        if not use.is_absolute or use.uri in seen or "$" in use.written:
             continue
-        told.add(use.uri)
+        seen.add(use.uri)
         if use.exists:
             yield _absolute_problem(use)
         else:
@@ -55,13 +55,13 @@ def absolute_path(
 
 
 def _absolute_problem(use: MeshUse, others: int = 0, folder: str | None = None) -> Problem:
-    """Report a mesh, and how many others of the same folder are not there either."""
+    """Report a mesh, and the number of other missing files in its folder."""
     name = use.uri.replace("\\", "/").rstrip("/").rpartition("/")[2]
-    more = "" if folder is None else f"; {others} more are wanted from {folder}"
+    more = "" if folder is None else f"; {others} more meshes refer to folder {folder}"
     data = {"uri": use.uri} if folder is None else {"uri": use.uri, "folder": folder}
     return Problem(
         use.link,
-        f"mesh '{use.uri}' is a path of one machine{'' if use.exists else ', and not there'}; "
+        f"mesh '{use.uri}' is an absolute path{'' if use.exists else ' that does not exist here'}; "
         f"write package://PACKAGE/meshes/{name}{more}",
         at=use.mesh.element.attribute_place("filename"),
         severity=None if use.exists else ERROR,
@@ -70,15 +70,15 @@ def _absolute_problem(use: MeshUse, others: int = 0, folder: str | None = None) 
 
 
 def _folder_of(use: MeshUse) -> str:
-    """Return the folder of a mesh as it is named."""
+    """Get the folder of a mesh as written in its URI."""
     return use.uri.replace("\\", "/").rstrip("/").rpartition("/")[0]
 
 
 @absolute_path.fix(UNSAFE)
 def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write a URI of the own package, if it has the file or one of that name.
+    """Write a URI of the own package, if it has the file or one of the same name.
 
-    The meshes of one folder that is not there are changed as far as the package has them.
+    For a missing folder, all of its meshes that the package has are changed.
     """
     own = context.description.packages.own
 
@@ -99,11 +99,11 @@ def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
         uses = mesh_uses(context.robot, context.description)
         lost = [use for use in uses if use.is_absolute and not use.exists]
         changes = list(filter(None, [change(use) for use in lost if _folder_of(use) == folder]))
-    return unsafe("write it as a package:// URI", *changes) if changes else None
+    return unsafe("write a package:// URI", *changes) if changes else None
 
 
 def _uri_in_package(use: MeshUse, own: tuple[str, Path] | None) -> str | None:
-    """Return the URI of a mesh by a package; None where the file is not in it."""
+    """Get the package URI of a mesh; None if the package does not have the file."""
     files = use.workspace
     if use.path is None or own is None or not files.is_file(use.path):
         return None
@@ -119,7 +119,7 @@ _URDFDOM = "urdfdom, gz, gazebo-classic, pinocchio"
     ERROR,
     effects={
         _URDFDOM: (
-            "load the link without its visuals and collisions (the collisions alone where it "
+            "load the link without its visuals and collisions (without its collisions only, if it "
             "is in one), with an error in the log"
         ),
         "pybullet, drake": "reject the robot",
@@ -129,8 +129,8 @@ _URDFDOM = "urdfdom, gz, gazebo-classic, pinocchio"
 def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
     """A ``<mesh>`` has no ``filename``.
 
-    urdfdom stops reading the link at that point and keeps what it has: a visual without a file
-    takes the collisions of the link with it, and ``check_urdf`` reports success.
+    urdfdom stops reading the link at this element and drops the rest of it: a visual without a
+    file also loses the collisions of the link, and ``check_urdf`` still reports success.
     """
     keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
@@ -141,7 +141,7 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
             continue
         yield Problem(
             link,
-            f"a <mesh> of link '{link.name}' has no filename; name the file, "
+            f"a <mesh> of link '{link.name}' has no filename; add the file name, "
             f"or remove the <{shape.element.tag}>",
             at=element,
             effects=[
@@ -152,7 +152,7 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
 
 
 def _is_misspelt(element: Element) -> bool:
-    """Whether the attribute is there under another name, which is a finding of its own."""
+    """Tell whether the attribute has a misspelled name, which another rule reports."""
     if "filename" in misspelt_attributes(element).values():
         return True
     return any(name in element.attributes or element.child(name) for name in _MISNAMED)
@@ -169,17 +169,17 @@ _MISNAMED = ("uri", "file", "url")
     },
 )
 def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
-    r"""The name of a mesh file is no proper URI or path.
+    r"""The URI of a mesh file is malformed.
 
-    Backslashes, ``package:/`` with one slash, no name at all: one loader mends it and the next
-    does not. Blanks, ``%20`` and doubled slashes pass where the name is used as a path, and fail
-    where it is taken for the URI it is; where the file is found here, they are a warning.
+    Backslashes, ``package:/`` with one slash, or an empty name: some readers correct it and others
+    do not. Spaces, ``%20`` and double slashes work if a reader uses the URI as a path, and fail if
+    it parses the URI. They are a warning if the file is found here.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for use in mesh_uses(robot, description):
-        if use.uri in told:
+        if use.uri in seen:
             continue
-        told.add(use.uri)
+        seen.add(use.uri)
         wrong = malformation(use)
         if wrong:
             element = use.mesh.element
@@ -194,12 +194,12 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
 
 
 class Malformation(NamedTuple):
-    """What is wrong with the URI of a mesh.
+    """A defect of the URI of a mesh.
 
     Attributes:
         defect: ``empty``, ``lacks slash``, ``no file``, ``backslash``, ``outer blank``,
             ``double slash`` or ``blank``.
-        text: The sentence that reports it.
+        text: Message about it.
     """
 
     defect: str
@@ -207,14 +207,14 @@ class Malformation(NamedTuple):
 
 
 def malformation(use: MeshUse) -> Malformation | None:
-    """Look for what is wrong with how a mesh is named; None if nothing is."""
+    """Find the defect of a mesh URI; None if it has none."""
     uri = use.uri
     scheme, separator, rest = uri.partition("://")
     if "filename" not in use.mesh.element.attributes or "${" in uri or "$(" in uri:
         return None
     defect, what = "", ""
     if not uri.strip():
-        what = f"a mesh of link '{use.link.name}' has an empty filename; name the file"
+        what = f"a mesh of link '{use.link.name}' has an empty filename; add the file name"
         return Malformation("empty", what)
     if re.match(r"(package|model|file):(?!//)", uri):
         name, _, path = uri.partition(":")
@@ -224,12 +224,12 @@ def malformation(use: MeshUse) -> Malformation | None:
     elif "\\" in uri and not use.is_absolute:
         defect, what = "backslash", f"has backslashes; write '{uri.replace(chr(92), '/')}'"
     elif uri != uri.strip():
-        defect, what = "outer blank", "begins or ends with a blank; take it away"
+        defect, what = "outer blank", "begins or ends with a space; remove it"
     elif separator and scheme in ("package", "model") and "//" in rest:
         right = re.sub("/{2,}", "/", rest)
-        defect, what = "double slash", f"has a doubled slash; write '{scheme}://{right}'"
+        defect, what = "double slash", f"has a double slash; write '{scheme}://{right}'"
     elif separator and (" " in uri or "%20" in uri):
-        defect, what = "blank", "has a blank in it, which no URI may have; take it out of the name"
+        defect, what = "blank", "contains a space, which URIs do not allow; rename the file"
     return Malformation(defect, f"mesh '{uri}' {what}") if defect else None
 
 
@@ -239,12 +239,12 @@ _REPAIRS = {
     "double slash": (r"(?<!:)/{2,}", "/"),
     "outer blank": (r"^\s+|\s+$", ""),
 }
-"""Pattern in the URI as written, and what replaces it, by the defect."""
+"""Pattern in the URI as written, and its replacement, by the defect."""
 
 
 @malformed_uri.fix(SAFE)
 def correct_uri(problem: Problem, context: FixContext) -> Proposal | None:
-    """Correct slashes, and remove blanks at the ends; a name that is lacking is not invented."""
+    """Correct slashes, and remove outer spaces; a missing name is not corrected."""
     if problem.data["defect"] not in _REPAIRS:
         return None
     pattern, new = _REPAIRS[problem.data["defect"]]
@@ -253,7 +253,7 @@ def correct_uri(problem: Problem, context: FixContext) -> Proposal | None:
         return substitute(use.mesh.element, "filename", pattern, new)
 
     changes = change_uses(problem, context, change)
-    return safe("write it as a URI is written", *changes) if changes else None
+    return safe("correct the URI", *changes) if changes else None
 
 
 @rule(
@@ -261,19 +261,19 @@ def correct_uri(problem: Problem, context: FixContext) -> Proposal | None:
     raised={"pybullet": ERROR},
     effects={
         "rviz": "downloads it",
-        "gz": "downloads from Fuel servers alone",
+        "gz": "downloads from Fuel servers only",
         "pybullet, drake": "reject the robot",
-        "pinocchio": "rejects the shapes of the robot",
+        "pinocchio": "rejects the geometry of the robot",
         "mujoco": "rejects the file (4.0)",
     },
 )
 def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is to be downloaded, or its URI begins with an unknown scheme.
+    """A mesh URI has a scheme that most readers do not support.
 
-    URDF knows ``package://`` and ``file://``, Gazebo ``model://`` as well. Some readers download
-    ``https://``; all others reject the robot or leave the shape out. A robot that does is not the
-    same tomorrow, and does not load without a network. Of a scheme that no reader knows the shape
-    is missing in all of them; that is an error. One finding names the files of a server.
+    URDF readers support ``package://`` and ``file://``, Gazebo also ``model://``. Some readers
+    download ``https://``; all others reject the robot or omit the shape. A download can change at
+    any time and requires a network. A scheme that no reader supports is an error. One finding
+    names all files of a server.
     """
     keeps = keeps_visuals(robot)
     found: dict[str, list[MeshUse]] = {}
@@ -284,13 +284,13 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
     for server, uses in found.items():
         first = uses[0]
         count = len({use.uri for use in uses})
-        more = f" and {count - 1} more from there" if count > 1 else ""
+        more = f" and {count - 1} more of this server" if count > 1 else ""
         scheme = server.partition("://")[0]
         known = scheme.lower() in ("http", "https")
         if known:
-            what = "most readers download nothing; put the file into the package"
+            what = "most readers do not download meshes; put the file into the package"
         else:
-            what = f"no reader knows the scheme '{scheme}'; write package://PACKAGE/meshes/FILE"
+            what = f"no reader supports the scheme '{scheme}'; write package://PACKAGE/meshes/FILE"
         yield Problem(
             first.link,
             f"mesh '{first.uri}'{more}: {what}",
@@ -312,15 +312,16 @@ _LOCAL = ("package", "model", "file")
     WARNING,
     on=("ros1", "ros2", "gz"),
     effects={
-        "rviz": "cannot find it, for the robot comes over a topic without its folder",
-        "gz": "cannot find it when the robot is given as text",
+        "rviz": "cannot find it, because the robot arrives on a topic without its folder",
+        "gz": "cannot find it if the robot is passed as text",
     },
 )
 def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is named by a relative path, in a ROS package.
+    """A mesh in a ROS package has a relative path.
 
-    Relative to what? A robot that comes over a topic or a parameter has no folder.
-    ``package://NAME/…`` is found wherever the package is. One finding names the meshes.
+    A robot that arrives on a topic or a parameter has no folder, so RViz cannot resolve relative
+    paths. Write ``package://NAME/…``, which every installation of the package resolves. One finding
+    names all such meshes.
     """
     own = description.packages.own
     if own is None:
@@ -344,7 +345,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
 
 @relative_uri_in_ros.fix(UNSAFE)
 def write_package_uris(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write all of them as URIs of the own package; None where one is not in it."""
+    """Write all of them as URIs of the own package; None if it lacks one."""
     own = context.description.packages.own
     changes = []
     for use in _relative(mesh_uses(context.robot, context.description)):
@@ -356,7 +357,7 @@ def write_package_uris(problem: Problem, context: FixContext) -> Proposal | None
 
 
 def _relative(uses: list[MeshUse]) -> list[MeshUse]:
-    """Select the meshes that are named by a relative path."""
+    """Select the meshes with relative paths."""
     return [
         use
         for use in uses

@@ -1,4 +1,4 @@
-"""Which mesh files a robot uses, and where they are."""
+"""Find the mesh files that a robot uses."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ _ABSOLUTE = re.compile(r"(file://)?(/|[A-Za-z]:[\\/]|~)")
 
 @dataclass(slots=True)
 class MeshUse:
-    """A mesh in a shape of a link.
+    """A mesh of a visual or collision of a link.
 
     Attributes:
         workspace: Reads the file.
-        path: The file it means; None where that cannot be known.
-        size: Its bytes; None where it is not there.
-        missing_package: The package that could not be found, if it was that.
-        searched: Where that package was looked for.
-        gltf_up: The axis of a glTF file that is up.
+        path: The file; None if it is unknown.
+        size: Size of the file [bytes]; None if it does not exist.
+        missing_package: The package that was not found, if that is the cause.
+        searched: Folders in which the package was searched.
+        gltf_up: Up axis of a glTF file.
     """
 
     link: Link
@@ -40,7 +40,7 @@ class MeshUse:
 
     @property
     def exists(self) -> bool:
-        """Whether the file is there."""
+        """Whether the file exists."""
         return self.size is not None
 
     @property
@@ -50,29 +50,29 @@ class MeshUse:
 
     @property
     def collides(self) -> bool:
-        """Whether it is a collision."""
+        """Tell whether it is a collision."""
         return isinstance(self.shape, Collision)
 
     @property
     def is_absolute(self) -> bool:
-        """Whether it is a path from the root of one machine."""
+        """Whether it is an absolute path."""
         return _ABSOLUTE.match(self.uri) is not None
 
     @property
     def written(self) -> str:
-        """The ``filename`` as it stands in the source, with its xacro expressions."""
+        """The ``filename`` as written in the source, with its xacro expressions."""
         place = self.mesh.element.attribute_place("filename")
         data = place.file.data[place.start : place.end]
         return data.decode(place.file.encoding, "replace").partition("=")[2].strip(" \t\r\n\"'")
 
 
 def is_concave(use: MeshUse) -> bool:
-    """Whether PyBullet collides with the triangles of a mesh: by ``concave``, of any value."""
+    """Tell whether PyBullet uses the triangles of a mesh: any value of ``concave`` does it."""
     return use.collides and use.shape.element.get("concave") is not None
 
 
 def mesh_uses(robot: Robot, description: Description) -> list[MeshUse]:
-    """Every mesh of a robot, in the order of the file; looked for once, however many rules ask."""
+    """List the meshes of a robot in the order of the file; cached for all rules."""
     return robot.memo.get("mesh uses", lambda: list(_uses(robot, description)))
 
 
@@ -117,7 +117,7 @@ def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) 
 
 
 def actual_case(workspace: Workspace, path: Path) -> Path | None:
-    """The file that differs from a path only in the case of its letters; None if there is none."""
+    """Find the file that differs from a path only in case; None if there is none."""
     known = path
     rest: list[str] = []
     while not workspace.exists(known):

@@ -1,4 +1,4 @@
-"""Frames with a meaning: the base, its footprint, the camera's optical frame."""
+"""Check frames with a convention: base, footprint and optical frames of cameras."""
 
 from __future__ import annotations
 
@@ -19,31 +19,32 @@ _FRAME_TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id", "o
 
 @rule(INFO, default=False)
 def missing_base_link(robot: Robot) -> Iterator[Problem]:
-    """No link is called ``base_link``.
+    """No link is named ``base_link``.
 
-    ROS calls the frame that is fixed to a mobile base so (REP 105), and much is set to it by
-    default.
+    In ROS this is the name of the frame that is fixed to a mobile base (REP 105), and the default
+    of many parameters.
     """
     root = robot.tree.root
     if robot.links and not any(name.endswith("base_link") for name in robot.link):
-        yield Problem(root or robot, "no link is called base_link, which ROS expects of the base")
+        yield Problem(root or robot, "no link is named base_link, the ROS name of the base frame")
 
 
 @rule(
     WARNING,
     effects={
         "image_geometry": (
-            "takes z of the frame as the way the camera looks: points and rays are turned "
-            "against the robot"
+            "takes z of the frame as the viewing direction: points and rays are rotated relative "
+            "to the robot"
         ),
     },
 )
 def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Iterator[Problem]:
-    """An optical frame is not turned against its camera's frame as it has to be.
+    """An optical frame has a wrong orientation relative to its camera's frame.
 
-    A camera looks along x, with z up; its optical frame has z forward and x to the right (REP 103).
-    Between the two lies ``rpy="-1.5708 0 -1.5708"``. Otherwise point clouds are turned by the angle
-    that the message gives: a quarter turn, half a turn, or 120° where the rotation was forgotten.
+    A camera frame has x forward and z up; its optical frame has z forward and x to the right
+    (REP 103). Between them is ``rpy="-1.5708 0 -1.5708"``. Otherwise point clouds are rotated by
+    the angle in the message: often 90° or 180°, or 120° if the rotation was forgotten.
+    ``tolerance`` [rad] is the tolerated angle.
     """
     for joint in robot.joints:
         if not joint.is_fixed or not _is_optical_of(joint):
@@ -59,8 +60,8 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
             angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
             yield Problem(
                 joint,
-                f"optical frame '{joint.child}' is turned by {angle:.3g}° from how the camera "
-                f"'{joint.parent}' looks; write rpy=\"-1.5708 0 -1.5708\"",
+                f"optical frame '{joint.child}' is rotated by {angle:.3g}° from the viewing "
+                f"direction of '{joint.parent}'; write rpy=\"-1.5708 0 -1.5708\"",
                 at=joint.origin,
                 data={"angle": angle},
             )
@@ -68,7 +69,7 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
 
 @optical_frame_orientation.fix(UNSAFE)
 def turn_optical_frame(problem: Problem, context: FixContext) -> Proposal | None:
-    """Turn the frame so that z points where the camera looks."""
+    """Rotate the frame so that z points in the viewing direction."""
     joint = context.joint(problem)
     if joint.origin is not None and "quat_xyzw" in joint.origin.element.attributes:
         return None
@@ -77,7 +78,7 @@ def turn_optical_frame(problem: Problem, context: FixContext) -> Proposal | None
 
 
 def _is_optical_of(joint: Joint) -> bool:
-    """Whether a joint goes from a camera's frame to its optical frame, by their names."""
+    """Tell whether a joint goes from a camera's frame to its optical frame, by their names."""
     stem, optical, _ = joint.child.partition("_optical")
     if not optical or not stem:
         return False
@@ -89,14 +90,14 @@ def _is_optical_of(joint: Joint) -> bool:
     INFO,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": "publish images in the frame that is named, which looks along x",
+        "gz, gazebo-classic": "publish images in the frame as named, which looks along x",
     },
 )
 def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
-    """A camera publishes in its own frame though it has an optical one.
+    """A camera publishes in its own frame although it has an optical frame.
 
-    What reads images expects z forward. In the camera's frame, which looks along x, point clouds
-    stand on their side.
+    Consumers of images expect z forward. In the camera's frame, which looks along x, point clouds
+    are rotated. Write the optical frame as the frame of the sensor.
     """
     for block in robot.gazebo:
         for sensor in block.sensors:
@@ -110,8 +111,8 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
                 continue
             yield Problem(
                 sensor.element,
-                f"camera '{sensor.name}' publishes in '{written[0]}'; "
-                f"its optical frame is '{optical}'",
+                f"camera '{sensor.name}' publishes in frame '{written[0]}', but images require the "
+                f"optical frame; write '{optical}'",
                 data={"frame": written[0], "optical_frame": optical},
             )
 
@@ -123,14 +124,14 @@ def write_optical_frame(problem: Problem, context: FixContext) -> Proposal | Non
     tags = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id")
     for element in problem.element.walk():
         if element.tag in tags and element.text.strip() == frame:
-            return unsafe(f"publish in '{optical}'", set_text(element, optical))
+            return unsafe(f"publish in frame '{optical}'", set_text(element, optical))
     return None
 
 
 def _is_at(joint: Joint, sensor: Sensor) -> bool:
-    """Whether the child of a joint may be the frame of a sensor of its parent.
+    """Tell whether the child of a joint may be the frame of a sensor of its parent.
 
-    A sensor with a ``<pose>`` of its own is not where the frames of its link are.
+    A sensor with a ``<pose>`` of its own is offset from the frames of its link.
     """
     pose = pose_in_link(sensor)
     if pose is None or pose is IDENTITY:
@@ -146,32 +147,30 @@ def _frames_of(sensor: Sensor) -> list[str]:
 
 @rule(INFO, default=False)
 def optical_frame_has_sensor_body(robot: Robot) -> Iterator[Problem]:
-    """An optical frame carries a shape or a sensor.
+    """An optical frame has geometry or a sensor.
 
-    Gazebo's cameras look along x. The sensor belongs to the camera's link, and the optical frame
-    carries nothing.
+    Cameras in Gazebo look along x, so the sensor belongs to the camera's link. The optical frame
+    must have neither geometry nor sensors.
     """
     for link in robot.links:
         if "_optical" not in link.name:
             continue
         blocks = robot.extensions.get(link.name, [])
         if link.visuals or link.collisions:
-            what = "a shape"
+            what = "geometry"
         elif any(block.sensors for block in blocks):
             what = "a sensor"
         else:
             continue
-        yield Problem(
-            link, f"optical frame '{link.name}' carries {what}; give it to the camera's link"
-        )
+        yield Problem(link, f"optical frame '{link.name}' has {what}; move it to the camera's link")
 
 
 @rule(INFO, default=False)
 def base_footprint_placement(robot: Robot) -> Iterator[Problem]:
-    """``base_footprint`` is not straight below ``base_link``.
+    """``base_footprint`` is not vertically below ``base_link``.
 
-    It is the base's projection on the floor (REP 120): a fixed joint that goes up or down and does
-    not tilt.
+    ``base_footprint`` is the projection of the base to the ground (REP 120): the fixed joint may
+    have an offset along z, but no rotation in roll or pitch.
     """
     for joint in robot.joints:
         ends = {joint.parent.rpartition("/")[2], joint.child.rpartition("/")[2]}
@@ -183,6 +182,6 @@ def base_footprint_placement(robot: Robot) -> Iterator[Problem]:
         if not joint.is_fixed or max(abs(x), abs(y), abs(roll), abs(pitch)) > 1e-6:
             yield Problem(
                 joint,
-                f"joint '{joint.name}' does not put base_footprint straight below base_link",
+                f"joint '{joint.name}' does not place base_footprint vertically below base_link",
                 at=origin,
             )

@@ -1,4 +1,4 @@
-"""How names are spelled."""
+"""Check the spelling of names."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
     },
 )
 def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
-    """A link's name begins with a slash or has a blank in it.
+    """A link's name begins with a slash or contains a space.
 
-    Every link is a frame of tf, and tf2 refuses such names. Where more than ``together`` links
-    begin with a slash there is one cause, mostly a prefix that is empty, and one finding.
+    Every link is a tf frame, and tf2 rejects such names. If the names of more than ``together``
+    links begin with a slash, they are one finding, because usually an empty prefix is the cause.
     """
     slashed = [link for link in robot.links if link.name.startswith("/")]
     if len(slashed) > together:
         first = slashed[0]
         yield Problem(
             first,
-            f"names of {len(slashed)} links begin with a slash, the first is '{first.name}'; "
-            "write them without, or give the prefix that is empty",
+            f"names of {len(slashed)} links begin with a slash, which tf2 rejects (first "
+            f"'{first.name}'); remove the slash, or write the empty prefix",
             at=first.element.attribute_place("name"),
         )
     for link in robot.links:
@@ -48,12 +48,12 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
                 continue
             what, right = "begins with a slash", name.lstrip("/")
         elif len(inner.split()) > 1:
-            what, right = "has a blank in it", "_".join(inner.split())
+            what, right = "contains a space", "_".join(inner.split())
         else:
             continue
         yield Problem(
             link,
-            f"name of link '{name}' {what}; write '{right}'",
+            f"name of link '{name}' {what}, which tf2 rejects; write '{right}'",
             at=link.element.attribute_place("name"),
             data={"write": right},
         )
@@ -61,7 +61,7 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
 
 @invalid_frame_name.fix(UNSAFE, renames=True)
 def rename_frame(problem: Problem, context: FixContext) -> Proposal | None:
-    """Rename one link; the names of many have one cause elsewhere."""
+    """Rename one link; the names of many have a common cause."""
     name: str | None = problem.data.get("write")
     return None if name is None else rename_part(context, context.link(problem), name)
 
@@ -74,9 +74,9 @@ def rename_frame(problem: Problem, context: FixContext) -> Proposal | None:
     default=False,
 )
 def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
-    """A link's or joint's name is not made of letters, digits and underscores alone.
+    """A name of a link or joint has other characters than letters, digits and underscores.
 
-    Importers that need identifiers rename it, and what refers to it no longer matches.
+    Importers that require identifiers rename it, and references to it no longer match.
     """
     for part in _parts(robot):
         if part.name and not _IDENTIFIER.fullmatch(part.name) and not is_unexpanded(part.name):
@@ -84,7 +84,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
             renamed = f"_{renamed}" if renamed[0].isdigit() else renamed
             yield Problem(
                 part,
-                f"name of {part.element.tag} '{part.name}' is no identifier; write '{renamed}'",
+                f"name of {part.element.tag} '{part.name}' is not an identifier; write '{renamed}'",
                 at=part.element.attribute_place("name"),
                 data={"write": renamed},
             )
@@ -92,7 +92,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
 
 @not_portable_identifier.fix(UNSAFE, renames=True)
 def write_identifier(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write underscores for what is not a letter or digit."""
+    """Write underscores in place of other characters than letters and digits."""
     part = part_of(problem)
     return rename_part(context, part, problem.data["write"]) if part is not None else None
 
@@ -107,7 +107,7 @@ def write_identifier(problem: Problem, context: FixContext) -> Proposal | None:
 def name_style(robot: Robot) -> Iterator[Problem]:
     """A link's or joint's name is not in lower case with underscores.
 
-    That is how ROS writes names; a mixture makes them hard to guess.
+    This is the convention of ROS; mixed styles lead to mistakes.
     """
     for part in _parts(robot):
         if part.name and not _SNAKE.fullmatch(part.name) and not is_unexpanded(part.name):
@@ -135,9 +135,9 @@ def write_snake_case(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def non_ascii_name(robot: Robot) -> Iterator[Problem]:
-    """A name has a letter outside ASCII.
+    """A name has non-ASCII characters.
 
-    Topics and frames of ROS are ASCII, and tools that write tables garble the rest.
+    Names of topics and frames in ROS are ASCII, and some tools garble other characters.
     """
     materials = [*robot.materials, *(v.material for link in robot.links for v in link.visuals)]
     seen: set[str] = set()
@@ -147,7 +147,7 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
             seen.add(part.name)
             yield Problem(
                 part,
-                f"name of {part.element.tag} '{part.name}' has letters outside ASCII",
+                f"name of {part.element.tag} '{part.name}' has non-ASCII characters",
                 at=part.element.attribute_place("name"),
             )
 
@@ -157,7 +157,7 @@ _LETTERS = str.maketrans({"ß": "ss", "æ": "ae", "ø": "o", "ł": "l", "đ": "d
 
 @non_ascii_name.fix(UNSAFE, renames=True)
 def write_ascii(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the nearest ASCII letters; names in other scripts are left."""
+    """Write the nearest ASCII letters; names in other scripts are not changed."""
     import unicodedata
 
     name = problem.name
@@ -177,14 +177,14 @@ def write_ascii(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     INFO,
     effects={
-        "urdfdom, pybullet, drake": "take the two for two",
+        "urdfdom, pybullet, drake": "treat them as two names",
     },
     default=False,
 )
 def confusable_names(robot: Robot) -> Iterator[Problem]:
-    """Two links or two joints differ only in case, ``_`` or ``-``.
+    """Names of two links or two joints differ only in case, ``_`` or ``-``.
 
-    People mix them up, and so do file systems and importers.
+    Users confuse them, and so do file systems and importers.
     """
     for parts in (robot.link, robot.joint):
         seen: dict[str, str] = {}
@@ -194,7 +194,7 @@ def confusable_names(robot: Robot) -> Iterator[Problem]:
                 tag = part.element.tag
                 yield Problem(
                     part,
-                    f"{tag} '{name}' is hard to tell from {tag} '{first}'",
+                    f"{tag} '{name}' is easily confused with {tag} '{first}'; rename one",
                     at=part.element.attribute_place("name"),
                 )
 
@@ -207,10 +207,10 @@ def confusable_names(robot: Robot) -> Iterator[Problem]:
     },
 )
 def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """Two visuals or two collisions of a link have one name.
+    """Two visuals or two collisions of a link have the same name.
 
-    MuJoCo drops the second, so a contact pair by that name means one of them alone. There, names
-    have to be different in the whole robot.
+    MuJoCo drops the second name, so a contact pair by that name has only one of them. MuJoCo
+    requires unique names in the whole robot.
     """
     seen: set[tuple[str, str, str]] = set()
     for link, shape in robot.shapes:
@@ -220,8 +220,8 @@ def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[P
         if key in seen:
             yield Problem(
                 link,
-                f"a second {shape.element.tag} is called '{shape.name}', in link '{link.name}'; "
-                "give it a name of its own, or none",
+                f"{shape.element.tag} name '{shape.name}' is used twice, again in link "
+                f"'{link.name}'; write a unique name, or none",
                 at=shape.element.attribute_place("name"),
             )
         seen.add(key)

@@ -1,4 +1,4 @@
-"""What simulators make of a robot."""
+"""Interpretation of a robot by simulators."""
 
 FILES = ("stability", "spawn", "readers")
 """Files with rules, in reading order."""

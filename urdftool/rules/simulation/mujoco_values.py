@@ -13,10 +13,10 @@ READER_SETTINGS = frozenset(
      "balanceinertia", "inertiafromgeom", "inertiagrouprange", "eulerseq", "coordinate",
      "autolimits", "boundmass", "boundinertia", "settotalmass", "convexhull")
 )  # fmt: skip
-"""Attributes of ``<compiler>`` that control the reading of URDF, or that would change the robot."""
+"""Attributes of ``<compiler>`` that control how MuJoCo reads URDF, or that change the robot."""
 
 SECTIONS = ("option", "size", "visual", "statistic")
-"""Elements of it that hold settings of the model, besides ``<compiler>``."""
+"""Elements in ``<mujoco>`` with settings of the model, in addition to ``<compiler>``."""
 
 BOOLEAN = ("true", "false")
 

@@ -1,4 +1,4 @@
-"""What one simulator makes of a URDF."""
+"""Check properties that one simulator treats differently."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ from ..rule import INFO, UNSAFE, Problem, rule
     INFO,
     on=("pybullet",),
     effects={
-        "pybullet": "computes it from the collisions instead; URDF_USE_INERTIA_FROM_FILE takes it",
+        "pybullet": "computes it from the collisions, unless URDF_USE_INERTIA_FROM_FILE is set",
     },
 )
 def pybullet_ignores_inertia(robot: Robot) -> Iterator[Problem]:
-    """PyBullet does not read the inertia of a URDF unless it is told to.
+    """PyBullet ignores the inertia of a URDF by default.
 
-    ``loadURDF`` takes the mass and computes the inertia from the collision shapes. With
-    ``flags=URDF_USE_INERTIA_FROM_FILE`` what is written counts.
+    ``loadURDF`` uses the mass and computes the inertia from the collision geometry. Pass
+    ``flags=URDF_USE_INERTIA_FROM_FILE`` to use the values of the file.
     """
     for link in robot.links:
         if link.inertial is not None and link.inertial.inertia is not None:
             yield Problem(
                 robot,
-                "PyBullet reads the inertias of this file only with "
+                "PyBullet uses the inertias of this file only with "
                 "flags=URDF_USE_INERTIA_FROM_FILE",
                 at=link.inertial.inertia,
             )
@@ -45,11 +45,11 @@ def pybullet_ignores_inertia(robot: Robot) -> Iterator[Problem]:
 
 @rule(INFO, on=("mujoco",), effects={"mujoco": "fuses the root into the world; its mass is lost"})
 def mujoco_welds_root(robot: Robot) -> Iterator[Problem]:
-    """A robot on wheels or legs has its root welded to the world in MuJoCo.
+    """MuJoCo welds the root of a robot on wheels or legs to the world.
 
-    MuJoCo has no joint above the root of a URDF, and makes it part of the ground. A robot that
-    should move wants a root without mass, such as ``world``, and a joint of type ``floating``;
-    Gazebo in turn rejects that joint.
+    MuJoCo makes the root of a URDF part of the world, without a joint. A mobile robot needs a
+    root without mass, such as ``world``, and a joint of type ``floating``; Gazebo rejects
+    that joint.
     """
     root = robot.tree.root
     if root is None or root.name == "world":
@@ -58,18 +58,18 @@ def mujoco_welds_root(robot: Robot) -> Iterator[Problem]:
     if weight <= 0:
         return
     if not any(contact_role(robot, link) in ("wheel", "caster", "foot") for link in robot.links):
-        return  # an arm: it is bolted down
+        return  # a manipulator on a fixed base
     yield Problem(
         root,
-        f"MuJoCo makes '{root.name}' part of the world, and its {weight:g} kg do not count; "
-        "put a link 'world' and a floating joint above it if it is to move",
+        f"MuJoCo welds root link '{root.name}' to the world and ignores its mass ({weight:g} kg); "
+        "for a free base, add a link 'world' and a floating joint above it",
         data={"mass": weight},
     )
 
 
 @mujoco_welds_root.fix(UNSAFE)
 def add_floating_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add a link ``world`` and a floating joint, which Gazebo does not accept."""
+    """Add a link ``world`` and a floating joint, which Gazebo rejects."""
     robot, root = context.robot, context.link(problem)
     if context.targets != {"mujoco"} or is_computed(root.element):
         return None
@@ -86,7 +86,7 @@ def add_floating_joint(problem: Problem, context: FixContext) -> Proposal | None
         ),
     )
     return unsafe(
-        "put a link 'world' and a floating joint above it",
+        "add a link 'world' and a floating joint above the root",
         Change("first", robot.element, blocks=blocks),
     )
 
@@ -95,14 +95,14 @@ def add_floating_joint(problem: Problem, context: FixContext) -> Proposal | None
     INFO,
     on=("mujoco",),
     effects={
-        "mujoco": "drops visuals, and merges fixed links",
+        "mujoco": "drops visuals, and lumps fixed links",
     },
 )
 def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
-    """A robot for MuJoCo does not say how it is to be compiled.
+    """A robot for MuJoCo has no ``<mujoco><compiler>``.
 
-    Of a URDF MuJoCo drops the visuals and fuses what is fixed. ``<mujoco><compiler
-    discardvisual="false" …/>`` in the robot says otherwise, and where meshes are.
+    By default MuJoCo drops the visuals of a URDF and lumps fixed links. ``<mujoco><compiler
+    discardvisual="false" …/>`` in the robot changes this, and sets the folder of the meshes.
     """
     if any(mujoco.child("compiler") for mujoco in robot.element.all("mujoco")):
         return
@@ -110,8 +110,8 @@ def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
     if meshes:
         yield Problem(
             robot,
-            f"no <mujoco><compiler> says what MuJoCo should do with {meshes} meshes; "
-            "its own way is to drop visuals",
+            f"no <mujoco><compiler> sets how MuJoCo loads {meshes} meshes, so MuJoCo drops "
+            "visuals; add it",
             data={"meshes": meshes},
         )
 
@@ -126,20 +126,20 @@ def write_compiler(problem: Problem, context: FixContext) -> Proposal | None:
 
 @rule(INFO, default=False)
 def isaac_empty_root(robot: Robot) -> Iterator[Problem]:
-    """The root is a frame without mass and shape, which Isaac Sim makes a body.
+    """The root is a frame without mass and geometry, which Isaac Sim converts to a body.
 
-    Gazebo and MuJoCo fuse such a root, as ``base_footprint``, with what is fixed to it, and KDL
-    wants it. The importer of Isaac Sim makes a rigid body of each link, of a frame too, and the
-    robot hangs on one without mass. Merge fixed joints when importing, or let the robot begin at
-    its first link with a mass.
+    Gazebo and MuJoCo lump such a root, for example ``base_footprint``, with the links that are
+    fixed to it, and KDL requires it. The importer of Isaac Sim creates a rigid body for each link,
+    also for frames, so the robot gets a root body without mass. Merge fixed joints when importing,
+    or make the first link with a mass the root.
     """
     root = robot.tree.root
     if root is None or root.inertial is not None or root.visuals or root.collisions:
         return
     below = [joint.child for joint in robot.joints if joint.parent == root.name]
-    begin = f", or begin with '{below[0]}'" if len(below) == 1 else ""
+    begin = f", or make link '{below[0]}' the root" if len(below) == 1 else ""
     yield Problem(
         root,
-        f"root '{root.name}' has neither mass nor shape; for Isaac Sim merge fixed joints when "
-        f"importing{begin}",
+        f"root link '{root.name}' has neither mass nor geometry; for Isaac Sim, merge fixed joints "
+        f"when importing{begin}",
     )

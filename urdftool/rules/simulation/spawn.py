@@ -1,4 +1,4 @@
-"""What happens in a simulator's first steps: damping that is too stiff, a robot in the ground."""
+"""Check the first steps of a simulation: damping that is too stiff, a robot in the ground."""
 
 from __future__ import annotations
 
@@ -18,17 +18,18 @@ from ..rule import INFO, Problem, rule
     INFO,
     default=False,
     effects={
-        "pybullet": "the joint moves against the force, and not as damped",
+        "pybullet": "moves the joint against the force, and not as damped",
         "mujoco": "integrates damping implicitly: the joint is slow",
     },
 )
 def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Problem]:
-    """A joint's damping is too strong for the inertia it brakes.
+    """A joint's damping is too large for its inertia and the time step.
 
-    A damper takes d·Δt/I of the speed in each step. Where that is more than twice the speed, an
-    explicit integrator overshoots, and more so each step. I is the inertia about the axis of all
-    that the joint carries, and of all that carries it, in series; ``step`` [s] is Δt. PyBullet
-    begins to oscillate at just this inertia, within 1 %; MuJoCo integrates damping implicitly.
+    A damper removes d·Δt/I of the speed in each step. If that is more than twice the speed, an
+    explicit integrator overshoots, and more so with each step. I is the inertia about the joint
+    axis of everything below the joint, in series with that of everything above it; ``step`` [s] is
+    Δt. PyBullet begins to oscillate at this inertia, within 1 %; MuJoCo integrates damping
+    implicitly.
     """
     poses = link_poses(robot)
     for joint in robot.joints:
@@ -40,8 +41,9 @@ def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Proble
             unit = "kg" if joint.type == "prismatic" else "kg·m²"
             yield Problem(
                 joint,
-                f"damping {damping:g} of joint '{joint.name}' brakes {inertia:.3g} {unit}; at "
-                f"steps of {step * 1000:g} ms more than {2 * inertia / step:.3g} is unstable",
+                f"damping {damping:g} of joint '{joint.name}' is too large for its {inertia:.3g} "
+                f"{unit}: above {2 * inertia / step:.3g} it is unstable at steps of "
+                f"{step * 1000:g} ms; lower it",
                 at=joint.dynamics,
                 data={"damping": damping, "highest": 2 * inertia / step, "inertia": inertia},
             )
@@ -52,15 +54,16 @@ def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Proble
     default=False,
     effects={
         "gz, gazebo-classic, mujoco": (
-            "place the root as written: what is below it starts below the ground"
+            "place the root as written: parts below it start below the ground"
         ),
     },
 )
 def below_ground_at_spawn(robot: Robot, *, deep: float = 0.01) -> Iterator[Problem]:
-    """The robot reaches below the frame of its root.
+    """The robot extends below its root frame.
 
-    Who spawns it at a height of zero puts it into the ground, and it is thrown out. The message
-    says at which height it stands. Robots whose root is ``world`` are not spawned, and left out.
+    A robot that is spawned at z = 0 then starts inside of the ground, and the contact pushes it
+    out. The message gives the height at which it stands. Robots with a root named ``world`` are
+    skipped, because they are not spawned.
     """
     root = robot.tree.root
     if root is None or root.name == "world":
@@ -74,13 +77,13 @@ def below_ground_at_spawn(robot: Robot, *, deep: float = 0.01) -> Iterator[Probl
     if whose is not None and lowest < -deep:
         yield Problem(
             whose,
-            f"link '{whose.name}' reaches {-lowest:.3g} m below '{root.name}'; spawn the robot at "
-            f"z = {-lowest:.3g}",
+            f"link '{whose.name}' extends {-lowest:.3g} m below root '{root.name}'; spawn the "
+            f"robot at z = {-lowest:.3g}",
             data={"depth": -lowest},
             at=whose.collisions[0],
         )
 
 
 def _down(piece: Convex) -> float:
-    """How far a piece reaches down from its middle [m]."""
+    """Compute how far a piece extends below its center [m]."""
     return piece.reach(*rotate(transpose(piece.pose.rotation), (0.0, 0.0, -1.0)))

@@ -1,4 +1,4 @@
-"""What is hard to simulate."""
+"""Check properties that make a simulation unstable."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from ..rule import INFO, WARNING, Problem, rule
     INFO,
     on=("gazebo-classic",),
     effects={
-        "gazebo-classic": "solves joints in steps, fifty by default, and this one may give way",
+        "gazebo-classic": "solves joints iteratively, by default 50 times; this one may give way",
     },
 )
 def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) -> Iterator[Problem]:
-    """A joint carries a body that is very much heavier than what carries it.
+    """A joint carries a body that is much heavier than the body above it.
 
-    ODE, the engine of Gazebo Classic, solves joints step by step, and a light body between heavy
-    ones makes each step count for little: the joint stretches, shakes or breaks. From ``high`` on
-    it is said, from ``extreme`` it is a warning. What counts is the mass below the joint over that
-    of the body just above it; bodies joined by fixed joints count as one. A light body without
-    shapes is a part of a joint with several axes, and left out. New Gazebo, MuJoCo and PyBullet
-    compute a tree of joints exactly.
+    ODE, the engine of Gazebo Classic, solves joints iteratively and converges slowly for a light
+    body between heavy ones: the joint stretches, shakes or breaks. From ``high`` on it is an
+    info, from ``extreme`` on a warning. The ratio is the mass below the joint divided by that of
+    the body just above it; links on fixed joints count as one body. Light bodies without geometry
+    are skipped, because they are parts of a joint with several axes. New Gazebo, MuJoCo and
+    PyBullet compute a tree of joints exactly.
     """
     bodies = robot.tree.body_links
     mass = {
@@ -44,15 +44,15 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
             ratio = heavy / light
             yield Problem(
                 joint,
-                f"joint '{joint.name}' carries {heavy:.3g} kg on a body of {light:.3g} kg, "
-                f"{ratio:.0f} times as heavy; if it shakes, raise the iterations of the solver",
+                f"joint '{joint.name}' carries {heavy:.3g} kg on a body of {light:.3g} kg "
+                f"({ratio:.0f} times as heavy); if it shakes, raise the iterations of the solver",
                 severity=WARNING if ratio > extreme else None,
                 data={"carried": heavy, "carrying": light, "ratio": ratio},
             )
 
 
 def _masses_below(robot: Robot, mass: dict[str, float]) -> dict[str, float]:
-    """The mass of each body with all that hangs on it."""
+    """Compute the mass of each body with all its descendants [kg]."""
     total = dict(mass)
     for name in reversed(robot.tree.order):
         if name not in mass:

@@ -1,4 +1,4 @@
-"""Links and joints by name, and what joints refer to."""
+"""Check names of links and joints, and the links that joints refer to."""
 
 from __future__ import annotations
 
@@ -40,9 +40,8 @@ from ..xml.vocabulary_table import is_for_another_reader, misspelt_children
 def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     """The robot has no link.
 
-    Links are the bodies; without one there is nothing to show or to move. urdfdom, and with it ROS
-    and Gazebo, rejects the robot. A ``<robot>`` with a comment and neither name nor element is a
-    placeholder that another file includes.
+    urdfdom, and with it ROS and Gazebo, rejects a robot without links. A ``<robot>`` with a comment
+    and neither name nor elements is ignored, as a placeholder that another file includes.
     """
     if not (robot.name.strip() or robot.element.children) and description.document.comments:
         return
@@ -52,14 +51,14 @@ def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
 
 @no_links.full
 def every_missing_link(robot: Robot) -> Iterator[Problem]:
-    """Report a robot without links, also a placeholder or one whose links are misspelt."""
+    """Report a robot without links, also a placeholder or one whose links are misspelled."""
     if not robot.links:
         yield _no_link(robot)
 
 
 def _no_link(robot: Robot) -> Problem:
     macros = robot.source is not None and robot.source.expansion is not None
-    what = "name a file that calls its macros" if macros else 'write <link name="…"/>'
+    what = "lint a file that calls its macros" if macros else 'add a <link name="…"/>'
     who = f"robot '{robot.name}'" if robot.name else "the robot"
     return Problem(robot, f"{who} has no link; {what}")
 
@@ -72,10 +71,10 @@ def _no_link(robot: Robot) -> Problem:
     },
 )
 def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
-    """Two links have one name.
+    """Two links have the same name.
 
-    Joints refer to links by name and could mean either; readers refuse the robot. Often a macro is
-    called twice with one prefix.
+    Joints refer to links by name, so readers reject the robot. Often a macro is called twice with
+    the same prefix.
     """
     for link in robot.links:
         first = robot.link[link.name]
@@ -85,7 +84,7 @@ def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
 
 @duplicate_link_name.full
 def every_second_link(robot: Robot) -> Iterator[Problem]:
-    """Report each link after the first of its name, also of a blank or empty one."""
+    """Report each link after the first of its name, also if the name is blank or empty."""
     for link in robot.links:
         first = robot.link[link.name]
         if first is not link:
@@ -99,7 +98,7 @@ def _second(part: Link | Joint, first: Link | Joint) -> Problem:
     named = "name" in part.element.attributes
     return Problem(
         part,
-        f"a second {kind} is called '{part.name}'; the first is at line {first.place.line}",
+        f"{kind} name '{part.name}' is used twice (first in line {first.place.line}); rename one",
         at=part.element.attribute_place("name") if named else None,
     )
 
@@ -113,10 +112,9 @@ def _second(part: Link | Joint, first: Link | Joint) -> Problem:
     },
 )
 def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
-    """Two joints have one name.
+    """Two joints have the same name.
 
-    Joint states and commands go by name, so both would be meant. urdfdom refuses the robot,
-    PyBullet crashes.
+    Joint states and commands refer to joints by name. urdfdom rejects the robot, PyBullet crashes.
     """
     for joint in robot.joints:
         first = robot.joint[joint.name]
@@ -126,7 +124,7 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
 
 @duplicate_joint_name.full
 def every_second_joint(robot: Robot) -> Iterator[Problem]:
-    """Report each joint after the first of its name, also of a blank or empty one."""
+    """Report each joint after the first of its name, also if the name is blank or empty."""
     for joint in robot.joints:
         first = robot.joint[joint.name]
         if first is not joint:
@@ -140,7 +138,7 @@ def number_joint_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Append a number to the second name."""
     joint = context.joint(problem)
     name = _free_name(joint.name, {*context.robot.joint, *context.robot.link})
-    return unsafe(f"call it '{name}'", set_attribute(joint.element, "name", name))
+    return unsafe(f"rename it to '{name}'", set_attribute(joint.element, "name", name))
 
 
 def _free_name(name: str, taken: set[str]) -> str:
@@ -154,7 +152,7 @@ _OTHERS_ACCEPT = "urdfdom, mujoco, pybullet, pinocchio, drake"
 _CLASH = {
     "gz, gazebo-classic (both stay)": "reject the model: a name is not unique (sdformat 12.3)",
     "gz, gazebo-classic (one is lumped)": (
-        "load the model: of a link or joint that is lumped, no name is left (sdformat 12.3)"
+        "load the model, because a lumped link or joint leaves no name (sdformat 12.3)"
     ),
     _OTHERS_ACCEPT: "accept it",
 }
@@ -170,10 +168,10 @@ _CLASH = {
 def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A link and a joint have the same name.
 
-    In SDF, links and joints are siblings that share one space of names, so Gazebo refuses the model
-    that everything else loads. A fixed joint is merged with its link: sdformat 12.3 then writes
-    neither name, and versions that write frames for them (from 9.9 and 13 on) write both, so there
-    it is a warning. A ``<joint>`` of SDF in a ``<gazebo>`` block shares the names too.
+    In SDF, links and joints share one namespace, so Gazebo rejects a model that other readers
+    load. If a fixed joint is lumped with its link, sdformat 12.3 writes neither name, but versions
+    that write frames for them (9.9 of series 9, and 13 or later) write both: then it is a warning.
+    A ``<joint>`` of SDF in a ``<gazebo>`` block belongs to the same namespace.
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
     kept = kept_links(robot)
@@ -184,7 +182,8 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
             case = "both stay" if stay else "one is lumped" if kept and lumped else ""
             yield Problem(
                 joint,
-                f"joint '{name}' has the name of a link; call it '{name}_joint'",
+                f"joint '{name}' has the name of a link, but both share one namespace in SDF; "
+                f"rename it to '{name}_joint'",
                 at=joint.element.attribute_place("name"),
                 severity=WARNING if in_gazebo and lumped and not stay else None,
                 effects=holding(_CLASH, case),
@@ -193,7 +192,7 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
 
 
 def _clashes_of_sdf(robot: Robot, kept: set[str]) -> Iterator[Problem]:
-    """Report joints of SDF with the name of a link or joint that Gazebo has too."""
+    """Report SDF joints with the name of a link or joint that Gazebo has too."""
     names = dict.fromkeys((*kept, "world"), "a link")
     for joint in robot.joints:
         if is_joint_kept(robot, joint, kept):
@@ -203,7 +202,7 @@ def _clashes_of_sdf(robot: Robot, kept: set[str]) -> Iterator[Problem]:
         if name in names:
             yield Problem(
                 element,
-                f"joint '{name}' in <gazebo> has the name of {names[name]}; give it its own",
+                f"joint '{name}' in <gazebo> has the name of {names[name]}; write a unique name",
                 at=element.attribute_place("name"),
                 effects=[key for key in holding(_CLASH, "both stay") if key != _OTHERS_ACCEPT],
                 alike=names[name],
@@ -216,7 +215,7 @@ _WITHOUT_PARENT = {
     "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio": (
         "reject the robot: parent link not found"
     ),
-    "drake (the parent is world)": "takes it for its world, and loads the robot",
+    "drake (the parent is world)": "uses its own world, and loads the robot",
     "drake (the parent is not world)": "rejects the robot",
 }
 
@@ -235,11 +234,10 @@ def rename_joint(problem: Problem, context: FixContext) -> Proposal | None:
     effects=_WITHOUT_PARENT,
 )
 def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
-    """A joint's parent is no link of the robot.
+    """A joint's parent is not a link of the robot.
 
-    The joint hangs on nothing and readers refuse the robot. ``world`` has to be declared like every
-    other link; Drake alone takes it for its world, and in a file with elements of Drake's it is a
-    remark.
+    Readers reject the robot. ``world`` must be declared like any other link; only Drake has a world
+    of its own, so it is an info in files with Drake's elements.
     """
     stripped = {name.strip() for name in robot.link}
     for joint in robot.joints:
@@ -252,7 +250,7 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
 
 @unknown_parent_link.full
 def every_unknown_parent(robot: Robot) -> Iterator[Problem]:
-    """Report each name of a parent that is no link, also with blanks around it or unexpanded."""
+    """Report each parent name that is not a link, also unexpanded or with spaces around it."""
     for joint in robot.joints:
         if joint.parent and joint.parent not in robot.link and joint.parent_element is not None:
             yield _unknown_parent(robot, joint, joint.parent_element)
@@ -263,7 +261,7 @@ def _unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Problem:
     is_world = name == "world"
     return Problem(
         joint,
-        f"parent '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
+        f"parent '{name}' of joint '{joint.name}' is not a link{_remedy(name, robot)}",
         at=parent.attribute_place("link"),
         data={"suggestion": nearest(name, robot.link)},
         severity=INFO if is_world and is_for_another_reader(robot.element) else None,
@@ -277,8 +275,8 @@ def _unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Problem:
 def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     """Declare ``world``; for another name write the suggested link.
 
-    ``world`` is declared only in a description that is a robot whatever its arguments are; a part
-    that another robot includes gets it from there.
+    ``world`` is declared only in a description that is a complete robot for all arguments. A part
+    that another robot includes gets ``world`` from there.
     """
     joint = context.joint(problem)
     if joint.parent != "world":
@@ -311,10 +309,10 @@ def _write_suggestion(problem: Problem) -> Proposal | None:
     },
 )
 def unknown_child_link(robot: Robot) -> Iterator[Problem]:
-    """A joint's child is no link of the robot.
+    """A joint's child is not a link of the robot.
 
-    There is nothing for the joint to move, and readers refuse the robot. A link that is the child
-    of no joint, and not above this one, is probably the one that was meant.
+    Readers reject the robot. A link without a parent joint, which is not above this joint, is
+    probably the intended child.
     """
     stripped = {name.strip() for name in robot.link}
     missing = [
@@ -333,7 +331,7 @@ def unknown_child_link(robot: Robot) -> Iterator[Problem]:
 
 @unknown_child_link.full
 def every_unknown_child(robot: Robot) -> Iterator[Problem]:
-    """Report each name of a child that is no link, also with blanks around it or unexpanded."""
+    """Report each child name that is not a link, also unexpanded or with spaces around it."""
     missing = [joint for joint in robot.joints if joint.child and joint.child not in robot.link]
     for joint in missing:
         if joint.child_element is not None:
@@ -345,17 +343,17 @@ def _unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> P
     meant = orphans[0] if alone and len(orphans) == 1 else nearest(name, orphans, 0.6)
     right = _remedy(name, robot)
     if meant:
-        right = f"; did you mean '{meant}'? It is the child of no joint"
+        right = f"; did you mean '{meant}', which has no parent joint?"
     return Problem(
         joint,
-        f"child '{name}' of joint '{joint.name}' is no link{right}",
+        f"child '{name}' of joint '{joint.name}' is not a link{right}",
         at=child.attribute_place("link"),
         data={"suggestion": nearest(name, robot.link), "orphan": meant},
     )
 
 
 def _orphans(robot: Robot, joint: Joint) -> list[str]:
-    """List the links that no joint has as its child, and that are not above a joint."""
+    """List the links without a parent joint that are not above a joint."""
     above = {joint.parent, *robot.tree.ancestors(joint.parent)}
     return [link.name for link in robot.tree.roots if link.name not in above]
 
@@ -371,7 +369,7 @@ def _remedy(name: str, robot: Robot) -> str:
 
 @unknown_child_link.fix(UNSAFE)
 def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested link, if it is not the child of a joint yet."""
+    """Write the suggested link, if it does not have a parent joint yet."""
     orphan: str = problem.data.get("orphan", "")
     found = attribute_at(problem)
     if orphan and found is not None:
@@ -389,10 +387,10 @@ def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
-    """A joint does not say which links it joins.
+    """A joint lacks its parent or child link.
 
-    It needs a ``<parent link="…"/>`` and a ``<child link="…"/>``; without either, readers refuse
-    the robot.
+    A joint needs ``<parent link="…"/>`` and ``<child link="…"/>``; otherwise readers reject the
+    robot.
     """
     for joint in robot.joints:
         missing = list(_missing_ends(joint))
@@ -402,7 +400,7 @@ def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' has neither <parent> nor <child>; "
-                'write <parent link="…"/> and <child link="…"/>',
+                'add <parent link="…"/> and <child link="…"/>',
             )
         else:
             yield _missing_end(joint, *missing[0])
@@ -410,7 +408,7 @@ def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
 
 @missing_parent_or_child.full
 def every_missing_end(robot: Robot) -> Iterator[Problem]:
-    """Report each end of a joint that names no link, also where its element is misspelt."""
+    """Report each end of a joint without a link name, even if its element is misspelled."""
     for joint in robot.joints:
         if not joint.parent:
             yield _missing_end(joint, "parent", joint.parent_element)
@@ -422,7 +420,7 @@ def _missing_end(joint: Joint, tag: str, element: Element | None) -> Problem:
     what = f"no <{tag}>" if element is None else f"a <{tag}> without a link"
     return Problem(
         joint,
-        f"joint '{joint.name}' has {what}; write <{tag} link=\"…\"/>",
+        f"joint '{joint.name}' has {what}; add <{tag} link=\"…\"/>",
         at=element,
         data={"end": tag},
     )
@@ -446,10 +444,10 @@ def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
 _TO_ITSELF = {
     "mujoco, drake": "reject the file",
     "urdfdom, gz, gazebo-classic, pinocchio (it has no other parent)": (
-        "load the robot without the link and all below it; check_urdf reports success"
+        "load the robot without the link and its descendants; check_urdf reports success"
     ),
     "pybullet (it has no other parent)": (
-        "loads the robot without the link and all below it, or crashes"
+        "loads the robot without the link and its descendants, or crashes"
     ),
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio (no root is left)": (
         "reject the robot: no root link found"
@@ -463,25 +461,25 @@ _TO_ITSELF = {
     effects=_TO_ITSELF,
 )
 def joint_to_itself(robot: Robot) -> Iterator[Problem]:
-    """A joint joins a link to itself.
+    """A joint connects a link to itself.
 
-    Parent and child are the same link, which then hangs on itself and is reached from no root.
-    Without another root, readers reject the robot; where the link is the child of a second joint
-    too, they go round in circles until they crash.
+    Parent and child are the same link, which the root then does not reach. Without another root,
+    readers reject the robot. If the link is also the child of a second joint, readers recurse
+    until they crash.
     """
     for joint in robot.joints:
         if joint.parent and joint.parent == joint.child and joint.child_element is not None:
             yield Problem(
                 joint,
-                f"joint '{joint.name}' joins link '{joint.child}' to itself; "
-                "its child must be another link than its parent",
+                f"parent and child of joint '{joint.name}' are both link '{joint.child}'; write "
+                "two different links",
                 at=joint.child_element.attribute_place("link"),
                 effects=holding(_TO_ITSELF, _case_of(joint, robot)),
             )
 
 
 def _case_of(to_itself: Joint, robot: Robot) -> str:
-    """Name what readers do with a joint from a link to itself; empty where it is not known."""
+    """Select the case of the effects for a joint from a link to itself; empty if unknown."""
     children = {joint.child for joint in robot.joints}
     roots = sum(name not in children for name in robot.link)
     if any(joint.child == to_itself.child for joint in robot.joints if joint is not to_itself):

@@ -1,4 +1,4 @@
-"""Whether the links make one tree."""
+"""Check that the links form one tree."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _SHOWN = 6
     },
 )
 def multiple_roots(robot: Robot) -> Iterator[Problem]:
-    """More than one link hangs on no joint.
+    """Several links have no parent joint.
 
-    A robot is one tree with one root. urdfdom refuses several, MuJoCo welds each to the world, and
-    PyBullet crashes. Mostly a joint was forgotten. A ``<drake:joint>`` joins links for Drake alone.
+    A robot is one tree with one root. urdfdom rejects several roots, MuJoCo welds each root to the
+    world, and PyBullet crashes. Usually a joint was forgotten. Only Drake reads ``<drake:joint>``.
     """
     roots = robot.tree.roots
     if len(roots) < 2 or "joint" in misspelt_children(robot.element).values():
@@ -61,17 +61,17 @@ def _of_roots(main: Link, others: list[Link]) -> str:
     names = ", ".join(f"'{link.name}'" for link in others[:_SHOWN])
     more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
     if len(others) == 1:
-        message = f"link {names} is the child of no joint, as is '{main.name}'; join them"
+        message = f"link {names} and root '{main.name}' have no parent joint; connect them"
     else:
-        message = f"links {names}{more} are children of no joint, as is '{main.name}'; join them"
-    return f"{message} by joints"
+        message = f"links {names}{more} and root '{main.name}' have no parent joint; connect them"
+    return f"{message} with joints"
 
 
 _STANDARD = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 
 
 def _joined_in_drake(robot: Robot) -> set[str]:
-    """Find the roots that a ``<drake:joint>`` joins to another link."""
+    """Find the roots that a ``<drake:joint>`` connects to another link."""
     roots = {link.name for link in robot.tree.roots}
     found = set()
     for joint in robot.element.all("drake:joint"):
@@ -88,13 +88,13 @@ def _of_drake(links: list[Link]) -> Problem:
     what = f"link {names} is a root" if len(links) == 1 else f"links {names} are roots"
     return Problem(
         links[0],
-        f"{what}, because only Drake reads the <drake:joint> that joins "
-        f"{'it' if len(links) == 1 else 'them'}; write <joint> for the other readers",
+        f"{what}, because only Drake reads the <drake:joint> that connects "
+        f"{'it' if len(links) == 1 else 'them'}; write <joint> for other readers",
     )
 
 
 def _main(robot: Robot) -> Link:
-    """The root that most links hang on; there is one."""
+    """Find the root with the most descendants; requires at least one root."""
     return max(robot.tree.roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
 
 
@@ -105,10 +105,9 @@ def _main(robot: Robot) -> Link:
     },
 )
 def no_root(robot: Robot) -> Iterator[Problem]:
-    """Every link is some joint's child.
+    """Every link is the child of a joint, so the robot has no root.
 
-    The joints go round in a circle and the tree has no link to start from, so every reader refuses
-    the robot.
+    The joints form a cycle, and all readers reject the robot. Remove the joint that closes it.
     """
     if not robot.links or robot.tree.roots:
         return
@@ -125,7 +124,7 @@ def no_root(robot: Robot) -> Iterator[Problem]:
 
 @no_root.full
 def every_missing_root(robot: Robot) -> Iterator[Problem]:
-    """Report a robot with links and no root, also where a link that does not exist is above all."""
+    """Report a robot with links but no root, also if a missing link is above all others."""
     if robot.links and not robot.tree.roots:
         cycles = (_cycle(robot, link) for link in robot.links)
         yield Problem(robot, _without_root(next(filter(None, cycles), [])))
@@ -133,7 +132,7 @@ def every_missing_root(robot: Robot) -> Iterator[Problem]:
 
 def _without_root(cycle: list[Link]) -> str:
     shown = f": {_round(cycle)}" if cycle else ""
-    return f"every link is some joint's child{shown}; one link must be the root"
+    return f"every link has a parent joint{shown}; remove the one of the root link"
 
 
 @rule(
@@ -145,10 +144,10 @@ def _without_root(cycle: list[Link]) -> str:
     },
 )
 def detached_cycle(robot: Robot) -> Iterator[Problem]:
-    """Joints join some links in a circle that does not hang on the root.
+    """Joints connect some links in a cycle without a connection to the root.
 
-    urdfdom walks down from the root and never meets them. It reports success, and Gazebo and
-    PyBullet load a robot without those links.
+    urdfdom reads the tree from the root and never reaches these links. It reports success, and
+    Gazebo and PyBullet load the robot without these links.
     """
     if not robot.tree.roots:
         return
@@ -164,7 +163,7 @@ def detached_cycle(robot: Robot) -> Iterator[Problem]:
 
 @detached_cycle.full
 def every_link_on_cycle(robot: Robot) -> Iterator[Problem]:
-    """Report each link that is in a cycle or below one, also where a second joint joins it."""
+    """Report each link that is in or below a cycle, also if a second joint connects it."""
     has_root = bool(robot.tree.roots)
     detached = {link.name for link in robot.tree.detached}
     for name, cycle in _cycles(robot).items():
@@ -197,13 +196,13 @@ def _cycles(robot: Robot) -> dict[str, list[Link]]:
 
 def _of_cycle(cycle: list[Link]) -> str:
     return (
-        f"links hang on each other and not on the root: {_round(cycle)}; "
-        "let one of these joints start at a link of the tree"
+        f"links form a cycle without a connection to the root: {_round(cycle)}; "
+        "change the parent of one of these joints to a link of the tree"
     )
 
 
 def _cycle(robot: Robot, link: Link) -> list[Link]:
-    """The circle that is met going up from a link, child before parent; empty if there is none."""
+    """Find the cycle above a link, child before parent; empty if there is none."""
     above: dict[str, None] = {}
     name = link.name
     while name in robot.link and name not in above:
@@ -221,10 +220,10 @@ def _cycle(robot: Robot, link: Link) -> list[Link]:
 
 
 def _round(cycle: list[Link]) -> str:
-    """A circle in words, from child to parent."""
+    """Format a cycle from child to parent."""
     names = [link.name for link in cycle]
     shown = names if len(names) <= _SHOWN else [*names[: _SHOWN - 1], "…"]
-    return " on ".join(f"'{name}'" for name in (*shown, names[0]))
+    return " → ".join(f"'{name}'" for name in (*shown, names[0]))
 
 
 @rule(
@@ -232,7 +231,8 @@ def _round(cycle: list[Link]) -> str:
     effects={
         "check_urdf": "reports success",
         "gz, gazebo-classic": (
-            "reject the model: the link is there twice; a link that is fixed to both is merged "
+            "reject the model, which then has the link twice; a link that is fixed to both is "
+            "lumped (sdformat 12.3)"
             "(sdformat 12.3)"
         ),
         "mujoco, pinocchio, drake": "reject the robot",
@@ -242,8 +242,8 @@ def _round(cycle: list[Link]) -> str:
 def multiple_parents(robot: Robot) -> Iterator[Problem]:
     """A link is the child of two joints.
 
-    URDF is a tree, it cannot close a chain. urdfdom accepts it without a message, Gazebo rejects it
-    where the link is not merged into its parent, MuJoCo rejects it, and PyBullet crashes.
+    A URDF is a tree and cannot have closed chains. urdfdom accepts it without a message, Gazebo
+    rejects it unless the link is lumped into its parent, MuJoCo rejects it, and PyBullet crashes.
     """
     roots = robot.tree.roots
     main = _main(robot) if roots else None
@@ -252,7 +252,7 @@ def multiple_parents(robot: Robot) -> Iterator[Problem]:
         if len(joints) < 2 or name not in robot.link:
             continue
         joined = [joint for joint in joints if joint.parent != joint.child]
-        joined.sort(key=lambda joint: joint.parent in orphans)  # which may be the wrong way round
+        joined.sort(key=lambda joint: joint.parent in orphans)  # parent and child may be swapped
         first = joined[0] if joined else joints[0]
         for joint in joined[1:]:
             if joint.name == first.name:
@@ -262,7 +262,7 @@ def multiple_parents(robot: Robot) -> Iterator[Problem]:
 
 @multiple_parents.full
 def every_second_parent(robot: Robot) -> Iterator[Problem]:
-    """Report a link for each joint after the first that it is the child of, of any names."""
+    """Report a link for each joint after the first that has it as child, of any names."""
     orphans = {link.name for link in robot.tree.roots[1:]}
     for name, (first, *others) in robot.tree.joints_of_child.items():
         for joint in others:
@@ -277,12 +277,12 @@ def every_second_parent(robot: Robot) -> Iterator[Problem]:
 
 def _second_parent(first: Joint, joint: Joint, orphans: set[str]) -> str:
     if joint.parent in orphans:
-        right = f"is '{joint.parent}' meant to be the child, and '{joint.child}' the parent?"
+        right = f"swap parent '{joint.parent}' and child '{joint.child}' if they are reversed"
     elif len(orphans) == 1:
-        right = f"is '{next(iter(orphans))}' meant, which hangs on no joint?"
+        right = f"did you mean '{next(iter(orphans))}', which has no parent joint?"
     else:
-        right = "take one away, or close the chain in the simulator"
+        right = "remove one, or close the chain in the simulator"
     return (
-        f"link '{joint.child}' is the child of joint '{joint.name}' and already of "
-        f"'{first.name}'; {right}"
+        f"link '{joint.child}' is the child of two joints, '{first.name}' and '{joint.name}'; "
+        f"{right}"
     )

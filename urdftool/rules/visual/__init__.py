@@ -1,4 +1,4 @@
-"""What is seen."""
+"""Visual geometry, materials and textures."""
 
 FILES = ("materials", "looks")
 """Files with rules, in reading order."""

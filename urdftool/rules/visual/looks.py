@@ -1,4 +1,4 @@
-"""What is seen, or not."""
+"""Find missing visual geometry, transparent materials and missing textures."""
 
 from __future__ import annotations
 
@@ -35,20 +35,20 @@ _ON_PURPOSE = re.compile(r"transparent|invisible|virtual|dummy|hidden|none", re.
     effects={
         "rviz": "shows nothing of the link",
         "gz, gazebo-classic, drake, pinocchio": "load the link without a visual",
-        "pybullet": "shows the collision",
+        "pybullet": "shows the collision geometry",
     },
 )
 def missing_visual(robot: Robot) -> Iterator[Problem]:
-    """A rigid body has a collision and no visual.
+    """A rigid body has collision geometry but no visual geometry.
 
-    It is there and cannot be seen, except where collisions are shown. A link that only collides is
-    not reported where it is fixed to one with a visual.
+    The body is invisible, except in tools that show collision geometry. A link with only a
+    collision is not reported if it is fixed to one with a visual. Add a ``<visual>``.
     """
     for link in robot.links:
         if not link.collisions or link.visuals:
             continue
         if not any(one.visuals for one, _ in attached_links(robot, link)):
-            yield Problem(link, f"link '{link.name}' has a collision and no visual")
+            yield Problem(link, f"link '{link.name}' has a collision but no visual; add a <visual>")
 
 
 @missing_visual.fix(UNSAFE)
@@ -57,21 +57,22 @@ def copy_collisions(problem: Problem, context: FixContext) -> Proposal | None:
     changes = [copy_shape(shape, "visual") for shape in context.link(problem).collisions]
     if None in changes:
         return None
-    return unsafe("show the shape that collides", *filter(None, changes))
+    return unsafe("copy its collisions as visuals", *filter(None, changes))
 
 
 @rule(
     WARNING,
     effects={
         "rviz": "shows nothing of the link",
-        "gz, gazebo-classic, pybullet": "take the alpha of 0",
+        "gz, gazebo-classic, pybullet": "use the alpha of 0",
     },
 )
 def fully_transparent(robot: Robot) -> Iterator[Problem]:
-    """All that is seen of a link is transparent.
+    """All visual geometry of a link is transparent.
 
-    The fourth number of a colour is its opacity, and 0 is glass that cannot be seen. Links and
-    materials whose name says that it is meant (virtual, invisible, transparent) are let pass.
+    The fourth number of ``rgba`` is the opacity (alpha); geometry with 0 is invisible. Write 1 for
+    opaque. Links and materials whose name shows that it is intended (virtual, invisible,
+    transparent) are ignored.
     """
     colors = {material.name: material for material in robot.materials if material.color}
     for link in robot.links:
@@ -92,7 +93,8 @@ def fully_transparent(robot: Robot) -> Iterator[Problem]:
                 color = shown[0].element.child("color") or shown[0].element
                 yield Problem(
                     link,
-                    f"link '{link.name}' has an opacity of 0; write 1 as the fourth number",
+                    f"visual of link '{link.name}' is invisible (opacity 0); write 1 as the fourth "
+                    "number of rgba",
                     at=color.attribute_place("rgba"),
                 )
 
@@ -118,8 +120,8 @@ def make_opaque(problem: Problem, context: FixContext) -> Proposal | None:
 def empty_material_name(robot: Robot) -> Iterator[Problem]:
     """The name of a material is empty.
 
-    Exporters of CAD programs write ``<material name="">`` with a colour. Tools that keep materials
-    by name show all of them in the first colour.
+    Exporters of CAD programs write ``<material name="">`` with a color. Tools that store materials
+    by name then show all of them in the first color. Write a name.
     """
     for link in robot.links:
         for visual in link.visuals:
@@ -129,7 +131,7 @@ def empty_material_name(robot: Robot) -> Iterator[Problem]:
             if "name" in element.attributes:
                 yield Problem(
                     link,
-                    f"a material of link '{link.name}' has an empty name; give it one",
+                    f"a material of link '{link.name}' has an empty name; write a unique name",
                     at=element.attribute_place("name"),
                 )
 
@@ -138,7 +140,7 @@ def empty_material_name(robot: Robot) -> Iterator[Problem]:
 def name_by_color(problem: Problem, context: FixContext) -> Proposal | None:
     """Name the materials of the link by their colors.
 
-    urdfdom drops the shapes behind a material without a ``name``, and has them afterwards.
+    urdfdom drops the shapes after a material without a ``name``, so the fix restores them.
     """
     found = attribute_at(problem)
     link = context.link(problem)
@@ -159,7 +161,7 @@ def name_by_color(problem: Problem, context: FixContext) -> Proposal | None:
             return None
         changes.append(set_attribute(material.element, "name", name))
     there = all("name" in change.element.attributes for change in changes)
-    return (safe if there else unsafe)("name it by its color", *changes) if changes else None
+    return (safe if there else unsafe)("name it after its color", *changes) if changes else None
 
 
 @rule(
@@ -172,9 +174,9 @@ def name_by_color(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def unused_material(robot: Robot) -> Iterator[Problem]:
-    """A material at the top level is used by no visual.
+    """No visual uses a material that is defined at the top level.
 
-    It does no harm; often a name was changed in one place.
+    It has no effect; often a name was changed in only one place.
     """
     used = {
         visual.material.name
@@ -184,34 +186,34 @@ def unused_material(robot: Robot) -> Iterator[Problem]:
     }
     for material in robot.materials:
         if material.name and material.name not in used:
-            yield Problem(material.element, f"material '{material.name}' is used nowhere")
+            yield Problem(material.element, f"no visual uses material '{material.name}'; remove it")
 
 
 @unused_material.fix(BOTH)
 def remove_material(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove it; in xacro another robot, or other arguments, may use it."""
+    """Remove it; unsafe in xacro, because another robot or other arguments may use it."""
     make = safe if context.description.expansion is None else unsafe
-    return make("take it out", remove_element(problem.element))
+    return make("remove the material", remove_element(problem.element))
 
 
 @rule(
     WARNING,
     effects={
-        "rviz": "shows the link without the picture",
+        "rviz": "shows the link without the texture",
         "drake": "rejects the file",
     },
 )
 def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The picture of a texture is not there.
+    """The image file of a texture does not exist.
 
-    The model is shown in grey or white, as if it had no texture.
+    RViz shows the model without the texture, Drake rejects the file.
     """
-    told: set[str] = set()
+    seen: set[str] = set()
     for element in robot.element.walk():
         uri = element.get("filename") or ""
-        if element.tag != "texture" or not uri or uri in told or is_unexpanded(uri):
+        if element.tag != "texture" or not uri or uri in seen or is_unexpanded(uri):
             continue
-        told.add(uri)
+        seen.add(uri)
         try:
             path = description.resolve(uri)
         except PackageNotFound:
@@ -219,7 +221,7 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
         if not description.workspace.is_file(path):
             yield Problem(
                 element,
-                f"texture '{uri}' is not there: no file '{shown_path(path)}'",
+                f"texture '{uri}' does not exist: no file '{shown_path(path)}'",
                 at=element.attribute_place("filename"),
                 data={"uri": uri},
             )

@@ -1,4 +1,4 @@
-"""Materials and who means them."""
+"""Check materials and the references to them."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ _Look = tuple[tuple[float, ...] | None, str | None]
     WARNING,
     effects={
         "urdfdom": "warns; the visual has no color",
-        "rviz": "shows the link in red, unless its mesh brings its own colors",
-        "pybullet": "takes a default color",
+        "rviz": "shows the link in red, unless its mesh has its own colors",
+        "pybullet": "uses a default color",
         "mujoco": "accepts it without a message",
         "drake": "rejects the file",
     },
 )
 def undefined_material(robot: Robot) -> Iterator[Problem]:
-    """A material is named and defined nowhere.
+    """A visual uses a material that is not defined.
 
-    A ``<material>`` with a name alone means one that is defined elsewhere, with a colour or
-    texture: at the top level or in another visual. Where there is none the visual is shown in a
-    default colour. Usually the file with the colours is not included.
+    A ``<material>`` with only a name refers to one that is defined with a color or texture at the
+    top level or in another visual. If there is none, readers show the visual in a default color or
+    reject the file. Usually the file with the colors is not included.
     """
     uses: dict[str, list[Material]] = {}
     defined = {material.name for material in robot.materials if _defines(material)}
@@ -55,11 +55,11 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
                 uses.setdefault(material.name, []).append(material)
     for name, materials in uses.items():
         if name not in defined:
-            times = f" ({len(materials)} visuals name it)" if len(materials) > 1 else ""
+            times = f" ({len(materials)} visuals use it)" if len(materials) > 1 else ""
             first = materials[0]
             yield Problem(
                 first.element,
-                f"material '{name}' is defined nowhere{times}; give it a <color>"
+                f"material '{name}' is not defined{times}; add a <color>"
                 + did_you_mean(name, defined),
                 at=first.element.attribute_place("name"),
                 data={"material": name, "suggestion": nearest(name, defined)},
@@ -85,17 +85,17 @@ _NAMELESS = {
     effects=_NAMELESS,
 )
 def nameless_material(robot: Robot) -> Iterator[Problem]:
-    """A ``<material>`` lacks the attribute ``name``.
+    """A ``<material>`` has no attribute ``name``.
 
-    At the top level nothing can refer to it. In a visual, urdfdom stops reading the link at that
-    point and keeps what it has: the visual and all collisions of the link are gone, while
-    ``check_urdf`` reports success. ``name=""`` is accepted.
+    At the top level nothing can refer to it. In a visual, urdfdom stops reading the link at this
+    element and drops the visual and all collisions of the link, while ``check_urdf`` reports
+    success. ``name=""`` is accepted.
     """
     for material in robot.materials:
         if _is_nameless(material):
             yield Problem(
                 material.element,
-                'a <material> of the robot has no name; write name="…"',
+                'a <material> at the top level has no name; write name="…"',
                 effects=holding(_NAMELESS, "at the top level"),
             )
     for link in robot.links:
@@ -106,7 +106,7 @@ def nameless_material(robot: Robot) -> Iterator[Problem]:
             have = "has" if len(nameless) == 1 else "have"
             yield Problem(
                 link,
-                f"{what} of link '{link.name}' {have} no name, at which urdfdom drops the "
+                f"{what} of link '{link.name}' {have} no name, so urdfdom drops the "
                 'visuals and the collisions of the link; write name="…"',
                 at=nameless[0].element,
                 effects=holding(_NAMELESS, "in a visual"),
@@ -124,21 +124,20 @@ def _is_nameless(material: Material) -> bool:
         "urdfdom, gz, gazebo-classic, pinocchio (top level)": (
             "reject the robot: material is not unique"
         ),
-        "urdfdom (visual)": "takes the color at the top level",
-        "urdfdom (visuals)": "takes the color in the first visual for all of them",
+        "urdfdom (visual)": "uses the color of the top level",
+        "urdfdom (visuals)": "uses the color of the first visual for all of them",
         "drake": "rejects the file",
         "pybullet (top level)": "accepts it",
-        "pybullet (visual)": "takes the color at the visual",
-        "pybullet (visuals)": "takes the color in the last visual for all of them",
+        "pybullet (visual)": "uses the color of the visual",
+        "pybullet (visuals)": "uses the color of the last visual for all of them",
     },
 )
 def conflicting_material(robot: Robot) -> Iterator[Problem]:
-    """Two materials have one name.
+    """Two materials have the same name.
 
-    At the top level urdfdom takes a second material of a name, even an equal one, for an error and
-    rejects the robot; it happens when a file with colours is included twice. In visuals, a name
-    that is given a second colour is shown in the first by some readers and in the second by
-    others; that is a warning.
+    At the top level urdfdom rejects the robot, even if both are equal; it happens if a file with
+    colors is included twice. If visuals define different colors for one name, some readers use the
+    first and others the last color; that is a warning.
     """
     first: dict[str, Material] = {}
     for material in robot.materials:
@@ -146,8 +145,8 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
         if other is not material and material.name:
             yield Problem(
                 material.element,
-                f"material '{material.name}' is defined at the top level for a second time "
-                f"(first in line {other.place.line}{_file_of(other, material)}); keep one",
+                f"material '{material.name}' is defined twice at the top level "
+                f"(first in line {other.place.line}{_file_of(other, material)}); remove one",
                 at=material.element.attribute_place("name"),
                 effects=(
                     "urdfdom, gz, gazebo-classic, pinocchio (top level)",
@@ -155,7 +154,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                     "pybullet (top level)",
                 ),
             )
-    told: set[tuple[str, _Look]] = set()
+    seen: set[tuple[str, _Look]] = set()
     at_top = set(first)
     for link in robot.links:
         for visual in link.visuals:
@@ -164,14 +163,14 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 continue
             other = first.setdefault(material_.name, material_)
             look = _look(material_)
-            if look == _look(other) or (material_.name, look) in told:
+            if look == _look(other) or (material_.name, look) in seen:
                 continue
-            told.add((material_.name, look))
+            seen.add((material_.name, look))
             case = "visual" if material_.name in at_top else "visuals"
             yield Problem(
                 link,
-                f"material '{material_.name}' has another colour here than in "
-                f"line {other.place.line}{_file_of(other, material_)}; give it a name of its own",
+                f"color of material '{material_.name}' differs from that in line "
+                f"{other.place.line}{_file_of(other, material_)}; write a unique name",
                 at=material_.element.attribute_place("name"),
                 severity=WARNING,
                 effects=(f"urdfdom ({case})", "drake", f"pybullet ({case})"),
@@ -194,9 +193,9 @@ def _look(material: Material) -> _Look:
 
 @conflicting_material.fix(BOTH)
 def remove_equal_material(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the second of two that are equal.
+    """Remove the second of two equal materials.
 
-    In xacro another robot, or other arguments, may have the second alone.
+    It is unsafe in xacro, because another robot or other arguments may have only the second.
     """
     element = problem.element
     if element.tag != "material" or element.parent is not context.robot.element:
@@ -206,9 +205,9 @@ def remove_equal_material(problem: Problem, context: FixContext) -> Proposal | N
     if firsts[0] is element or not are_equal_elements(firsts[0], element):
         return None
     if (firsts[0].file.path, firsts[0].start) == (element.file.path, element.start):
-        return None  # one place that is included twice
+        return None  # one element that is included twice
     make = safe if context.description.expansion is None else unsafe
-    return make("keep the first, which is equal", remove_element(element))
+    return make("remove it; the first one is equal", remove_element(element))
 
 
 @rule(
@@ -216,15 +215,15 @@ def remove_equal_material(problem: Problem, context: FixContext) -> Proposal | N
     effects={
         "urdfdom": "drops the color, with an error in the log",
         "gz, gazebo-classic": "show the link in black (sdformat 12.3)",
-        "mujoco, pybullet": "take it as it is",
+        "mujoco, pybullet": "take it as written",
         "drake": "rejects the file",
     },
 )
 def invalid_color(robot: Robot) -> Iterator[Problem]:
-    """A colour has a number outside 0 to 1.
+    """A color has a component outside 0 to 1.
 
-    ``rgba`` is red, green, blue and opacity, each from 0 to 1. Of numbers on a scale of 0 to 255
-    urdfdom says that they are malformed and drops the material; others take them for very bright.
+    ``rgba`` is red, green, blue and opacity, each from 0 to 1. urdfdom rejects components from 0
+    to 255 as malformed and drops the material; other readers show a very bright color.
     """
     for material in _all_materials(robot):
         color = material.element.child("color")
@@ -236,7 +235,7 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
             of = f" of material '{material.name}'" if material.name else ""
             yield Problem(
                 material.element,
-                f"colour{of} {wrong}",
+                f"color{of} {wrong}",
                 at=color.attribute_place("rgba"),
                 data={"write": right},
             )
@@ -251,10 +250,10 @@ def _all_materials(robot: Robot) -> Iterator[Material]:
 
 
 def _wrong_color(text: str) -> tuple[str, str]:
-    """Return what is wrong with an ``rgba``, and what to write; both empty if nothing is."""
+    """Return what is wrong with an ``rgba``, and what to write; both empty if it is valid."""
     values = numbers(text, 4)
     if values is None:
-        return "", ""  # what is no number, or not four of them, is a matter of any attribute
+        return "", ""  # other rules report values that are not four numbers
     if max(values) > 1 and all(value == int(value) and 0 <= value <= 255 for value in values):
         opacity = 1.0 if values[3] <= 1 and values[3] else values[3] / 255
         scaled = (*(value / 255 for value in values[:3]), opacity)
@@ -263,13 +262,13 @@ def _wrong_color(text: str) -> tuple[str, str]:
         return f"'{text}' is on a scale of 0 to 255; write '{shown}'", right
     if max(values) > 1 or min(values) < 0:
         right = " ".join(f"{min(1.0, max(0.0, value)):.6g}" for value in values)
-        return f"'{text}' has a number outside 0 to 1", right
+        return f"'{text}' has a component outside 0 to 1; write '{right}'", right
     return "", ""
 
 
 @invalid_color.fix(UNSAFE)
 def write_valid_color(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the numbers on a scale of 0 to 1, or the nearest of that range."""
+    """Scale the components to 0 to 1, or write the nearest values in that range."""
     found = attribute_at(problem)
     if found is None:
         return None
