@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool import check
-from urdftool.finding import Severity
+from urdftool.diagnostic import Severity
 
 PAIR = (
     '<robot name="r"><link name="a"/><link name="b"/>{}<joint name="j" type="revolute">'
