@@ -84,7 +84,9 @@ def test_what_is_no_tree_is_drawn_and_marked_and_exit_1(urdftool, write, output,
     words = ["-o", output] if output else []
     result = urdftool("graph", write("x.urdf", LOOP), "--style", style, *words)
     assert result.code == 1
-    assert "x.urdf:3:1: links hang on each other and not on the root: 'b' on 'c'" in result.err
+    assert (
+        "x.urdf:3:1: links form a cycle without a connection to the root: 'b' → 'c'" in result.err
+    )
     text = result.out if output == "-" else Path(output or "loop.gv").read_text("utf-8")
     assert "in a loop" in text
 

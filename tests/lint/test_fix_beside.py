@@ -103,7 +103,7 @@ def test_a_mesh_that_another_robot_names_is_not_turned(write, urdftool):
     words = ("lint", path, "--select", "inverted-mesh", *FIX)
     result = urdftool("-v", *words)
     assert Path("arm.stl").read_bytes() == INVERTED.read_bytes()
-    assert "other.urdf names 'arm.stl', too" in result.err
+    assert "other.urdf refers to 'arm.stl' too" in result.err
     os.remove(other)
     assert "Fixed 1" in urdftool(*words).err
     turned = Path("arm.stl").read_bytes()
@@ -167,7 +167,7 @@ def test_no_mesh_is_written_unasked(write, urdftool):
     assert "Nothing to fix." in result.err
     assert "2 more findings have a fix that" in urdftool(*words, "--fix", "--unsafe-fixes").err
     assert {p: Path(p).read_bytes() for p in sorted(os.listdir("."))} == before
-    assert "= fix: write it as binary STL (--fix --fix-meshes)\n" in urdftool(*words).out
+    assert "= fix: convert it to binary STL (--fix --fix-meshes)\n" in urdftool(*words).out
     shown = urdftool(*words, "--diff", "--fix-meshes")
     assert shown.out.startswith("binary file arm.stl: ")
     assert "Fixed 1 in 1 file: ascii-stl" in urdftool(*words, "--fix", "--fix-meshes").err
@@ -216,7 +216,7 @@ def test_a_link_has_its_new_name_in_the_srdf_too_unless_a_list_names_it(write, u
     words = ("lint", path, "--select", "not-portable-identifier", *FIX)
     result = urdftool("-v", *words)
     assert Path(path).read_text() == NAMED
-    assert "config/sensors.yaml names 'upper-arm', too" in result.err
+    assert "config/sensors.yaml refers to 'upper-arm' too" in result.err
     write("config/sensors.yaml", "frame: upper-arm-2\n")
     assert "Fixed 1 in 2 files" in urdftool(*words).err
     assert Path(path).read_text() == NAMED.replace("upper-arm", "upper_arm")
@@ -311,7 +311,7 @@ def test_nobody_is_looked_for_in_a_disk_full_of_files(write, urdftool, monkeypat
     write("notes/one.txt", "x")
     path = write("r.urdf", ROBOT.format("arm.stl"))
     result = urdftool("-v", "lint", path, "--select", "inverted-mesh", *FIX)
-    assert "too many files around it" in result.err
+    assert "too many files around the description" in result.err
     assert Path("arm.stl").read_bytes() == INVERTED.read_bytes()
 
 

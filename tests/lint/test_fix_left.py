@@ -43,7 +43,7 @@ def test_an_end_effector_of_another_robot_gets_no_plugin(write, urdftool, includ
     write("ws/src/arm/urdf/arm.urdf.xacro", XACRO.format(body))
     result = urdftool("-v", "lint", path, *PLUGIN)
     assert ("<plugin" in Path(path).read_text()) is not is_it
-    said = "arm.urdf.xacro includes gripper.urdf.xacro, and would get it as well"
+    said = "arm.urdf.xacro includes gripper.urdf.xacro, and would get the element too"
     assert (said in result.err) is is_it
 
 

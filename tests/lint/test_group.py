@@ -37,7 +37,7 @@ def test_one_fact_of_many_links_is_one_finding_with_its_names(write, urdftool):
     result = urdftool("lint", path, *ONLY, "--format", "concise")
     assert result.code == 1
     assert result.out == (
-        "r.urdf:2:1: info: 8 links have a visual and no collision: 'a', 'b', 'c', 'd', 'e' and "
+        "r.urdf:2:1: info: 8 links have a visual but no collision: 'a', 'b', 'c', 'd', 'e' and "
         "3 more; add a <collision> to each, best with a primitive shape [missing-collision]\n"
     )
     assert "1 info in 1 file" in result.err
@@ -59,7 +59,7 @@ def test_statistics_count_groups_and_their_places(write, urdftool):
 def test_one_alone_is_reported_as_before(write, urdftool):
     path = write("r.urdf", robot("a"))
     (found,) = lint_json(urdftool, path, *ONLY)["findings"]
-    assert found["message"].startswith("link 'a' has a visual and no collision")
+    assert found["message"].startswith("link 'a' has a visual but no collision")
     assert "group" not in found
 
 
@@ -75,7 +75,7 @@ def test_the_library_has_each_and_groups_them_where_asked(write):
 def test_every_format_has_the_group_once_and_its_members(write, urdftool, style):
     path = write("r.urdf", robot(*"abcd"))
     result = urdftool("lint", path, *ONLY, "--format", style)
-    assert result.out.count("4 links have a visual and no collision") == (
+    assert result.out.count("4 links have a visual but no collision") == (
         2 if style == "junit" else 1
     )
     if style == "sarif":
@@ -231,7 +231,7 @@ def test_pointers_of_git_lfs_are_one_finding_for_a_repository(write, urdftool):
         ("repository", 4, "one/x.urdf"),
         ("repository", 4, "two/x.urdf"),
     ]
-    assert "4 mesh files are pointers of git-lfs" in found[0]["message"]
+    assert "4 mesh files are git-lfs pointers" in found[0]["message"]
 
 
 FILE = SourceFile("r.urdf", b"<robot>\n<link/>\n<link/>\n</robot>\n")

@@ -186,4 +186,4 @@ def test_other_meshes_have_no_two_ways_up(urdftool, tmp_path):
 def test_a_collision_that_is_off_may_be_a_matter_of_axes(tmp_path):
     for mesh, told in (("one.glb", True), ("one.stl", False)):
         (found,) = check(robot(tmp_path, mesh), select=["collision-off-visual"])
-        assert ("export it with Y up, or say --gltf-up z" in found.message) is told
+        assert ("export it with Y up, or use --gltf-up z" in found.message) is told

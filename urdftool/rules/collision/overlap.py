@@ -42,7 +42,7 @@ _Pair = tuple[Link, Link, float]
             "pair"
         ),
         "mujoco (loaded)": (
-            "has contact between the two from the first step, if it loads the robot"
+            "makes contact between the two from the first step, if it loads the robot"
         ),
     },
 )
@@ -259,7 +259,7 @@ def _depth(around: Convex, at: tuple[float, float, float]) -> float:
     INFO,
     default=False,
     effects={
-        "mujoco (contact)": "stops the joint by the contact before its limit",
+        "mujoco (contact)": "makes contact, which stops the joint before its limit",
         "mujoco (neighbors)": (
             "lets the two links interpenetrate: it makes no contact between parent and child"
         ),

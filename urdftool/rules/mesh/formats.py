@@ -73,7 +73,7 @@ def unsupported_mesh_format(
             more = f" (and {len(same) - 1} more)" if len(same) > 1 else ""
             yield Problem(
                 use.link,
-                f"{' and '.join(who)} cannot read the format of mesh '{use.uri}'{more}; "
+                f"{', '.join(who)} cannot read the format of mesh '{use.uri}'{more}; "
                 + (
                     "its suffix means binary STL: rename it to .stl"
                     if ending == "stlb"

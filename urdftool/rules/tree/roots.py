@@ -220,10 +220,11 @@ def _cycle(robot: Robot, link: Link) -> list[Link]:
 
 
 def _round(cycle: list[Link]) -> str:
-    """Format a cycle from child to parent."""
-    names = [link.name for link in cycle]
+    """Format a cycle from parent to child."""
+    first, *rest = (link.name for link in cycle)
+    names = [first, *reversed(rest)]
     shown = names if len(names) <= _SHOWN else [*names[: _SHOWN - 1], "…"]
-    return " → ".join(f"'{name}'" for name in (*shown, names[0]))
+    return " → ".join(f"'{name}'" for name in (*shown, first))
 
 
 @rule(
