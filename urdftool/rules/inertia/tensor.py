@@ -409,7 +409,9 @@ def tiny_moving_inertia(
         if "pybullet" in targets and damping * step > 2 * inertia:
             least = damping * step / 2
             lowered = "damping"
-            why = f"its damping of {damping:g} makes it oscillate in PyBullet at {step * 1e3:g} ms steps"
+            why = (
+                f"its damping {damping:g} makes it oscillate in PyBullet at {step * 1e3:g} ms steps"
+            )
         elif 0 < reach < thrown:
             least = effort * step**2 / reach
             lowered = "effort limit"

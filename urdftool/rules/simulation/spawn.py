@@ -41,8 +41,8 @@ def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Proble
             unit = "kg" if joint.type == "prismatic" else "kg·m²"
             yield Problem(
                 joint,
-                f"damping {damping:g} of joint '{joint.name}' is too large for {inertia:.3g} {unit}; "
-                f"at {step * 1000:g} ms steps it must be below {2 * inertia / step:.3g}",
+                f"damping {damping:g} of joint '{joint.name}' is too large for its {inertia:.3g} "
+                f"{unit}: at {step * 1000:g} ms steps it must be below {2 * inertia / step:.3g}",
                 at=joint.dynamics,
                 data={"damping": damping, "highest": 2 * inertia / step, "inertia": inertia},
             )
