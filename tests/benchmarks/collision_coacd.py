@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from urdftool.collision.distance import Surface, spread
-from urdftool.collision.measure import Target, measure
+from urdftool.collision.measure import ReferenceSurface, measure
 from urdftool.collision.piece import mesh_piece
 from urdftool.collision.surface import read_surface
 from urdftool.geometry.load import load_mesh
@@ -107,7 +107,7 @@ def compared(path, folder) -> Iterator[tuple[str, Row | None]]:
     kept = folder / f"{path.name}.npz"
     theirs = "kept" if kept.exists() else "default"
     surface = read_surface(path)
-    target = Target(surface)
+    target = ReferenceSurface(surface)
     for side, made in ((theirs, by_default(surface, kept)), ("ours", by_ours(path))):
         if made is None:
             yield side, None

@@ -8,7 +8,7 @@ from urdftool.collision.choose import choose
 from urdftool.collision.convex import capped_hull, planes, signed_distance
 from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import to_triangles
-from urdftool.collision.measure import Target, measure
+from urdftool.collision.measure import ReferenceSurface, measure
 from urdftool.collision.piece import mesh_piece, primitive
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare
@@ -27,7 +27,7 @@ from urdftool.geometry.topology import edges_of
 def test_auto_finds_the_primitive_again(kind, noise):
     rotation = turned(np.random.default_rng(3))
     mesh = noisy(kind, SIZES[kind], noise=noise, rotation=rotation, centre=(0.1, -0.2, 0.3))
-    choice = choose(prepare(*mesh), Settings())
+    choice = choose(prepare(*mesh), Settings(max_error=0.01))
     (piece,) = choice.pieces
     assert (choice.method, piece.kind) == ("primitive", kind)
     assert sorted(piece.size) == pytest.approx(sorted(SIZES[kind]), rel=0.01)
@@ -55,7 +55,7 @@ def test_the_distance_to_a_triangle_is_exact():
 
 
 def test_a_box_that_is_too_large_is_measured_as_such():
-    target = Target(prepare(*noisy("box", (0.2, 0.2, 0.2))))
+    target = ReferenceSurface(prepare(*noisy("box", (0.2, 0.2, 0.2))))
     larger = primitive("box", (0.22, 0.2, 0.2), np.eye(3), (0, 0, 0))
     found = measure(target, [larger])
     assert found.hausdorff == pytest.approx(0.01, rel=0.02)
@@ -69,8 +69,10 @@ def test_what_is_enclosed_is_not_measured():
     outer, faces = noisy("box", (0.2, 0.2, 0.2))
     inner, more = noisy("sphere", (0.05,))
     both = prepare(np.concatenate([outer, inner]), np.concatenate([faces, more + len(outer)]))
-    found = measure(Target(both), [primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))])
-    assert found.error < 2e-3
+    found = measure(
+        ReferenceSurface(both), [primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))]
+    )
+    assert found.error < 4e-3
     assert found.enclosed == pytest.approx(0.0314 / (0.24 + 0.0314), abs=0.01)
 
 
@@ -80,15 +82,15 @@ def test_two_pieces_of_a_bracket_leave_nothing_out():
         primitive("box", (0.2, 0.05, 0.1), np.eye(3), (0.1, 0.025, 0.05)),
         primitive("box", (0.05, 0.15, 0.1), np.eye(3), (0.025, 0.125, 0.05)),
     ]
-    found = measure(Target(surface), legs)
-    assert found.error < 2e-3
+    found = measure(ReferenceSurface(surface), legs)
+    assert found.error < 4e-3
     assert found.volume_ratio == pytest.approx(1, abs=0.03)
     assert found.outside < 0.001
 
 
 def test_pieces_that_coincide_are_measured():
     box = primitive("box", (0.2, 0.1, 0.1), np.eye(3), (0, 0, 0))
-    target = Target(prepare(box.vertices, box.faces))
+    target = ReferenceSurface(prepare(box.vertices, box.faces))
     twice = [mesh_piece(box.vertices, box.faces)] * 2
     twins = [mesh_piece(box.vertices * 1.1, box.faces), mesh_piece(box.vertices * 1.1, box.faces)]
     assert measure(target, twice).hausdorff == pytest.approx(0, abs=1e-9)
@@ -110,7 +112,9 @@ def test_simplified_stays_closed():
     fewer, triangles = decimate(vertices, faces, 200)
     assert len(triangles) <= 200
     assert edges_of(triangles).cycle
-    error = measure(Target(prepare(vertices, faces)), [mesh_piece(fewer, triangles, convex=False)])
+    error = measure(
+        ReferenceSurface(prepare(vertices, faces)), [mesh_piece(fewer, triangles, convex=False)]
+    )
     assert error.error < 0.03
 
 
@@ -120,8 +124,8 @@ def test_a_bracket_is_cut_in_two():
     for _ in range(3):
         vertices, faces = finer(vertices, faces)
     choice = choose(prepare(vertices, faces), Settings())
-    assert choice.method == "coacd"
-    assert len(choice.pieces) <= 4
+    assert choice.method == "cuts"
+    assert len(choice.pieces) == 2
     assert choice.measures.error <= 0.01
 
 
@@ -135,8 +139,8 @@ def test_coacd_that_dies_is_replaced_and_said(monkeypatch):
     monkeypatch.setattr(module, "decompose", dies)
     choice = choose(prepare(*l_profile()), Settings(method="coacd"))
     assert choice.method == "hull"
-    assert choice.notes[0].data["cause"] == "died"
-    assert choice.notes[-1].code == "hull-instead"
+    assert "CoACD died" in choice.notes[0].message
+    assert [note.code for note in choice.notes] == ["coacd-failed"] * 2 + ["hull-instead"]
 
 
 def test_a_child_that_takes_too_long_is_ended():

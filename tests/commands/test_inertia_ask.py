@@ -111,3 +111,18 @@ def test_progress_at_a_terminal_only(monkeypatch, capfd):
     assert report(Console(verbosity=-1), patience=0) == ""
     monkeypatch.setattr("sys.stderr.isatty", lambda: False, raising=False)
     assert report(Console(), patience=0) == ""
+
+
+def test_progress_in_a_pipe_is_a_line_every_few_seconds(monkeypatch, capfd):
+    from urdftool.commands import progress as module
+    from urdftool.console import Console
+
+    now = [0.0]
+    monkeypatch.setattr(module, "monotonic", lambda: now[0])
+    monkeypatch.setattr("sys.stderr.isatty", lambda: False, raising=False)
+    with module.Progress(Console(), "meshes") as progress:
+        for second in range(12):
+            now[0] = second
+            progress(second, 12, ["a.stl"])
+    lines = capfd.readouterr().err.splitlines()
+    assert lines == ["2 of 12 meshes, 2 s: a.stl", "7 of 12 meshes, 7 s: a.stl"]

@@ -31,7 +31,7 @@ def simplify_collisions(
     Args:
         robot: A robot from ``load``.
         output: Path of the new URDF; for xacro, of the expanded text.
-        settings: Method and error bounds; None allows an error of 1 % of the size of a part.
+        settings: Method and error bounds; None allows an error of 5 % of the size of a part.
         source: ``"visual"`` or ``"collision"``, the meshes to simplify; None uses the visuals, or
             the collisions of links without visuals.
         links: Links to process; if empty, all.
@@ -54,7 +54,7 @@ def simplify_collisions(
         ModelError: The robot was not read from a description.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
-    from ..collision.links import Wishes, plan
+    from ..collision.links import CollisionOptions, plan
     from ..collision.parallel import compute_all
     from ..collision.robot import Place, check_place, tasks_of, write_robot
     from ..collision.settings import Settings
@@ -65,13 +65,13 @@ def simplify_collisions(
     require("simplify_collisions", "scipy", "manifold3d")
     if robot.source is None:
         raise ModelError("the robot was not read from a description; use urdftool.load")
-    wishes = Wishes(
+    options = CollisionOptions(
         settings or Settings(), source, tuple(links), tuple(skip_links), keep_primitives
     )
     folder = None if mesh_dir is None else Path(mesh_dir)
     place = Place(Path(output), folder, uri, mesh_format, overwrite=overwrite)
     check_place(robot, place)
-    plans, problems = plan(robot, wishes)
+    plans, problems = plan(robot, options)
     for problem in problems:
         raise problem
     kept = DiskCache(cache_folder("collision") if cache else None)

@@ -271,12 +271,12 @@ def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut |
     """
     from ..collision.compute import Result, Task
     from ..collision.parallel import compute_all
-    from ..collision.settings import FEW_HULLS, Settings
+    from ..collision.settings import Settings
     from ..errors import MissingDependency
     from ..formats.mjcf.cut import Cut
     from ..storage import DiskCache, cache_folder
 
-    settings = Settings(method="coacd", max_hulls=FEW_HULLS)
+    settings = Settings(method="coacd", max_error=0.01, max_hulls=32)
     tasks = {path: Task(path, settings=settings, gltf_up=gltf_up) for path in paths}
     found = compute_all(list(tasks.values()), DiskCache(cache_folder("collision")))
     cuts: dict[Path, Cut | str] = {}

@@ -19,7 +19,7 @@ from ..parallel import Loss, cores, map_tasks
 from ..source.description import GltfUp
 from .convex import hull, planes, signed_distance
 from .links import Shape
-from .measure import Target, measure
+from .measure import ReferenceSurface, measure
 from .parallel import Progress
 from .piece import Piece, mesh_piece, primitive
 from .surface import Prepared, prepare, read_surface
@@ -68,10 +68,10 @@ class Look:
     visuals: tuple[Part, ...]
     collisions: tuple[Part, ...]
     trouble: str = ""
-    max_error: float = 0.01
+    max_error: float = 0.05
 
 
-def look_at(robot: Robot, link: Link, max_error: float = 0.01) -> Look | None:
+def look_at(robot: Robot, link: Link, max_error: float = 0.05) -> Look | None:
     """Collect the shapes of a link to be measured; None if it has no visual.
 
     Args:
@@ -128,7 +128,7 @@ def check_link(look: Look) -> Checked:
         visual = _visual(look.visuals)
         if visual is None:
             return Checked(look.link, None, "its visuals have no area")
-        target = Target(visual)
+        target = ReferenceSurface(visual)
         pieces = [_piece(part) for part in look.collisions]
         found = measure(target, pieces).as_dict()
         concave = sum(piece.kind == "mesh" for piece in pieces)

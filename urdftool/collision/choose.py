@@ -2,7 +2,8 @@
 
 Cost is that of contact computation: primitives are cheaper than hulls, few hulls than many, few
 vertices than many. ``auto`` never takes a concave mesh: PyBullet and MuJoCo use its hull for moving
-bodies, which is already measured.
+bodies, which is already measured. Where no geometry is within the error, the one with the smallest
+error is taken.
 """
 
 from __future__ import annotations
@@ -12,31 +13,31 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..diagnostic import Diagnostic, warning
+from ..diagnostic import Diagnostic
 from ..errors import MeshError
 from ..geometry.topology import body_labels, edges_of
 from .convex import capped_hull, thickened
 from .cut import Cutter
+from .cuts import PlaneCutter
 from .decimate import decimate
 from .decompose import DecompositionError
-from .measure import Measures, Target, hull_error, measure
+from .measure import Measures, ReferenceSurface, hull_error, measure
+from .notes import FLAT_MESH, HULL_INSTEAD, HULL_OF_ENGINES, MORE_PIECES, make_note
 from .piece import PRIMITIVES, Piece, mesh_piece
 from .primitives import fit_primitives, signed_distance
-from .settings import FEW_HULLS, Settings
+from .settings import Settings
 from .surface import Prepared, flat_labels
-
-LADDER = (3.0, 1.0)
-"""Distances for CoACD's cuts in ``auto``, in multiples of the error, coarse first: few pieces are
-often sufficient, and each step takes several times as long."""
 
 PLATE = 0.002
 """Thickness given to a flat mesh, relative to its size."""
 
 _MEASURED = 3  # number of best fitting primitives that are measured
-_SHARE = 0.3  # part of the error that dropping hull vertices may use
+_SHARE = 0.1  # part of the error that dropping hull vertices may use
 _COARSER = 3.0
 _SIMPLER = 0.05  # part of the mean distance that a costlier primitive must save
 _ALIKE = 0.02  # part of the error that it must save in addition
+_HULL_WITHIN = 1.3  # ratio of the hull's estimated error to the limit up to which it is measured
+_PRIMITIVE_WITHIN = 2.2  # a primitive within the limit has a hull within twice the limit
 
 
 @dataclass(frozen=True)
@@ -44,10 +45,10 @@ class Choice:
     """Pieces with their method and quality.
 
     Attributes:
-        method: ``"primitive"``, ``"hull"``, ``"coacd"`` or ``"simplify"``.
+        method: One of ``METHODS`` other than ``"auto"``.
         pieces: Pieces in the mesh's frame.
         measures: Their quality.
-        notes: Failed attempts and substitutes.
+        notes: Remarks on failed attempts and on the limits.
     """
 
     method: str
@@ -68,32 +69,50 @@ def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
         MeshError: All points of the mesh lie on a line.
         MissingDependency: A library that the method requires is not installed.
     """
-    target = Target(surface, cores)
-    notes: list[Diagnostic] = []
+    target = ReferenceSurface(surface, cores, settings.effort.cell)
     if _is_flat(surface):
         return _plate(surface, target)
-    if settings.method != "auto":
+    notes: list[Diagnostic] = []
+    if settings.method == "auto":
+        best = _auto(target, settings, notes)
+    else:
         found = _METHODS[settings.method](target, settings, notes)
         best = min(found, key=lambda choice: (choice.measures.error, choice.measures.mean))
-        return replace(best, notes=tuple(notes))
-    tried: list[Choice] = []
-    for step in (_primitives, _hulls, _bodies, _sheets, _ladder):
-        fits = []
-        for choice in step(target, settings, notes):
-            tried.append(choice)
-            if choice.measures.error <= settings.max_error:
-                fits.append(choice)
-                if step is not _primitives:
-                    break
-        if fits:
-            wanted = settings.max_error * target.size
-            best = min(fits, key=lambda choice: _dearness(choice, wanted))
-            return replace(best, notes=tuple(notes))
-    best = min(tried, key=lambda choice: choice.measures.error)
     return replace(best, notes=tuple(notes))
 
 
-def _dearness(choice: Choice, wanted: float) -> float:
+def _auto(target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]) -> Choice:
+    """Return the cheapest choice within the error, or that with the smallest error."""
+    cutter = PlaneCutter(target, settings.max_vertices, settings.effort)
+    limit = settings.max_error * target.size
+    whole = cutter.whole
+    hull = 0.0 if whole is None else whole.cost
+    tried: list[Choice] = []
+    steps: list[tuple[float, Iterator[Choice]]] = [
+        (_PRIMITIVE_WITHIN, _primitives(target, settings, notes)),
+        (_HULL_WITHIN, _hulls(target, settings, notes)),
+        (np.inf, _bodies(target, settings, notes, cutter)),
+        (np.inf, _sheets(target, settings, notes)),
+        (np.inf, _plane_cuts(target, settings, notes, cutter)),
+    ]
+    for number, (within, choices) in enumerate(steps):
+        if hull > within * limit:
+            continue
+        fits = []
+        for choice in choices:
+            tried.append(choice)
+            if choice.measures.error <= settings.max_error:
+                fits.append(choice)
+                if number:  # primitives are compared, as their costs differ little
+                    break
+        if fits:
+            return min(fits, key=lambda choice: _expense(choice, limit))
+    if not tried:
+        tried += _hulls(target, settings, notes)
+    return min(tried, key=lambda choice: (choice.measures.error, len(choice.pieces)))
+
+
+def _expense(choice: Choice, wanted: float) -> float:
     """Return the mean distance [m] plus a penalty for primitives that are costly in contact."""
     kind = choice.pieces[0].kind
     rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
@@ -107,27 +126,30 @@ def _is_flat(surface: Prepared) -> bool:
     return float(np.ptp(centred @ axes[:, 0])) <= 1e-6 * surface.size
 
 
-def _plate(surface: Prepared, target: Target) -> Choice:
+def _plate(surface: Prepared, target: ReferenceSurface) -> Choice:
     thickness = PLATE * surface.size
     vertices, faces = capped_hull(thickened(surface.vertices, thickness), 64)
     pieces = [mesh_piece(vertices, faces)]
-    message = f"The mesh is flat; its collision is its outline, {thickness * 1000:.3g} mm thick."
-    note = warning("flat-mesh", message, thickness=thickness)
-    return Choice("hull", pieces, measure(target, pieces), (note,))
+    text = f"The mesh is flat; its collision is its outline, {thickness * 1000:.3g} mm thick."
+    return Choice("hull", pieces, measure(target, pieces), (make_note(FLAT_MESH, text),))
 
 
-def _primitives(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
+def _primitives(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Iterator[Choice]:
     """Yield the primitives with the smallest largest distance from the visual."""
-    even = target.even
+    even = target.uniform_samples
     fits = fit_primitives(even)
     fits.sort(key=lambda piece: float(np.abs(signed_distance(piece, even)).max()))
     for piece in fits[:_MEASURED]:
         yield Choice("primitive", [piece], measure(target, [piece]))
 
 
-def _hulls(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
+def _hulls(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Iterator[Choice]:
     """Yield one hull: with as few vertices as the error allows, then with as many as permitted."""
-    points = target.surface.vertices
+    points = target.exterior_samples
     tolerances = [0.0]
     if settings.method == "auto":
         tolerances = [_SHARE * settings.max_error * target.size, 0.0]
@@ -140,41 +162,47 @@ def _hulls(target: Target, settings: Settings, notes: list[Diagnostic]) -> Itera
             return
 
 
-def _bodies(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
+def _bodies(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic], cutter: PlaneCutter
+) -> Iterator[Choice]:
     """Yield one hull per exterior body, if there are several but not too many."""
     surface = target.surface
     labels = body_labels(len(surface.faces), edges_of(surface.faces))
     count = int(labels.max()) + 1
     if count < 2:
         return
-    seen = target.flood.touches(surface.vertices)
-    tolerance = _SHARE * settings.max_error * target.size
+    seen = target.exterior.touches(surface.vertices)
+    limit = settings.max_error * target.size
     pieces: list[Piece] = []
     for label in range(count):
         used = np.unique(surface.faces[labels == label])
         if not seen[used].any():
             continue
         points = surface.vertices[used]
-        if float(np.linalg.norm(np.ptp(points, axis=0))) < tolerance:
+        if float(np.linalg.norm(np.ptp(points, axis=0))) < _SHARE * limit:
             continue
-        if len(pieces) == (settings.max_hulls or FEW_HULLS):
+        if len(pieces) == settings.most:
             return
-        try:
-            vertices, faces = capped_hull(points, settings.max_vertices, tolerance)
-        except MeshError:  # a decal, or an isolated face
+        part = cutter.partition.whole(points, np.zeros((0, 3), np.int64))
+        if part is None:  # a decal, or an isolated face
             continue
+        if part.cost > _HULL_WITHIN * limit:
+            return
+        vertices, faces = capped_hull(points, settings.max_vertices, _SHARE * limit)
         pieces.append(mesh_piece(vertices, faces))
     if len(pieces) > 1:
         yield Choice("hull", pieces, measure(target, pieces))
 
 
-def _sheets(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
+def _sheets(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Iterator[Choice]:
     """Yield one plate per flat side of an open mesh, if there are not too many."""
     surface = target.surface
     if surface.closed:
         return
     labels = flat_labels(surface)
-    if int(labels.max()) + 1 > (settings.max_hulls or FEW_HULLS):
+    if int(labels.max()) + 1 > settings.most:
         return
     try:
         pieces = []
@@ -187,31 +215,31 @@ def _sheets(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iter
     yield Choice("hull", pieces, measure(target, pieces))
 
 
-def _ladder(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
-    """Yield CoACD results with finer and finer cuts, within the permitted number of pieces."""
-    cutter = Cutter(target, settings, few=settings.max_hulls or FEW_HULLS)
-    wanted = settings.max_error * target.size
-    for factor in LADDER:
-        try:
-            made = cutter.cut(factor * wanted, wanted, last=factor == LADDER[-1])
-        except DecompositionError as error:
-            message = f"{error.message}, at {factor:g} times the error; it was left out."
-            notes.append(warning("coacd-failed", message, factor=factor, **error.data))
-            break
-        finally:
-            notes += cutter.notes
-            cutter.notes.clear()
-        if cutter.hopeless:  # finer cuts give even more pieces
-            break
-        if made is not None and len(made[0]) <= (settings.max_hulls or FEW_HULLS):
-            yield Choice("coacd", *made)
-            return
-    coarse = cutter.coarser(wanted)
-    if coarse is not None and len(coarse[0]) <= (settings.max_hulls or FEW_HULLS):
-        yield Choice("coacd", *coarse)
+def _plane_cuts(
+    target: ReferenceSurface,
+    settings: Settings,
+    notes: list[Diagnostic],
+    cutter: PlaneCutter | None = None,
+) -> Iterator[Choice]:
+    """Yield pieces of plane cuts: the fewest within the error, or those with the smallest error."""
+    cutter = cutter or PlaneCutter(target, settings.max_vertices, settings.effort)
+    found = cutter.decompose(settings.max_error, settings.most)
+    if found is None:
+        if settings.method != "auto":
+            yield from _hulls(target, settings, notes)
+        return
+    error = found.measures.error
+    if error > settings.max_error:
+        more = 2 * settings.most
+        forecast = cutter.forecast(found, more, settings.max_error)
+        text = f"{more} pieces would give an error of about {forecast:.1%}."
+        notes.append(make_note(MORE_PIECES, text, {"pieces": more, "error": forecast}))
+    yield Choice("cuts", found.pieces, found.measures)
 
 
-def _coacd(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
+def _coacd(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Iterator[Choice]:
     """Yield CoACD's result at its threshold; a coarser one if it fails, and one hull if both do."""
     cutter = Cutter(target, settings, most=settings.max_hulls)
     for threshold in (settings.threshold, settings.threshold * _COARSER):
@@ -219,32 +247,46 @@ def _coacd(target: Target, settings: Settings, notes: list[Diagnostic]) -> Itera
         try:
             made = cutter.cut(wanted, wanted)
         except DecompositionError as error:
-            message = f"{error.message}, at a threshold of {threshold:g}."
-            notes.append(warning("coacd-failed", message, threshold=threshold, **error.data))
+            notes.append(
+                make_note(error.code, f"{error.message}, at a threshold of {threshold:g}.")
+            )
             continue
-        assert made is not None
         notes += cutter.notes
         yield Choice("coacd", *made)
         return
-    notes.append(warning("hull-instead", "One convex hull was taken instead."))
+    notes.append(make_note(HULL_INSTEAD, "One convex hull was taken instead."))
     yield from _hulls(target, settings, notes)
 
 
-def _simplified(target: Target, settings: Settings, notes: list[Diagnostic]) -> Iterator[Choice]:
+def _simplified(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Iterator[Choice]:
     """Yield the mesh with fewer triangles."""
     surface = target.surface
     vertices, faces = decimate(surface.vertices, surface.faces, settings.max_triangles)
     pieces = [mesh_piece(vertices, faces, convex=False)]
-    felt = hull_error(target, pieces[0])
-    if felt > settings.max_error:
-        message = f"Engines that take the hull of a moving mesh touch it with {felt:.2%} error."
-        notes.append(warning("hull-of-moving-mesh", message, error=felt))
+    error = hull_error(target, pieces[0])
+    if error > settings.max_error:
+        text = f"Physics engines use the convex hull of a moving mesh; its error is {error:.2%}."
+        notes.append(make_note(HULL_OF_ENGINES, text, {"error": error}))
     yield Choice("simplify", pieces, measure(target, pieces))
 
 
-_METHODS: dict[str, Callable[[Target, Settings, list[Diagnostic]], Iterator[Choice]]] = {
+def _spheres(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Iterator[Choice]:
+    """Yield a cover by few spheres, of which none protrudes by more than the error."""
+    from .spheres import cover
+
+    pieces = cover(target, settings.max_error, settings.max_hulls)
+    yield Choice("spheres", pieces, measure(target, pieces))
+
+
+_METHODS: dict[str, Callable[[ReferenceSurface, Settings, list[Diagnostic]], Iterator[Choice]]] = {
     "primitive": _primitives,
     "hull": _hulls,
+    "cuts": _plane_cuts,
     "coacd": _coacd,
+    "spheres": _spheres,
     "simplify": _simplified,
 }

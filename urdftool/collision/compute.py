@@ -9,9 +9,10 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from ..diagnostic import Diagnostic, Severity
+from ..diagnostic import Diagnostic
 from ..errors import MeshError, UrdftoolError
 from ..source.description import GltfUp
+from .notes import COACD_KILLED, pack_note, unpack_note
 from .piece import Piece, piece_of
 from .settings import Settings
 
@@ -44,7 +45,7 @@ class Result:
         pieces: Pieces in the mesh's frame.
         measures: Quality, as :meth:`Measures.as_dict`.
         before: ``triangles`` and ``vertices`` of the mesh.
-        diagnostics: Repairs of the mesh (info), and failed attempts and substitutes (warning).
+        diagnostics: Repairs of the mesh (info), and failures and substitutes (warning).
         seconds: Computation time [s].
         cached: Whether it comes from the cache.
     """
@@ -64,13 +65,13 @@ class Result:
 
     @property
     def error(self) -> float:
-        """Return the Hausdorff distance relative to the size."""
+        """Return the larger one of reach and excess, relative to the size."""
         return float(self.measures["error"])
 
     @property
     def lasting(self) -> bool:
         """Tell whether the result is reproducible, as no process was killed from outside."""
-        return not any(found.data.get("cause") == "killed" for found in self.diagnostics)
+        return not any(note.code == COACD_KILLED for note in self.diagnostics)
 
     def as_bytes(self) -> bytes:
         """Serialize the result for :func:`result_of`."""
@@ -79,10 +80,7 @@ class Result:
             "pieces": [piece.as_dict() for piece in self.pieces],
             "measures": self.measures,
             "before": self.before,
-            "diagnostics": [
-                [found.code, found.severity, found.message, dict(found.data)]
-                for found in self.diagnostics
-            ],
+            "notes": [pack_note(note) for note in self.diagnostics],
             "seconds": self.seconds,
         }
         return json.dumps(table, separators=(",", ":")).encode()
@@ -101,10 +99,7 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
             [piece_of(piece) for piece in table["pieces"]],
             table["measures"],
             table["before"],
-            tuple(
-                Diagnostic(code, Severity(severity), message, data=data)
-                for code, severity, message, data in table["diagnostics"]
-            ),
+            tuple(unpack_note(note) for note in table["notes"]),
             float(table["seconds"]),
             cached,
         )

@@ -9,6 +9,8 @@ from ..errors import MeshError
 from ..geometry.mesh import Faces, Points
 from .vec3 import dot, lengths, normals
 
+_BATCH = 6  # points that are added to a hull at once
+_APART = 4.0  # their least distance, in multiples of that from the hull
 _AT_ONCE = 200_000  # point-plane distances per block
 
 
@@ -55,10 +57,22 @@ def capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Poin
         vertices, faces = hull(outer[chosen])
         beyond = signed_distance(outer, planes(vertices, faces))
         beyond[chosen] = -np.inf
-        worst = int(np.argmax(beyond))
-        if beyond[worst] <= tolerance or len(chosen) >= most:
+        worst = float(beyond.max())
+        if worst <= tolerance or len(chosen) >= most:
             return vertices, faces
-        chosen.append(worst)
+        chosen += _farthest(outer, beyond, max(tolerance, worst / 2), most - len(chosen))
+
+
+def _farthest(points: Points, beyond: Points, tolerance: float, most: int) -> list[int]:
+    """Select the points that are farthest outside, and not next to each other."""
+    found: list[int] = []
+    left = np.flatnonzero(beyond > tolerance)
+    left = left[np.argsort(-beyond[left], kind="stable")]
+    while len(left) and len(found) < min(most, _BATCH):
+        found.append(int(left[0]))
+        apart = np.linalg.norm(points[left] - points[left[0]], axis=1)
+        left = left[apart > _APART * beyond[left[0]]]
+    return found or [int(np.argmax(beyond))]
 
 
 def _first(outer: Points, most: int) -> list[int]:

@@ -20,7 +20,8 @@ from ..geometry.topology import body_labels, edges_of
 from ..isolated import IsolatedProcess, ProcessDied, ProcessTimeout
 from .convex import capped_hull
 from .decimate import decimate
-from .measure import Target
+from .measure import ReferenceSurface
+from .notes import COACD_FAILED, COACD_KILLED
 from .piece import Piece, mesh_piece
 from .remesh import common, remesh
 from .surface import Prepared, prepare
@@ -38,7 +39,15 @@ _SLOWEST = 4.0  # wall-clock time limit per processor time limit, for a busy mac
 
 
 class DecompositionError(UrdftoolError):
-    """CoACD ended without a result."""
+    """CoACD ended without a result; ``code`` is that of a note on it."""
+
+    code = COACD_FAILED
+
+
+class KilledError(DecompositionError):
+    """The process of CoACD was killed from outside."""
+
+    code = COACD_KILLED
 
 
 class Budget:
@@ -65,7 +74,7 @@ class Budget:
         self.used += seconds
 
 
-def solid_of(target: Target) -> Prepared:
+def solid_of(target: ReferenceSurface) -> Prepared:
     """Create a closed surface of few triangles close to a mesh, which CoACD accepts unchanged."""
     surface = target.surface
     vertices, faces = surface.vertices, surface.faces
@@ -228,8 +237,7 @@ def run_child(
 def _death(error: ProcessDied, *, in_time: bool) -> DecompositionError:
     code = error.exit_code
     if code == -getattr(signal, "SIGKILL", 9) and in_time:
-        message = "CoACD was killed, perhaps for want of memory"
-        return DecompositionError(message, data={"cause": "killed"})
+        return KilledError("CoACD was killed, probably out of memory")
     if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), getattr(signal, "SIGKILL", 9)):
         return DecompositionError(_TOO_LONG, data={"cause": "time limit"})
     last = error.output[-1].strip() if error.output else ""

@@ -15,6 +15,7 @@ _GOLDEN = 1.324717957244746  # real root of x³ = x + 1
 _NEIGHBOURS = 6
 _FEW = 24  # up to this number all triangles are tested
 _COARSE = 1000  # triangles below which more neighbors are tested
+_COVERED = 2.0  # spacings from every point of the covered part to its nearest sample
 _KEPT = 100_000  # largest sample whose positions are cached
 _AT_ONCE = 8192  # point-triangle pairs per block, to fit the processor's cache
 
@@ -33,6 +34,15 @@ class Samples:
     def only(self, mask: npt.NDArray[np.bool_]) -> Samples:
         """Return the points selected by a mask."""
         return Samples(self.points[mask], self.owners[mask])
+
+
+def with_corners(samples: Samples, corners: Points) -> Samples:
+    """Add the corners of triangles [m], shape (m, 3, 3), to samples."""
+    owners = np.repeat(np.arange(len(corners)), 3)
+    return Samples(
+        np.concatenate([samples.points, corners.reshape(-1, 3)]),
+        np.concatenate([samples.owners, owners]),
+    )
 
 
 def areas_of(corners: Points) -> Points:
@@ -78,17 +88,22 @@ def _places(count: int) -> tuple[Points, Points, Points]:
 class Surface:
     """Triangles with a search structure for distance queries."""
 
-    def __init__(self, corners: Points, samples: Samples, *, workers: int = 1) -> None:
+    def __init__(
+        self, corners: Points, samples: Samples, *, workers: int = 1, step: float | None = None
+    ) -> None:
         """Build a tree of points on the triangles.
 
         Args:
             corners: Triangles [m], shape (m, 3, 3).
             samples: Points on them, on average closer to each other than any relevant distance.
             workers: Number of threads for queries.
+            step: If the samples cover only a part of the triangles, their mean spacing [m] there;
+                parts of triangles that are farther from all samples are not considered.
         """
         from scipy.spatial import cKDTree
 
         self.corners = corners
+        self.step = step
         self.samples = samples
         self.workers = workers
         self.tree = cKDTree(samples.points)
@@ -100,7 +115,7 @@ class Surface:
         """
         if not len(points):
             return np.zeros(0)
-        if len(self.corners) <= _FEW:
+        if len(self.corners) <= _FEW and self.step is None:
             return np.asarray(
                 np.min([to_triangles(points, one[None]) for one in self.corners], axis=0)
             )
@@ -118,7 +133,41 @@ class Surface:
             pairs = np.repeat(points[some], near, axis=0)
             exact = to_triangles(pairs, self.corners[owners[some].reshape(-1)])
             result[some] = exact.reshape(-1, near).min(axis=1)
+        if self.step is not None:
+            gap = _COVERED * self.step
+            result = np.maximum(result, np.sqrt(np.maximum(found[:, 0] ** 2 - gap**2, 0)))
         return np.asarray(np.minimum(result, found[:, 0]))
+
+
+def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Points, Points]:
+    """Find the points that are farthest from a surface.
+
+    The distance to the nearest sample is an upper bound, so only few points are measured exactly.
+
+    Args:
+        surface: The surface.
+        points: Points [m].
+        count: Number of points to return.
+
+    Returns:
+        The largest distance [m]; about ``count`` points with large distances, and those.
+    """
+    if not len(points):
+        return 0.0, points, np.zeros(0)
+    bounds, _ = surface.tree.query(points, workers=surface.workers)
+    order = np.argsort(-bounds, kind="stable")
+    best = 0.0
+    chosen: list[Points] = []
+    step = max(count, 256)
+    for begin in range(0, len(order), step):
+        some = order[begin : begin + step]
+        if begin and bounds[some[0]] <= best:
+            break
+        chosen.append(surface.distance(points[some]))
+        best = max(best, float(chosen[-1].max()))
+    found = np.concatenate(chosen)
+    first = np.argsort(-found, kind="stable")[:count]
+    return best, points[order[first]], found[first]
 
 
 def to_triangles(points: Points, corners: Points) -> Points:

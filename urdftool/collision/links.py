@@ -13,7 +13,7 @@ from ..errors import ConfigError, MeshError, UrdftoolError
 from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
 from ..suggestions import did_you_mean
 from .compute import Task
-from .settings import METHODS, Settings
+from .settings import METHODS, QUALITIES, Settings
 
 Shape = Visual | Collision
 
@@ -49,7 +49,7 @@ class LinkPlan:
 
 
 @dataclass(frozen=True)
-class Wishes:
+class CollisionOptions:
     """Options for simplifying the collisions of a robot.
 
     Attributes:
@@ -73,7 +73,7 @@ class Wishes:
     """Settings given on the command line, which override the configuration."""
 
 
-def plan(robot: Robot, wishes: Wishes) -> tuple[list[LinkPlan], list[UrdftoolError]]:
+def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[UrdftoolError]]:
     """Plan the new collisions of a robot.
 
     Returns:
@@ -82,16 +82,16 @@ def plan(robot: Robot, wishes: Wishes) -> tuple[list[LinkPlan], list[UrdftoolErr
     Raises:
         ConfigError: A named link or a setting does not exist.
     """
-    check_names(robot, (*wishes.only, *wishes.skip))
+    check_names(robot, (*options.only, *options.skip))
     plans: list[LinkPlan] = []
     problems: list[UrdftoolError] = []
     for index, link in enumerate(robot.links):
-        if (wishes.only and link.name not in wishes.only) or link.name in wishes.skip:
+        if (options.only and link.name not in options.only) or link.name in options.skip:
             continue
-        settings, skipped = _settings_for(link.name, wishes)
+        settings, skipped = _settings_for(link.name, options)
         if skipped:
             continue
-        found = _link_plan(index, link, wishes)
+        found = _link_plan(index, link, options)
         if found is None:
             continue
         source, shapes, replaced = found
@@ -106,20 +106,20 @@ def plan(robot: Robot, wishes: Wishes) -> tuple[list[LinkPlan], list[UrdftoolErr
 
 
 def _link_plan(
-    index: int, link: Link, wishes: Wishes
+    index: int, link: Link, options: CollisionOptions
 ) -> tuple[str, Sequence[Shape], list[int]] | None:
     """Return source, shapes and replaced collisions; None if the link stays unchanged."""
     meshes = [n for n, shape in enumerate(link.collisions) if isinstance(shape.geometry, Mesh)]
     others = [n for n in range(len(link.collisions)) if n not in meshes]
     has_visual = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
-    source = wishes.source or ("visual" if has_visual else "collision")
-    if wishes.keep_primitives and others and not meshes:
+    source = options.source or ("visual" if has_visual else "collision")
+    if options.keep_primitives and others and not meshes:
         return None
     if source == "visual":
         if not has_visual:
             return None
         shapes: Sequence[Shape] = [s for s in link.visuals if _is_known(s)]
-        replaced = meshes if wishes.keep_primitives else list(range(len(link.collisions)))
+        replaced = meshes if options.keep_primitives else list(range(len(link.collisions)))
         return source, shapes, replaced
     if not meshes:
         return None
@@ -160,27 +160,29 @@ def check_names(robot: Robot, names: Iterable[str]) -> None:
             raise ConfigError(f"the robot has no link '{name}'{hint}")
 
 
-def _settings_for(name: str, wishes: Wishes) -> tuple[Settings, bool]:
+def _settings_for(name: str, options: CollisionOptions) -> tuple[Settings, bool]:
     """Return the settings of a link, and whether it is skipped."""
     table: dict[str, Any] = {}
-    for key, value in wishes.table.items():
+    for key, value in options.table.items():
         if key != "links":
             table[key] = value
-    links = wishes.table.get("links", {})
+    links = options.table.get("links", {})
     if not isinstance(links, dict):
         raise ConfigError(
-            "collision.links wants tables such as [collision.links.base_link]", path=wishes.path
+            "collision.links wants tables such as [collision.links.base_link]", path=options.path
         )
     own: dict[str, Any] = {}
     for pattern, values in links.items():
         if not isinstance(values, dict):
-            raise ConfigError(f"collision.links.{pattern} wants to be a table", path=wishes.path)
+            raise ConfigError(f"collision.links.{pattern} wants to be a table", path=options.path)
         if fnmatchcase(name, pattern):
             own.update(values)
     skipped = own.pop("skip", False) is True
-    general = {k: v for k, v in _checked(table, wishes.path).items() if k not in wishes.given}
-    changes = {**general, **_checked(own, wishes.path)}
-    return wishes.settings.changed(changes), skipped
+    general = {k: v for k, v in _checked(table, options.path).items() if k not in options.given}
+    changes = {**general, **(own := _checked(own, options.path))}
+    if "max_error" in options.given and "quality" not in own:
+        changes.setdefault("max_error", options.settings.max_error)
+    return options.settings.changed(changes), skipped
 
 
 def _checked(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
@@ -191,6 +193,10 @@ def _checked(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
                 raise ConfigError(
                     f"collision.method is '{value}'; there are {', '.join(METHODS)}", path=path
                 )
+        elif key == "quality":
+            if value not in QUALITIES:
+                known = ", ".join(QUALITIES)
+                raise ConfigError(f"collision.quality is '{value}', not one of {known}", path=path)
         elif key in _NUMBERS or key in _COUNTS:
             whole = key in _COUNTS
             if isinstance(value, bool) or not isinstance(value, int if whole else (int, float)):
@@ -198,7 +204,7 @@ def _checked(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
             if value <= 0 or (key == "max-vertices" and value < 4):
                 raise ConfigError(f"collision.{key} is {value}, which is too small", path=path)
         else:
-            known = ", ".join(("method", *_NUMBERS, *_COUNTS, "links"))
+            known = ", ".join(("method", "quality", *_NUMBERS, *_COUNTS, "links"))
             raise ConfigError(f"no option is called collision.{key}; there are {known}", path=path)
         found[key.replace("-", "_")] = value
     return found

@@ -1,4 +1,10 @@
-"""Quality of collision geometry: distances, volumes and counts."""
+"""Quality of collision geometry: how far contact is off, volumes and counts.
+
+Both surfaces are what a ball can touch that comes from outside (``exterior``). *Reach* is how far
+the exterior of the visual is from contact: a point inside the collision from the part of its
+surface that can be touched, a point outside from its surface. *Excess* is how far the collision
+protrudes from the visual, where it does not only close gaps that the ball cannot enter.
+"""
 
 from __future__ import annotations
 
@@ -14,44 +20,46 @@ from ..geometry.mesh import Points
 from ..inertia.sampling import spread_points
 from ..inertia.winding import boxes_of, winding_numbers
 from . import convex, primitives
-from .distance import Samples, Surface, areas_of, spread
-from .piece import Piece, mesh_piece, near_ones
+from .distance import Surface, areas_of, largest, spread, with_corners
+from .exterior import COARSE, Exterior, flood
+from .piece import Piece, mesh_piece
 from .remesh import Layer
 from .surface import Prepared
-from .touchable import Flood, flood
 
 SAMPLES = 20_000
-"""Sampled points on each surface for measuring distances."""
+"""Evenly spread points of the visual whose distance to the collision is measured."""
 
 MARGIN = 0.001
 """Depth, relative to the part's size, up to which a point counts as on a surface."""
 
-_DENSE = 80_000
-_SEAM = 0.004  # gaps between adjacent pieces of a cut are smaller than this, relative to the size
+_VISUAL_SAMPLES = 150_000  # to which distances are measured
+_COLLISION_SAMPLES = 80_000
+_AVERAGED = 2000
+_WORST = 200
 
 
 @dataclass(frozen=True)
 class Measures:
-    """Quality of collision geometry, compared with its visual.
-
-    Distances are two-sided, between the exterior surfaces: enclosed surfaces of the visual, and
-    faces of a piece inside another, are ignored.
-    """
+    """Quality of collision geometry, compared with its visual; lengths are in meters."""
 
     size: float
-    """Diagonal of the visual's bounding box [m], to which ``error`` is relative."""
+    """Diagonal of the visual's bounding box, to which ``error`` is relative."""
     hausdorff: float
-    """Largest distance [m] from a point of either surface to the other."""
+    """Larger one of ``visual_to_collision`` and ``collision_to_visual``."""
     mean: float
-    """Mean distance [m] of both directions."""
+    """Mean distance of both directions."""
     visual_to_collision: float
-    """Largest distance [m] from the visual to the collision."""
+    """Reach: largest distance of an exterior point of the visual to where contact is made."""
     collision_to_visual: float
-    """Largest distance [m] from the collision to the visual."""
+    """Excess: largest distance by which the collision protrudes from the visual."""
+    buried: float
+    """Reach of the points of the visual inside the collision."""
+    uncovered: float
+    """Reach of the points of the visual outside the collision."""
     volume: float
-    """Volume [m³] of the collision; overlapping space counts once."""
+    """Volume of the collision [m³]; overlapping space counts once."""
     volume_ratio: float
-    """Volume of the collision divided by the visual's."""
+    """Volume of the collision divided by that of the visual, whose interior counts."""
     outside: float
     """Part of the visual's exterior area that is outside the collision by over 0.1 % of the
     size."""
@@ -63,26 +71,33 @@ class Measures:
 
     @property
     def error(self) -> float:
-        """Return the Hausdorff distance relative to the size."""
+        """Return the larger one of reach and excess, relative to the size."""
         return self.hausdorff / self.size
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all fields and the relative error."""
-        return {"error": self.error, **asdict(self)}
+        """Return all fields, and error, reach and excess relative to the size."""
+        return {
+            "error": self.error,
+            "reach": self.visual_to_collision / self.size,
+            "excess": self.collision_to_visual / self.size,
+            **asdict(self),
+        }
 
 
-class Target:
-    """Reference surface of a visual, with cached data for measuring collisions against it."""
+class ReferenceSurface:
+    """Surface of a visual, with cached data for measuring collisions against it."""
 
-    def __init__(self, surface: Prepared, cores: int = 1) -> None:
+    def __init__(self, surface: Prepared, cores: int = 1, cell: float = COARSE) -> None:
         """Store the surface; everything else is computed on demand.
 
         Args:
             surface: The visual.
             cores: Number of cores to use, which does not affect results.
+            cell: Edge of a cell of the flood, relative to the size.
         """
         self.surface = surface
         self.cores = cores
+        self.cell = cell
         self.size = surface.size
         self.longest = float(np.ptp(surface.vertices, axis=0).max())
 
@@ -92,45 +107,46 @@ class Target:
         return self.surface.corners
 
     @cached_property
-    def flood(self) -> Flood:
+    def exterior(self) -> Exterior:
         """Return the flooded space around the surface."""
-        return flood(self.corners)
+        return flood(self.corners, self.size, self.cell)
 
     @cached_property
-    def _all(self) -> tuple[Points, npt.NDArray[np.bool_]]:
+    def _samples(self) -> tuple[Points, npt.NDArray[np.bool_]]:
         points = spread(self.corners, SAMPLES).points
         ends = self.surface.vertices
         ends = ends[:: max(1, len(ends) // SAMPLES)]
         both = np.concatenate([points, ends])
-        return both, self.flood.touches(both)
+        return both, self.exterior.touches(both)
 
     @cached_property
-    def touchable(self) -> Points:
+    def exterior_samples(self) -> Points:
         """Return exterior points [m]: evenly spread ones, then vertices."""
-        points, reached = self._all
+        points, reached = self._samples
         return points[reached] if reached.any() else points
 
     @cached_property
-    def even(self) -> Points:
-        """Return the evenly spread exterior points [m]."""
-        points, reached = self._all
+    def uniform_samples(self) -> Points:
+        """Return the evenly spread exterior points [m], which come first in the others."""
+        points, reached = self._samples
         even = points[:SAMPLES][reached[:SAMPLES]]
         return even if len(even) else points[:SAMPLES]
 
     @cached_property
     def enclosed(self) -> float:
         """Return the part of the area that is enclosed."""
-        return float(1 - self._all[1][:SAMPLES].mean())
-
-    @cached_property
-    def area(self) -> float:
-        """Return the exterior area [m²]."""
-        return float(areas_of(self.corners).sum()) * len(self.even) / SAMPLES
+        return float(1 - self._samples[1][:SAMPLES].mean())
 
     @cached_property
     def nearest(self) -> Surface:
-        """Return the search structure for distances to the surface."""
-        return Surface(self.corners, spread(self.corners, _DENSE), workers=self.cores)
+        """Return the search structure for distances to the exterior surface."""
+        dense = spread(self.corners, _VISUAL_SAMPLES)
+        step = float(np.sqrt(areas_of(self.corners).sum() / len(dense)))
+        if len(self.corners) < _VISUAL_SAMPLES // 3:
+            dense = with_corners(dense, self.corners)
+        reached = self.exterior.touches(dense.points)
+        dense = dense.only(reached) if reached.any() else dense
+        return Surface(self.corners, dense, workers=self.cores, step=step)
 
     @cached_property
     def layer(self) -> Layer:
@@ -139,55 +155,69 @@ class Target:
 
     @cached_property
     def volume(self) -> float:
-        """Return the enclosed volume [m³]: exact for one closed body, from cells otherwise."""
+        """Return the volume [m³] of the closing: exact for a solid, by cells otherwise."""
         volume = self.surface.volume
-        by_cells = self.flood.volume
-        if self.surface.closed and volume > 0 and abs(volume - by_cells) < 0.1 * by_cells:
+        by_cells = self.exterior.volume
+        if self.surface.closed and volume > 0 and abs(volume - by_cells) < 0.05 * by_cells:
             return volume
         return by_cells
 
 
-def _distances(target: Target, pieces: Sequence[Piece]) -> tuple[Points, Points]:
-    """Compute the distances between a visual and pieces.
+@dataclass(frozen=True, eq=False)
+class Deviation:
+    """Distances of two surfaces, and the points of the visual where they are largest.
 
-    Returns:
-        Distance [m] of each exterior point of the visual to the pieces, and of each of their
-        exterior points to the visual.
+    Attributes:
+        buried: Reach [m] inside the collision.
+        uncovered: Reach [m] outside the collision.
+        excess: Excess [m].
+        mean: Mean distance [m] of both directions.
+        worst: Points [m] of the visual that are deepest in the collision.
+        depth: Reach [m] of those points.
     """
-    outer = _outer_samples(pieces, target)
-    points = np.concatenate([samples.points for samples in outer])
-    collision = _surface_of(pieces, outer, target.cores)
-    back = target.nearest.distance(points)
-    if len(pieces) == 1 and pieces[0].is_primitive:
-        forth = np.abs(primitives.signed_distance(pieces[0], target.touchable))
-    else:
-        forth = collision.distance(target.touchable)
-    return forth, back
+
+    buried: float
+    uncovered: float
+    excess: float
+    mean: float
+    worst: Points
+    depth: Points
 
 
-def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
+def measure(target: ReferenceSurface, pieces: Sequence[Piece]) -> Measures:
     """Measure the quality of pieces as the collision of a visual."""
-    forth, back = _distances(target, pieces)
-    mean = (float(forth[: len(target.even)].mean()) + float(back.mean())) / 2
-    depth = depths(target.even, pieces, near=MARGIN * target.size)
+    return measure_and_locate(target, pieces)[0]
+
+
+def measure_and_locate(
+    target: ReferenceSurface, pieces: Sequence[Piece]
+) -> tuple[Measures, Deviation]:
+    """Measure the quality of pieces, and find where the visual is farthest from contact."""
+    depth = depths(target.exterior_samples, pieces, near=MARGIN * target.size)
+    found = _deviation(target, pieces, depth)
+    reach = max(found.buried, found.uncovered)
     volume = volume_of(pieces)
-    return Measures(
+    even = depth[: len(target.uniform_samples)]
+    measures = Measures(
         size=target.size,
-        hausdorff=float(max(forth.max(), back.max())),
-        mean=mean,
-        visual_to_collision=float(forth.max()),
-        collision_to_visual=float(back.max()),
+        hausdorff=max(reach, found.excess),
+        mean=found.mean,
+        visual_to_collision=reach,
+        collision_to_visual=found.excess,
+        buried=found.buried,
+        uncovered=found.uncovered,
         volume=volume,
         volume_ratio=volume / target.volume if target.volume > 0 else float("inf"),
-        outside=float(np.mean(depth > MARGIN * target.size)),
+        outside=float(np.mean(even > MARGIN * target.size)),
         enclosed=target.enclosed,
         pieces=len(pieces),
         triangles=sum(len(piece.faces) for piece in pieces if not piece.is_primitive),
         vertices=sum(len(piece.vertices) for piece in pieces if not piece.is_primitive),
     )
+    return measures, found
 
 
-def hull_error(target: Target, piece: Piece) -> float:
+def hull_error(target: ReferenceSurface, piece: Piece) -> float:
     """Compute the relative error of a mesh's convex hull, which engines use for moving meshes.
 
     Raises:
@@ -196,65 +226,77 @@ def hull_error(target: Target, piece: Piece) -> float:
     return measure(target, [mesh_piece(*convex.hull(piece.vertices))]).error
 
 
-def piece_distances(target: Target, pieces: Sequence[Piece]) -> list[float]:
-    """Compute the largest distance [m] of each piece's exterior surface to the visual."""
-    outer = _outer_samples(pieces, target)
-    off = target.nearest.distance(np.concatenate([samples.points for samples in outer]))
-    parts = np.split(off, np.cumsum([len(samples) for samples in outer])[:-1])
-    return [float(part.max(initial=0.0)) for part in parts]
+def excess_of_each(target: ReferenceSurface, pieces: Sequence[Piece]) -> list[float]:
+    """Compute the largest distance [m] by which each piece protrudes from the visual."""
+    found = []
+    for piece in pieces:
+        points = spread(piece.corners, max(SAMPLES // len(pieces), 400)).points
+        points = np.concatenate([points, piece.vertices])
+        protruding = points[target.exterior.at(target.exterior.depth, points) < 0]
+        found.append(largest(target.nearest, protruding)[0])
+    return found
 
 
-def _outer_samples(pieces: Sequence[Piece], target: Target) -> list[Samples]:
-    """Sample exterior points of each piece that are inside no other, if there are any."""
-    outer = [_outer(index, pieces, target) for index in range(len(pieces))]
-    if not any(map(len, outer)):  # coincident pieces hide each other
-        outer = [spread(piece.corners, max(SAMPLES // len(pieces), 400)) for piece in pieces]
-    if len(pieces) == 1:
-        return outer
-    # faces in narrow gaps between pieces are enclosed, as for the visual
-    around = flood(np.concatenate([piece.corners for piece in pieces]))
-    seen = [samples.only(around.touches(samples.points)) for samples in outer]
-    return seen if any(map(len, seen)) else outer
+def _deviation(target: ReferenceSurface, pieces: Sequence[Piece], depth: Points) -> Deviation:
+    """Measure distances, given the signed distance of the visual's points to the pieces."""
+    points = target.exterior_samples
+    collision, touchable, samples = _surface_of(pieces, target)
+    inside = depth < 0
+    if len(pieces) == 1 and pieces[0].kind != "mesh":
+        off = -depth[inside]  # exact inside a convex shape
+        order = np.argsort(-off)[:_WORST]
+        deepest = float(off.max(initial=0.0)), points[inside][order], off[order]
+    else:
+        deepest = largest(touchable, points[inside], _WORST)
+    if len(pieces) == 1 and pieces[0].is_primitive:
+        off = depth[~inside]
+        farthest = float(off.max(initial=0.0))
+    else:
+        farthest = largest(collision, points[~inside])[0]
+    protruding = samples[target.exterior.at(target.exterior.depth, samples) < 0]
+    excess = largest(target.nearest, protruding, 1)[0]
+    mean = _mean(target, collision, touchable, samples, inside)
+    return Deviation(deepest[0], farthest, excess, mean, deepest[1], deepest[2])
 
 
-def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
-    """Sample exterior points of a piece that are inside no other."""
-    piece = pieces[index]
-    share = max(SAMPLES // len(pieces), 400)
-    samples = spread(piece.corners, share)
-    if piece.kind == "mesh":
-        return samples.only(flood(piece.corners).touches(samples.points))
-    others = _others(piece, pieces, _SEAM * target.size)
-    if not others:
-        return samples
-    buried = depths(samples.points, others) < _SEAM * target.size
-    return samples.only(~buried)
+def _mean(
+    target: ReferenceSurface,
+    collision: Surface,
+    touchable: Surface,
+    samples: Points,
+    inside: npt.NDArray[np.bool_],
+) -> float:
+    """Compute the mean distance [m] of both directions, from a part of the points."""
+    count = len(target.uniform_samples)
+    step = max(1, count // _AVERAGED)
+    points, within = target.uniform_samples[::step], inside[:count:step]
+    forth = np.concatenate(
+        [touchable.distance(points[within]), collision.distance(points[~within])]
+    )
+    back = target.nearest.distance(samples[:: max(1, len(samples) // _AVERAGED)])
+    return float(forth.mean() + back.mean()) / 2
 
 
-def _others(piece: Piece, pieces: Sequence[Piece], gap: float) -> list[Piece]:
-    """Return the other convex pieces that may contain points of a piece."""
-    near = near_ones(piece.bounds, np.stack([other.bounds for other in pieces]), gap)
-    beside = (pieces[index] for index in np.flatnonzero(near).tolist())
-    return [other for other in beside if other is not piece and other.kind != "mesh"]
+def _surface_of(
+    pieces: Sequence[Piece], target: ReferenceSurface
+) -> tuple[Surface, Surface, Points]:
+    """Sample the surfaces of pieces.
 
-
-def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples], workers: int) -> Surface:
-    """Build the union surface of pieces, without parts inside other pieces."""
-    corners, points, owners = [], [], []
-    first = 0
-    for piece, seen in zip(pieces, outer, strict=True):
-        triangles = piece.corners
-        dense = spread(triangles, max(_DENSE // len(pieces), 800))
-        alone = len(pieces) == 1
-        if not alone and piece.kind != "mesh":
-            others = _others(piece, pieces, 0.0)
-            dense = dense.only(depths(dense.points, others) >= -1e-9) if others else dense
-        corners.append(triangles)
-        points += [dense.points, seen.points]
-        owners += [dense.owners + first, seen.owners + first]
-        first += len(triangles)
-    samples = Samples(np.concatenate(points), np.concatenate(owners))
-    return Surface(np.concatenate(corners), samples, workers=workers)
+    Returns:
+        Search structures of all of it, and of what the ball can touch, and points [m] of the
+        latter: evenly spread ones, then vertices.
+    """
+    corners = np.concatenate([piece.corners for piece in pieces])
+    step = float(np.sqrt(areas_of(corners).sum() / _COLLISION_SAMPLES))
+    dense = with_corners(spread(corners, _COLLISION_SAMPLES), corners)
+    whole = Surface(corners, dense, workers=target.cores, step=step)
+    if len(pieces) == 1 and pieces[0].kind != "mesh":
+        return whole, whole, dense.points
+    reached = flood(corners, target.size, target.cell).touches(dense.points)
+    if not reached.any():
+        return whole, whole, dense.points
+    seen = dense.only(reached)
+    return whole, Surface(corners, seen, workers=target.cores, step=step), seen.points
 
 
 def depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points:

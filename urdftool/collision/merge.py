@@ -16,7 +16,7 @@ from ..errors import MeshError
 from ..geometry.mesh import Points
 from .convex import hull, signed_distance
 from .distance import spread
-from .measure import Target
+from .measure import ReferenceSurface
 from .piece import Piece, mesh_piece, near_ones
 from .remesh import Outside
 
@@ -31,10 +31,10 @@ _GUESSED, _BULGE, _WHOLE = range(3)  # states of a join's known cost
 class Joiner:
     """Joining of the pieces of one mesh."""
 
-    def __init__(self, target: Target) -> None:
+    def __init__(self, target: ReferenceSurface) -> None:
         """Set the mesh."""
         self.outside = Outside(target.layer)
-        even = target.even
+        even = target.uniform_samples
         self.seen = even[:: max(1, len(even) // _BURIED)]
         self.gap = _TOUCH * target.size
 

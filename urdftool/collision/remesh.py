@@ -17,7 +17,6 @@ from ..geometry.mesh import Faces, Points
 from ..inertia.winding import boxes_of, winding_numbers
 from .convex import planes, signed_distance
 from .distance import Surface, areas_of, spread
-from .touchable import widened
 from .vec3 import bounds
 
 CELLS = 96
@@ -190,3 +189,21 @@ def _triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[Number
             cut[inwards] = cut[inwards][:, ::-1]
             found.append(cut)
     return found
+
+
+def widened(cells: npt.NDArray[np.bool_], by: int) -> npt.NDArray[np.bool_]:
+    """Add all cells within ``by`` cells of one along each axis."""
+    made: npt.NDArray[np.bool_] = cells.copy()
+    for axis in range(3):
+        before = made.copy()
+        for step in range(1, by + 1):
+            _spread_along(axis, before, made, step)
+    return made
+
+
+def _spread_along(
+    axis: int, cells: npt.NDArray[np.bool_], made: npt.NDArray[np.bool_], step: int
+) -> None:
+    source, target = np.moveaxis(cells, axis, 0), np.moveaxis(made, axis, 0)
+    target[step:] |= source[:-step]
+    target[:-step] |= source[step:]

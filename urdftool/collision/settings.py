@@ -6,10 +6,36 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
+METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")
 
-FEW_HULLS = 32
-"""Largest number of convex pieces that ``auto`` creates from a mesh."""
+
+@dataclass(frozen=True)
+class Effort:
+    """Preset of limits, and how long their best result is searched for.
+
+    Attributes:
+        max_error: Error limit, relative to the diagonal of the visual's bounding box.
+        max_hulls: Largest number of convex pieces.
+        cell: Edge of a cell of the flood, relative to the same diagonal.
+        surplus: Ratio of the parts that are cut to those that remain after joins.
+        rounds: Cuts of the worst part, each followed by a join, after that.
+        retries: Repetitions with the points that the estimate missed.
+    """
+
+    max_error: float
+    max_hulls: int
+    cell: float
+    surplus: float
+    rounds: int
+    retries: int
+
+
+QUALITIES = {
+    "fast": Effort(0.08, 4, 0.0075, 1.5, 4, 0),
+    "balanced": Effort(0.05, 16, 0.0075, 1.5, 20, 2),
+    "tight": Effort(0.03, 32, 0.005, 2.0, 40, 3),
+}
+"""Presets by name; ``balanced`` is the default."""
 
 
 @dataclass(frozen=True)
@@ -19,27 +45,42 @@ class Settings:
     Attributes:
         method: One of ``METHODS``.
         max_error: Largest distance between visual and collision, relative to the diagonal of the
-            visual's bounding box: a limit for ``auto``, a criterion for other methods.
-        max_hulls: Largest number of convex pieces that CoACD creates from a mesh; None for no limit
-            with ``coacd``, and ``FEW_HULLS`` with ``auto``.
+            visual's bounding box: a limit for ``auto``, ``cuts`` and ``spheres``, a criterion for
+            other methods.
+        max_hulls: Largest number of pieces; None for that of the quality with ``auto`` and
+            ``cuts``, and no limit with ``coacd`` and ``spheres``.
         max_vertices: Largest number of vertices of a convex piece.
         max_triangles: Largest total number of triangles from ``simplify`` and ``coacd``.
         threshold: CoACD's concavity threshold for ``coacd``: a distance relative to half the
             longest side.
         time_limit: Processor time limit [s] of all CoACD runs on a mesh.
+        quality: One of ``QUALITIES``: how finely to measure, and how long to search.
     """
 
     method: str = "auto"
-    max_error: float = 0.01
+    max_error: float = QUALITIES["balanced"].max_error
     max_hulls: int | None = None
     max_vertices: int = 64
     max_triangles: int = 1000
     threshold: float = 0.06
     time_limit: float = 120.0
+    quality: str = "balanced"
+
+    @property
+    def effort(self) -> Effort:
+        """Return the preset of the quality."""
+        return QUALITIES[self.quality]
+
+    @property
+    def most(self) -> int:
+        """Return the largest number of convex pieces of ``auto`` and ``cuts``."""
+        return self.max_hulls or self.effort.max_hulls
 
     def changed(self, table: Mapping[str, Any]) -> Settings:
-        """Return a copy with some settings replaced."""
-        return replace(self, **table)
+        """Return a copy with some settings replaced; a quality brings its limit of the error."""
+        quality = table.get("quality")
+        limit = {} if quality is None else {"max_error": QUALITIES[quality].max_error}
+        return replace(self, **{**limit, **table})
 
     def as_dict(self) -> dict[str, Any]:
         """Return the settings by name, for keys and messages between processes."""

@@ -8,7 +8,12 @@ from typing import Any
 import click
 
 from ..console import Console
-from .collision_options import one_thread_each, require_libraries, settings_options
+from .collision_options import (
+    check_spheres_file,
+    one_thread_each,
+    require_libraries,
+    settings_options,
+)
 from .general_options import accept_general_options
 from .grouped_help import GroupedCommand
 from .options import gltf_option, jobs_option, package_options, split_arguments
@@ -56,6 +61,12 @@ _GROUPS = {
 @click.option("--in-place", is_flag=True, help="Edit the collision geometry in the source files.")
 @click.option("--check", is_flag=True, help="Measure the existing collision geometry; write none.")
 @settings_options
+@click.option(
+    "--spheres-file",
+    metavar="FILE",
+    help="Write the spheres of --method spheres also for planners: .yml for cuRobo, .json for "
+    "pyroki.",
+)
 @click.option(
     "--from",
     "source",
@@ -124,6 +135,7 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
     if check and values["scheduler"]:
         raise click.UsageError("--check does not support --scheduler")
     checked_picture(values["picture"])
+    check_spheres_file(values["spheres_file"], values["method"])
     require_libraries(values["method"], check=check)
     one_thread_each()
     from . import collision_robot as robots

@@ -17,54 +17,56 @@ from .progress import Progress
 from .read_strict import say_gltf
 
 if TYPE_CHECKING:
-    from ..collision.links import Wishes
+    from ..collision.links import CollisionOptions
     from ..model.elements import Robot
 
 
-def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict[str, Any]) -> int:
+def check(
+    console: Console, robots: Sequence[tuple[Robot, CollisionOptions]], values: dict[str, Any]
+) -> int:
     """Measure the collision geometry of robots, print the result, and return the exit code."""
     looks, owners = [], []
-    for number, (robot, wishes) in enumerate(robots):
-        check_names(robot, (*wishes.only, *wishes.skip))
+    for number, (robot, options) in enumerate(robots):
+        check_names(robot, (*options.only, *options.skip))
         for link in robot.links:
-            if (wishes.only and link.name not in wishes.only) or link.name in wishes.skip:
+            if (options.only and link.name not in options.only) or link.name in options.skip:
                 continue
-            look = look_at(robot, link, wishes.settings.max_error)
+            look = look_at(robot, link, options.settings.max_error)
             if look is not None:
                 looks.append(look)
                 owners.append(number)
     with Progress(console, "links", patience=0) as progress:
         found = check_all(looks, jobs=values["jobs"], progress=progress)
     results, code = [], 0
-    for number, (robot, wishes) in enumerate(robots):
+    for number, (robot, options) in enumerate(robots):
         own = [item for item, owner in zip(found, owners, strict=True) if owner == number]
         assert robot.source is not None
-        path, limit = robot.source.path, wishes.settings.max_error
+        path, limit = robot.source.path, options.settings.max_error
         results.append(report.as_dict(path, own, limit))
         if values["style"] == "table":
             click.echo(report.table(own, limit), nl=False)
-        code = max(code, _tell(console, robot, wishes, path, own))
+        code = max(code, _tell(console, robot, options, path, own))
     if values["style"] == "json":
         click.echo(json.dumps({"version": 1, "results": results}, indent=2))
     return code
 
 
-def _nothing(robot: Robot, wishes: Wishes) -> str:
+def _nothing(robot: Robot, options: CollisionOptions) -> str:
     """Explain why nothing was checked."""
     shapes = sum(bool(link.collisions) for link in robot.links)
-    which = "none of the selected links" if wishes.only or wishes.skip else "no link"
+    which = "none of the selected links" if options.only or options.skip else "no link"
     have = f" ({counted(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} collisions)"
     return f"{which} has visual geometry to compare with{have if shapes else ''}"
 
 
 def _tell(
-    console: Console, robot: Robot, wishes: Wishes, path: str, found: Sequence[Checked]
+    console: Console, robot: Robot, options: CollisionOptions, path: str, found: Sequence[Checked]
 ) -> int:
-    limit = wishes.settings.max_error
+    limit = options.settings.max_error
     for line in report.remarks(found, limit):
         console.say(line)
     if not found:
-        console.say(f"{path}: nothing was checked, because {_nothing(robot, wishes)}")
+        console.say(f"{path}: nothing was checked, because {_nothing(robot, options)}")
         return 2
     say_gltf(console, robot)
     bad = sum(not report.is_good(item, limit) for item in found)

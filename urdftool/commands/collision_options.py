@@ -16,9 +16,12 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
+METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")
+SPHERE_SUFFIXES = (".yml", ".yaml", ".json")
+QUALITIES = ("fast", "balanced", "tight")
 _NAMES = (
     "method",
+    "quality",
     "max_error",
     "max_hulls",
     "max_vertices",
@@ -28,8 +31,8 @@ _NAMES = (
 )
 
 
-def _positive(ctx: click.Context, parameter: click.Parameter, value: float) -> float:
-    if not 0 < value < float("inf"):
+def _positive(ctx: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    if value is not None and not 0 < value < float("inf"):
         raise click.BadParameter(f"{value:g} is not greater than zero", ctx, parameter)
     return value
 
@@ -48,24 +51,30 @@ _OPTIONS = (
         default="auto",
         show_default=True,
         metavar="METHOD",
-        help="Method: primitive, hull, coacd, simplify, or auto (cheapest within --max-error).",
+        help="Method: primitive, hull, cuts, coacd, spheres, simplify, or auto (cheapest within "
+        "--max-error).",
+    ),
+    click.option(
+        "--quality",
+        type=click.Choice(QUALITIES),
+        default="balanced",
+        show_default=True,
+        help="Preset of --max-error and --max-hulls, and of the time that a result may take.",
     ),
     click.option(
         "--max-error",
         type=float,
-        default=0.01,
-        show_default=True,
         callback=_positive,
         metavar="E",
         help="Maximum distance between mesh and collision, as a fraction of the diagonal of the "
-        "mesh's bounding box.",
+        "mesh's bounding box.  [default: 0.05; fast 0.08, tight 0.03]",
     ),
     click.option(
         "--max-hulls",
         type=click.IntRange(1),
         metavar="N",
-        help="Maximum number of convex pieces per mesh.  [default: 32 for auto, unlimited for "
-        "coacd]",
+        help="Maximum number of pieces per mesh.  [default: 16 for auto and cuts (fast 4, tight "
+        "32), unlimited for coacd and spheres]",
     ),
     click.option(
         "--max-vertices",
@@ -120,7 +129,7 @@ def settings_of(values: dict[str, Any]) -> Settings:
     """Make the settings from the values of the options, by parameter name."""
     from ..collision.settings import Settings
 
-    return Settings(**{name: values[name] for name in _NAMES})
+    return Settings().changed({k: v for k in _NAMES if (v := values[k]) is not None})
 
 
 def given_names(ctx: click.Context) -> tuple[str, ...]:
@@ -140,6 +149,20 @@ def cache_of(values: dict[str, Any]) -> DiskCache:
     return DiskCache(cache_place("collision", values["cache_dir"], values["no_cache"]))
 
 
+def check_spheres_file(path: str | None, method: str) -> None:
+    """Refuse a file of spheres that is not possible.
+
+    Raises:
+        click.UsageError: Its suffix is unknown, or the method makes no spheres.
+    """
+    if path is None:
+        return
+    if method != "spheres":
+        raise click.UsageError("--spheres-file requires --method spheres")
+    if not path.lower().endswith(SPHERE_SUFFIXES):
+        raise click.UsageError(f"--spheres-file: '{path}' does not end in .yml, .yaml or .json")
+
+
 def require_libraries(method: str, *, check: bool = False) -> None:
     """Check that the libraries of a method are installed, before anything is read.
 
@@ -148,7 +171,7 @@ def require_libraries(method: str, *, check: bool = False) -> None:
     """
     from ..extras import require
 
-    decomposes = method in ("auto", "coacd") and not check
+    decomposes = method == "coacd" and not check
     libraries = ("scipy", "manifold3d", *(("coacd",) if decomposes else ()))
     require("'urdftool collision'", *libraries)
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..collision.links import LinkPlan, Wishes, plan
+from ..collision.links import CollisionOptions, LinkPlan, plan
 from ..collision.parallel import compute_all
 from ..collision.robot import SUFFIXES, Place, check_place, tasks_of, write_robot
 from ..configuration import find_configuration
@@ -61,25 +61,39 @@ def one(
     """
     robot = require(_read(console, path, arguments, values), "links")
     check_picture(values["picture"], robot)
-    wishes = _wishes(ctx, console, path, values)
+    options = _collision_options(ctx, console, path, values)
     if values["check"]:
         from .collision_check import check
 
-        code = check(console, [(robot, wishes)], values)
+        code = check(console, [(robot, options)], values)
         if values["picture"]:
             _draw(values["picture"], robot, [], {})
         return code
-    job = _planned(console, path, robot, wishes, values["output"], values)
+    job = _planned(console, path, robot, options, values["output"], values)
     cache = cache_of(values)
     results = _compute(console, job.tasks, cache, values)
     _refuse_failed(console, job, results)
     done = {task: found for task, found in results.items() if not isinstance(found, UrdftoolError)}
     _tell(console, [_write(console, job, done)], values)
+    if values["spheres_file"]:
+        _write_spheres(console, values["spheres_file"], job, done)
     if values["picture"]:
         _draw(values["picture"], robot, job.plans, done)
     if cache.trouble:
         console.note(f"the results were not stored in the cache: {cache.trouble}")
     return 0
+
+
+def _write_spheres(console: Console, path: str, job: Job, results: dict[Task, Result]) -> None:
+    from ..collision.spheres import curobo_yaml, planner_spheres, pyroki_spheres
+    from ..model.files import sources
+    from ..output import write_file
+
+    spheres = planner_spheres(job.plans, results)
+    text = pyroki_spheres(spheres) if path.lower().endswith(".json") else curobo_yaml(spheres)
+    write_file(path, text.encode(), inputs=sorted(sources(job.robot)))
+    count = sum(map(len, spheres.values()))
+    console.note(f"wrote {path}, {count} spheres of {len(spheres)} links")
 
 
 def _draw(
@@ -109,18 +123,20 @@ def fleet(
     root = root if os.path.isdir(root) else os.path.dirname(root)
     code = 0
     jobs: list[Job] = []
-    checks: list[tuple[Robot, Wishes]] = []
+    checks: list[tuple[Robot, CollisionOptions]] = []
     for path in files:
         try:
             robot = _read(console, path, arguments, values)
             if not robot.links:
                 console.note(f"{path}: skipped, the file has no links", level=1)
                 continue
-            wishes = _wishes(ctx, console, path, values)
+            options = _collision_options(ctx, console, path, values)
             if values["check"]:
-                checks.append((robot, wishes))
+                checks.append((robot, options))
                 continue
-            jobs.append(_planned(console, path, robot, wishes, _beside(values, path, root), values))
+            jobs.append(
+                _planned(console, path, robot, options, _beside(values, path, root), values)
+            )
         except UrdftoolError as error:
             console.error(error)
             code = 2
@@ -149,9 +165,11 @@ def _read(console: Console, path: str, arguments: dict[str, str], values: Values
     return take_world(console, robot)
 
 
-def _wishes(ctx: click.Context, console: Console, path: str, values: Values) -> Wishes:
+def _collision_options(
+    ctx: click.Context, console: Console, path: str, values: Values
+) -> CollisionOptions:
     configuration = find_configuration(path, console.config)
-    return Wishes(
+    return CollisionOptions(
         settings_of(values),
         values["source"],
         values["only"],
@@ -167,13 +185,13 @@ def _planned(
     console: Console,
     path: str,
     robot: Robot,
-    wishes: Wishes,
+    options: CollisionOptions,
     output: str | None,
     values: Values,
 ) -> Job:
     place = _place(path, output, values)
     check_place(robot, place)
-    plans, problems = plan(robot, wishes)
+    plans, problems = plan(robot, options)
     _refuse(console, problems)
     return Job(path, robot, plans, place, path if place.in_place else str(output))
 

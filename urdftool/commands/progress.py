@@ -14,12 +14,17 @@ from ..console import Console
 PATIENCE = 1.0
 """Time after which progress is shown [s]."""
 
+PIPE_PATIENCE, PIPE_TICK = 2.0, 5.0
+"""Time before the first line where stderr is not a terminal, and between two lines [s]."""
+
 _TICK = 0.5  # s between two updates of the elapsed time
 _BAR, _LONGEST = 24, 60  # characters
 
 
 class Progress:
     """Progress line at a terminal; a context manager, which clears the line at its end.
+
+    In a pipe or a file it is a line every few seconds, after the first two.
 
     It is not a live display of rich, because these move and hide the cursor, and
     :mod:`urdftool.terminal` escapes such control sequences.
@@ -39,8 +44,10 @@ class Progress:
         self.what = what
         self.patience = patience
         self.timed = timed
-        self.wanted = sys.stderr.isatty() and not console.quiet
+        self.wanted = not console.quiet
+        self._is_terminal = sys.stderr.isatty()
         self._begin = monotonic()
+        self._next = self._begin + PIPE_PATIENCE
         self._shown = False
         self._state: tuple[int, int, str] = 0, 1, ""
         self._over = Event()
@@ -63,7 +70,12 @@ class Progress:
         """
         names = running if isinstance(running, str) else ", ".join(running)
         self._state = done, count, names
-        if self.wanted and not self.timed and monotonic() - self._begin >= self.patience:
+        if not self.wanted or self.timed:
+            return
+        if not self._is_terminal:
+            if monotonic() >= self._next:
+                self._write_line()
+        elif monotonic() - self._begin >= self.patience:
             self._show()
 
     def __exit__(self, *_: object) -> None:
@@ -75,10 +87,25 @@ class Progress:
             click.echo("\r\033[K", err=True, nl=False)
 
     def _tick(self) -> None:
+        if not self._is_terminal:
+            wait = PIPE_PATIENCE
+            while not self._over.wait(wait):
+                self._write_line()
+                wait = PIPE_TICK
+            return
         wait = self.patience
         while not self._over.wait(wait):
             self._show()
             wait = _TICK
+
+    def _write_line(self) -> None:
+        done, count, names = self._state
+        seconds = monotonic() - self._begin
+        self._next = monotonic() + PIPE_TICK
+        share = f"{done} of {count} {self.what}, " if count > 1 or not self.timed else ""
+        more = f": {names}" if names else ""
+        text = f"{share}{seconds:.0f} s{more}"
+        click.echo(text if len(text) <= 2 * _LONGEST else f"{text[: 2 * _LONGEST]}…", err=True)
 
     def _show(self) -> None:
         done, count, names = self._state

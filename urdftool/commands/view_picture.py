@@ -186,8 +186,9 @@ def write_pictures(
     check_targets((picture, contact_sheet), inputs=sorted(sources(robot)))
     positions = dict(pose or {})
     check_positions(robot, positions)
+    pixels = _pixels(robot, size or SIZE, camera, is_sheet=picture is None)
     with Progress(console, "meshes") as progress:
-        shapes = robot_shapes(robot, show=show, progress=progress)
+        shapes = robot_shapes(robot, show=show, progress=progress, pixels=pixels)
     for problem in shapes.problems:
         console.error(problem)
     say_gltf(console, robot)
@@ -213,6 +214,17 @@ def write_pictures(
     if contact_sheet is not None:
         _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
     return 1 if shapes.problems or nowhere else 0
+
+
+def _pixels(
+    robot: Robot, size: tuple[int, int], camera: tuple[float, ...] | None, *, is_sheet: bool
+) -> int | None:
+    """Return how many pixels the robot may cover; None for a camera at a given distance."""
+    from ..drawing.contact_sheet import layout_of, sweeps_of
+
+    if camera is not None and len(camera) == 3:
+        return None
+    return max(layout_of(len(sweeps_of(robot))).cell if is_sheet else size)
 
 
 def _placed(camera: tuple[float, ...]) -> Camera:

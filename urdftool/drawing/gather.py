@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -71,6 +72,8 @@ class Gathering:
     problems: dict[str, UrdftoolError] = field(default_factory=dict)
     image_rows: dict[object, int] = field(default_factory=dict)
     surfaces: dict[tuple[str, Vector], Surface | MeshError] = field(default_factory=dict)
+    read: Callable[[MeshGeometry], Mesh] | None = None
+    """Reader of a mesh with less detail; None reads files as they are."""
 
     def image(self, source: object, at: MeshGeometry | Material) -> int:
         """Return the row of an image; -1 with a problem recorded if it cannot be read."""
@@ -178,7 +181,10 @@ def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
         if source is None:
             raise MeshError("meshes require a robot that was read from a file")
         try:
-            mesh = load_named(source, geometry.filename, geometry.scale)
+            if gathering.read is not None:
+                mesh = gathering.read(geometry)
+            else:
+                mesh = load_named(source, geometry.filename, geometry.scale)
         except UrdftoolError as error:
             found = MeshError(error.message)
             gathering.surfaces[key] = found

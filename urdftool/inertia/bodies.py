@@ -6,6 +6,7 @@ one, so each file is read and integrated only once.
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,7 +20,11 @@ from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import inertia_from_second_moment, second_moment
 from ..source.description import GltfUp
+from ..storage import DiskCache, cache_key
 from .inertia_error import InertiaError
+
+_REVISION = 1  # of the mass properties of the same mesh
+_PLAIN = ("method", "reliable", "error", "hull_measure", "bodies", "triangles", "surface")
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +118,48 @@ class MeshBody:
             "triangles": self.triangles,
             "notes": list(self.note_texts),
         }
+
+
+def cached_mesh_body(
+    path: Path, cache: DiskCache, *, surface: bool = False, gltf_up: GltfUp = "y"
+) -> MeshBody:
+    """Return :func:`mesh_body`, which is kept by the content of the file.
+
+    Raises:
+        MeshError: The file cannot be read or encloses no volume.
+    """
+    if cache.folder is None or not path.is_file():
+        return mesh_body(path, surface=surface, gltf_up=gltf_up)
+    from ..geometry.thin import content_key
+
+    key = cache_key(_REVISION, ["body", surface, gltf_up], [content_key(path).encode()])
+    data = cache.get(key)
+    if data is not None:
+        return _unpacked(data, path)
+    body = mesh_body(path, surface=surface, gltf_up=gltf_up)
+    cache.put(key, _packed(body))
+    return body
+
+
+def _packed(body: MeshBody) -> bytes:
+    table = {
+        "unit": [body.unit.mass, list(body.unit.com), list(body.unit.tensor)],
+        "box": [body.lower.tolist(), body.upper.tolist()],
+        **{name: getattr(body, name) for name in _PLAIN},
+        "notes": list(body.notes),
+    }
+    return json.dumps(table).encode()
+
+
+def _unpacked(data: bytes, path: Path) -> MeshBody:
+    table = json.loads(data)
+    mass, com, tensor = table["unit"]
+    lower, upper = (np.array(corner) for corner in table["box"])
+    plain = {name: table[name] for name in _PLAIN}
+    unit = SpatialInertia(mass, tuple(com), tuple(tensor))
+    return MeshBody(
+        path=path, unit=unit, lower=lower, upper=upper, notes=tuple(table["notes"]), **plain
+    )
 
 
 def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:

@@ -9,7 +9,8 @@ from pathlib import Path
 from ..errors import UrdftoolError
 from ..parallel import Loss, cores, map_tasks
 from ..source.description import Description, GltfUp
-from .bodies import MeshBody, mesh_body
+from ..storage import DiskCache, cache_folder
+from .bodies import MeshBody, cached_mesh_body
 
 WORTH_IT = 4_000_000
 """Total size of meshes [bytes] above which additional processes save time."""
@@ -73,7 +74,7 @@ def _lost(path: Path, _: Loss) -> UrdftoolError:
 
 def _body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
     try:
-        return mesh_body(path, gltf_up=gltf_up)
+        return cached_mesh_body(path, DiskCache(cache_folder("meshes")), gltf_up=gltf_up)
     except UrdftoolError as error:
         # the chain of causes cannot be sent between processes
         return UrdftoolError(error.message, path=error.path)

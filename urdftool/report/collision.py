@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from ..collision.compute import Result, Task, shown_scale
+from ..collision.notes import MORE_PIECES, SHOWN
 from ..collision.rewrite import geometry_tag
 from ..collision.robot import Written
-from ..diagnostic import Severity
 from .tables import render_table
 
 _HEAD = (
@@ -19,8 +19,9 @@ _HEAD = (
     "pieces",
     "vertices",
     "triangles",
-    "hausdorff",
-    "mean",
+    "error",
+    "reach",
+    "excess",
     "volume",
     "outside",
     "seconds",
@@ -141,7 +142,7 @@ def table(rows: Sequence[Row]) -> str:
     return render_table(lines, left=(0, 1))
 
 
-def millimetres(length: float) -> str:
+def millimeters(length: float) -> str:
     """Format a length [m] in millimeters, with three digits or all digits before the point."""
     found = length * 1000
     return f"{found:.3g}" if found < 999.5 else f"{found:.0f}"
@@ -151,39 +152,45 @@ def remarks(rows: Iterable[Row]) -> Iterable[str]:
     """Yield a line with advice for each mesh whose error exceeds the limit."""
     for row in rows:
         if not row.within:
-            yield (
-                f"{_label(row)}: error {row.result.error:.2%} of its size, not within "
-                f"{row.max_error:.2%}; {_advice(row)}"
-            )
+            yield f"{_label(row)}: {_sizes(row)} exceeds {row.max_error:.1%}; {_advice(row)}"
+
+
+def _sizes(row: Row) -> str:
+    """Format what exceeds the limit."""
+    measures = row.result.measures
+    name = "reach" if measures["reach"] >= measures["excess"] else "excess"
+    count = len(row.result.pieces)
+    return f"{name} {row.result.error:.1%} with {count} piece{'s' * (count != 1)}"
 
 
 def _advice(row: Row) -> str:
     """Return options that may reduce the error."""
+    for note in row.result.diagnostics:
+        if note.code == MORE_PIECES:
+            pieces, error = note.data["pieces"], note.data["error"]
+            return f"--max-hulls {pieces} would give about {error:.1%}"
     if row.result.method == "simplify":
         return "try more --max-triangles"
     if row.wanted == "coacd":
         return "try a smaller --threshold with more --max-triangles"
-    if row.wanted == "auto":
-        return (
-            "try --method coacd with a smaller --threshold, --method simplify, "
-            "or allow a larger --max-error"
-        )
+    if row.wanted == "spheres":
+        return "try a smaller --max-error, with more spheres"
     return "try --method auto"
 
 
 def notes(rows: Iterable[Row]) -> Iterable[str]:
     """Yield the notes on repaired meshes and failed methods."""
     for row in rows:
-        for note in row.result.notes:
-            yield f"{_label(row)}: {note}"
+        for note in row.result.diagnostics:
+            yield f"{_label(row)}: {note.message}"
 
 
 def failures(rows: Iterable[Row]) -> Iterable[str]:
     """Yield the notes on failures, substitutes, and convex hulls that engines use."""
     for row in rows:
-        for found in row.result.diagnostics:
-            if found.severity > Severity.INFO:
-                yield f"{_label(row)}: {found.message}"
+        for note in row.result.diagnostics:
+            if note.code in SHOWN:
+                yield f"{_label(row)}: {note.message}"
 
 
 def summary(report: Report) -> str:
@@ -220,8 +227,9 @@ def _cells(row: Row) -> tuple[str, ...]:
         str(len(result.pieces)),
         f"{result.before['vertices']} → {measures['vertices']}",
         f"{result.before['triangles']} → {measures['triangles']}",
-        f"{millimetres(measures['hausdorff'])} mm {result.error:.2%}",
-        f"{measures['mean'] / measures['size']:.2%}",
+        f"{millimeters(measures['hausdorff'])} mm {result.error:.2%}",
+        f"{measures['reach']:.2%}",
+        f"{measures['excess']:.2%}",
         f"{measures['volume_ratio']:.3f}",
         f"{measures['outside']:.1%}",
         seconds,

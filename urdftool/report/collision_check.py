@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..collision.check import Checked
-from .collision import millimetres
+from .collision import millimeters
 from .tables import render_table
 
 
@@ -39,13 +39,13 @@ def table(found: Sequence[Checked], limit: float) -> str:
     if not found:
         return ""
     lines: list[Sequence[str]] = [
-        ("", "", "pieces", "triangles", "hausdorff", "mean", "volume", "outside")
+        ("", "", "pieces", "triangles", "error", "reach", "excess", "volume", "outside")
     ]
     for item in found:
         verdict = "ok" if is_good(item, limit) else "BAD"
         m = item.measures
         if m is None:
-            lines.append((item.link, verdict, "-", "-", "-", "-", "-", "-"))
+            lines.append((item.link, verdict, *["-"] * 7))
             continue
         lines.append(
             (
@@ -53,8 +53,9 @@ def table(found: Sequence[Checked], limit: float) -> str:
                 verdict,
                 str(m["pieces"]),
                 str(m["triangles"]),
-                f"{millimetres(m['hausdorff'])} mm {m['error']:.2%}",
-                f"{m['mean'] / m['size']:.2%}",
+                f"{millimeters(m['hausdorff'])} mm {m['error']:.2%}",
+                f"{m['reach']:.2%}",
+                f"{m['excess']:.2%}",
                 f"{m['volume_ratio']:.3f}",
                 f"{m['outside']:.1%}",
             )

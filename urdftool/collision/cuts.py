@@ -1,0 +1,184 @@
+"""Convex pieces of a mesh by plane cuts, within an error or with the smallest one.
+
+The outline of the mesh is cut until every part is within the error, at more parts than permitted;
+parts are then joined, and the result is measured. Where the measured error exceeds the estimate,
+the points that were missed become probes, and the worst parts are cut again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..geometry.mesh import Points
+from .convex import capped_hull, signed_distance
+from .distance import Samples, spread
+from .measure import Deviation, Measures, ReferenceSurface, measure_and_locate
+from .outline import outline
+from .partition import Part, Partition, burial, probes_of
+from .piece import Piece, mesh_piece
+from .settings import Effort
+
+_PROBES = 20_000  # sampled; about half of them are used
+_GOAL = 0.85  # part of the error that parts may use, so that the measured one is within
+_TOLERANCE = 0.05  # part of the error that dropping hull vertices may use
+_FINEST = 0.002  # relative tolerance of hulls below which vertices are not worth it
+_COVERED = 0.001  # distance outside all pieces, relative to the size, that is ignored
+_ENCLOSED = 0.02  # part of the area that is enclosed, up to which a small mesh is cut itself
+_SMALL = 1000  # triangles of such a mesh
+
+
+@dataclass(frozen=True)
+class Decomposition:
+    """Convex pieces, their quality, and the parts that they were made from."""
+
+    pieces: list[Piece]
+    measures: Measures
+    parts: list[Part]
+    deviation: Deviation
+
+
+class PlaneCutter:
+    """Convex decomposition of one mesh by planes; shared data is computed once."""
+
+    def __init__(self, target: ReferenceSurface, max_vertices: int, effort: Effort) -> None:
+        """Set the mesh, the number of vertices of a piece, and how long to search."""
+        self.target = target
+        self.max_vertices = max_vertices
+        self.effort = effort
+        self.missed = np.zeros((0, 3))
+        self.extra = np.zeros(0)
+
+    @cached_property
+    def samples(self) -> Samples:
+        """Return the exterior points at which burial is estimated."""
+        samples = spread(self.target.corners, _PROBES)
+        samples = samples.only(np.arange(len(samples)) % 2 == 0)
+        reached = self.target.exterior.touches(samples.points)
+        return samples.only(reached) if reached.any() else samples
+
+    def _partition(self) -> Partition:
+        target, samples = self.target, self.samples
+        if len(self.missed):
+            _, at = target.nearest.tree.query(self.missed)
+            points = np.concatenate([samples.points, self.missed])
+            owners = np.concatenate([samples.owners, target.nearest.samples.owners[at]])
+            samples = Samples(points, owners)
+        extra = np.zeros(len(samples))
+        extra[len(samples) - len(self.extra) :] = self.extra
+        probes = probes_of(samples.points, target.corners, samples.owners, extra)
+        return Partition(target.exterior, probes, target.size)
+
+    @cached_property
+    def partition(self) -> Partition:
+        """Return the search with the first probes."""
+        return self._partition()
+
+    @cached_property
+    def whole(self) -> Part | None:
+        """Return the uncut surface; None if it is flat."""
+        surface = self.target.surface
+        if len(surface.faces) <= _SMALL and self.target.enclosed < _ENCLOSED:
+            return self.partition.whole(surface.vertices, surface.faces)
+        return self.partition.whole(*outline(self.target))
+
+    def decompose(self, max_error: float, most: int) -> Decomposition | None:
+        """Decompose the mesh into the fewest pieces within an error.
+
+        Args:
+            max_error: Acceptable error, relative to the size.
+            most: Largest number of pieces.
+
+        Returns:
+            Pieces within the error, or those with the smallest error; None if the mesh is flat.
+        """
+        if self.whole is None:
+            return None
+        goal = _GOAL * max_error * self.target.size
+        parts = self._search([self.whole], most, goal, dense=False)
+        if _estimate(parts) > goal and self.effort.retries:
+            again = self._search([self.whole], most, goal, dense=True)
+            parts = min(parts, again, key=_estimate)
+        best = self._finish(parts, max_error)
+        for _ in range(self.effort.retries):
+            if best.measures.error <= max_error or not self._learn(best):
+                break
+            parts = [self.partition.reprice(part) for part in best.parts]
+            parts = self._search(parts, most, goal, dense=True)
+            found = self._finish(parts, max_error)
+            if found.measures.error < best.measures.error:
+                best = found
+        return best
+
+    def _search(self, parts: Sequence[Part], most: int, goal: float, *, dense: bool) -> list[Part]:
+        """Cut parts within a cost [m] or to more than permitted, and join them."""
+        partition = self.partition
+        surplus = most if most == 1 else int(np.ceil(self.effort.surplus * most))
+        found = partition.cut(parts, surplus, goal, dense=dense)
+        found = partition.join(found, goal, most)
+        return partition.improve(found, goal, self.effort.rounds, dense=dense)
+
+    def _learn(self, found: Decomposition) -> bool:
+        """Make probes of the points that are deeper than estimated; return whether there are any.
+
+        A point may have been missed, or be deep in the union of parts but not in any one of them.
+        """
+        points, reach = found.deviation.worst, found.deviation.depth
+        if not len(points):
+            return False
+        estimate = np.max([burial(part, points) for part in found.parts], axis=0)
+        extra = np.maximum(reach - estimate, 0)
+        self.missed = np.concatenate([self.missed, points])
+        self.extra = np.concatenate([self.extra, extra])
+        self.partition = self._partition()
+        return True
+
+    def forecast(self, found: Decomposition, most: int, max_error: float) -> float:
+        """Estimate the error with another number of pieces, from the one that was measured."""
+        goal = _GOAL * max_error * self.target.size
+        before = max(_estimate(found.parts), 1e-12)
+        parts = [self.partition.reprice(part) for part in found.parts]
+        more = self._search(parts, most, goal, dense=False)
+        return found.measures.error * min(1.0, _estimate(more) / before)
+
+    def _finish(self, parts: Sequence[Part], max_error: float) -> Decomposition:
+        pieces = self._pieces(parts, max_error)
+        measures, deviation = measure_and_locate(self.target, pieces)
+        return Decomposition(pieces, measures, list(parts), deviation)
+
+    def _pieces(self, parts: Sequence[Part], max_error: float) -> list[Piece]:
+        """Make hulls of few vertices, and extend them over exterior points outside of all."""
+        size = self.target.size
+        tolerance = max(_TOLERANCE * max_error, _FINEST) * size
+        hulls = [self._capped(part.hull, tolerance) for part in parts]
+        points = self.target.exterior_samples
+        outside = np.arange(len(points))
+        off = np.full(len(points), np.inf)
+        owner = np.zeros(len(points), dtype=np.int64)
+        for number, piece in enumerate(hulls):
+            away = signed_distance(points[outside], piece.sides)
+            nearer = away < off[outside]
+            off[outside[nearer]] = away[nearer]
+            owner[outside[nearer]] = number
+            outside = outside[away > 0]
+        left = outside[off[outside] > max(_COVERED * size, tolerance)]
+        for number in np.unique(owner[left]).tolist():
+            more = np.concatenate([parts[number].hull, points[left[owner[left] == number]]])
+            hulls[number] = self._capped(more, tolerance)
+        return sorted(hulls, key=_order)
+
+    def _capped(self, points: Points, tolerance: float) -> Piece:
+        vertices, faces = capped_hull(points, self.max_vertices, tolerance)
+        return mesh_piece(vertices, faces)
+
+
+def _order(piece: Piece) -> tuple[float, ...]:
+    middle = piece.vertices.mean(axis=0)
+    return (-len(piece.faces), *middle.round(9).tolist())
+
+
+def _estimate(parts: Sequence[Part]) -> float:
+    return max(part.cost for part in parts)

@@ -1,0 +1,184 @@
+"""Cover of a mesh by few spheres, and the files of motion planners that hold them.
+
+A sphere around a point inside the closing reaches to the nearest exterior surface and farther by
+the excess, so none protrudes by more than that. Spheres are chosen by greedy set cover, until every
+dense sample of the exterior is inside one of them by more than the spacing of the samples.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry.mesh import Points
+from ..model.pose import pose_of
+from .compute import Result, Task
+from .distance import spread
+from .links import LinkPlan
+from .measure import ReferenceSurface
+from .piece import Piece, primitive
+
+MOST = 400
+"""Largest number of spheres if no limit is given."""
+
+_CANDIDATES = 4000
+_SAMPLES = 5000
+_STEPS = 6  # of the bisection for the excess
+_LARGEST = 0.5  # excess, relative to the size, that is always enough for some cover
+_CHECKED = 60_000  # other points, by which the gaps of the dense samples are measured
+
+Floats = npt.NDArray[np.float32]
+
+
+def cover(target: ReferenceSurface, excess: float, most: int | None = None) -> list[Piece]:
+    """Cover the exterior of a mesh with spheres.
+
+    Args:
+        target: The mesh.
+        excess: Largest distance by which a sphere may protrude, relative to the size.
+        most: Largest number of spheres; if it is not enough, the excess is larger.
+
+    Returns:
+        The spheres, the largest first; few, but not provably the fewest.
+    """
+    search = _Cover(target)
+    limit = most or MOST
+    found = search.choose(excess * target.size, limit)
+    low, high = excess, max(_LARGEST, 2 * excess)
+    for _ in range(_STEPS if found is None else 0):
+        middle = (low * high) ** 0.5
+        tried = search.choose(middle * target.size, limit)
+        if tried is None:
+            low = middle
+        else:
+            high, found = middle, tried
+    if found is None:  # one sphere around everything
+        center = search.dense.mean(axis=0)
+        radius = float(np.linalg.norm(search.dense - center, axis=1).max()) + search.gap
+        found = [(center, radius)]
+    found.sort(key=lambda sphere: (-sphere[1], *sphere[0].tolist()))
+    return [primitive("sphere", (radius,), np.eye(3), center) for center, radius in found]
+
+
+class _Cover:
+    """Candidates and samples of one mesh."""
+
+    def __init__(self, target: ReferenceSurface) -> None:
+        self.dense = target.nearest.samples.points
+        self.gap = _gap(target)
+        self.some = self.dense[:: max(1, len(self.dense) // _SAMPLES)]
+        exterior = target.exterior
+        nodes = np.argwhere(exterior.depth > 0)
+        nodes = nodes[:: max(1, len(nodes) // _CANDIDATES)]
+        centers = np.concatenate([exterior.low + nodes * exterior.step, self.some[::10]])
+        self.centers: Points = centers
+        depth, _ = target.nearest.tree.query(centers, workers=target.cores)
+        # the nearest sample is farther than the surface, by the gap between samples at most
+        self.depth: Points = np.sqrt(np.maximum(depth**2 - self.gap**2, 0))
+
+    def choose(self, excess: float, most: int) -> list[tuple[Points, float]] | None:
+        """Choose spheres that protrude by at most an excess [m]; None if too many are needed."""
+        radii = self.depth + excess
+        if excess <= 2 * self.gap:
+            return None
+        points = self.some
+        chosen: list[int] = []
+        while True:
+            if not self._extend(chosen, points, radii, most):
+                return None
+            left = self._uncovered(chosen, radii)
+            if not len(left):
+                return [(self.centers[index], float(radii[index])) for index in chosen]
+            points = left[:: max(1, len(left) // _SAMPLES)]
+
+    def _extend(self, chosen: list[int], points: Points, radii: Points, most: int) -> bool:
+        """Choose more spheres until they cover the points; return whether they are few enough."""
+        covers = _distances(self.centers, points) <= (radii - self.gap)[:, None]
+        weights = covers.astype(np.float32)
+        open_points = np.ones(len(points), np.float32)
+        while open_points.any():
+            if len(chosen) >= most:
+                return False
+            counts = weights @ open_points
+            best = int(np.argmax(counts))
+            if not counts[best]:
+                return False
+            chosen.append(best)
+            open_points[covers[best]] = 0
+        return True
+
+    def _uncovered(self, chosen: Sequence[int], radii: Points) -> Points:
+        left = self.dense
+        for index in chosen:
+            off = np.linalg.norm(left - self.centers[index], axis=1)
+            left = left[off > radii[index] - self.gap]
+        return left
+
+
+def _distances(centers: Points, points: Points) -> Floats:
+    squares = (centers**2).sum(axis=1)[:, None] + (points**2).sum(axis=1) - 2 * centers @ points.T
+    return np.asarray(np.sqrt(np.maximum(squares, 0)), dtype=np.float32)
+
+
+def _gap(target: ReferenceSurface) -> float:
+    """Measure the largest distance [m] of exterior points from the dense samples."""
+    points = spread(target.corners, _CHECKED).points
+    points = points[target.exterior.touches(points)]
+    if not len(points):
+        return 0.0
+    return float(target.nearest.tree.query(points)[0].max())
+
+
+def planner_spheres(
+    plans: Sequence[LinkPlan], results: Mapping[Task, Result]
+) -> dict[str, list[tuple[tuple[float, ...], float]]]:
+    """Return center [m], in the frame of the link, and radius [m] of each sphere, by link."""
+    found: dict[str, list[tuple[tuple[float, ...], float]]] = {}
+    for item in plans:
+        for use in item.uses:
+            if use.task is None:
+                continue
+            pose = pose_of(use.shape.origin)
+            rotation, shift = np.array(pose.rotation), np.array(pose.translation)
+            for piece in results[use.task].pieces:
+                if piece.kind == "sphere":
+                    center = rotation @ piece.centre + shift
+                    rounded = tuple(round(float(value), 6) + 0.0 for value in center)
+                    spheres = found.setdefault(item.link.name, [])
+                    spheres.append((rounded, _rounded_up(piece.size[0])))
+    return found
+
+
+def _rounded_up(radius: float) -> float:
+    return float(np.ceil(radius * 1e6 + 1) / 1e6)  # covers the rounding of the center, too
+
+
+def curobo_yaml(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
+    """Format spheres as ``collision_spheres`` of a robot configuration of cuRobo."""
+    lines = ["# collision geometry by urdftool", "collision_spheres:"]
+    for link, some in spheres.items():
+        lines.append(f"  {json.dumps(link)}:")
+        for center, radius in some:
+            xyz = ", ".join(f"{value:.6f}" for value in center)
+            lines.append(f"    - center: [{xyz}]")
+            lines.append(f"      radius: {radius:.6f}")
+    return "\n".join(lines) + "\n"
+
+
+def pyroki_spheres(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
+    """Format spheres as pyroki's ``RobotCollision.from_sphere_decomposition`` expects them.
+
+    The result is JSON, which is YAML, too.
+    """
+    table: dict[str, Any] = {
+        link: {
+            "centers": [list(center) for center, _ in some],
+            "radii": [radius for _, radius in some],
+        }
+        for link, some in spheres.items()
+    }
+    return json.dumps(table, indent=1) + "\n"

@@ -1,0 +1,195 @@
+"""Copies of meshes with fewer triangles, for pictures; kept by the content of the file.
+
+Vertices in one cell of a grid become one of them, and triangles without an area are dropped, so no
+vertex moves by more than the diagonal of a cell.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import MeshError
+from ..storage import DiskCache, cache_key
+from .load import load_mesh
+from .mesh import Mesh, Part, Points
+
+if TYPE_CHECKING:
+    from ..source.description import GltfUp
+
+SMALL_FILE = 300_000
+"""Size [bytes] of a file up to which its mesh is read as it is."""
+
+FINEST = 1024
+"""Largest number of cells along the diagonal of a mesh; a finer one is read as it is."""
+
+_COARSEST = 16
+_REVISION = 1
+_MATERIALS = {".gltf": "*.bin", ".obj": "*.mtl"}  # files that belong to a mesh file
+
+
+class ThinMeshes:
+    """Reader of meshes with as much detail as a picture shows."""
+
+    def __init__(self, cache: DiskCache) -> None:
+        """Set the cache, whose entries are bounding boxes and thinned meshes."""
+        self.cache = cache
+        self._loaded: dict[object, Mesh] = {}
+        self._keys: dict[object, str] = {}
+
+    def bounds(self, path: Path, scale: Sequence[float], gltf_up: GltfUp) -> Points:
+        """Return the corners [m] of a mesh's bounding box, shape (2, 3).
+
+        Raises:
+            UrdftoolError: The file cannot be read.
+        """
+        key = self._key(path, scale, gltf_up, "bounds")
+        data = None if key is None else self.cache.get(key)
+        if data is not None:
+            return np.array(json.loads(data), dtype=np.float64)
+        used = self._full(path, scale, gltf_up)
+        points = used.vertices[np.unique(used.faces)]
+        found = np.array([points.min(axis=0), points.max(axis=0)])
+        if key is not None:
+            self.cache.put(key, json.dumps(found.tolist()).encode())
+        return found
+
+    def read(self, path: Path, scale: Sequence[float], gltf_up: GltfUp, cell: float) -> Mesh:
+        """Read a mesh whose vertices may be off by the diagonal of a cell.
+
+        Args:
+            path: The mesh file.
+            scale: Factors, as URDF's ``<mesh scale>``.
+            gltf_up: Up axis of a glTF file.
+            cell: Edge of a cell [m].
+
+        Raises:
+            UrdftoolError: The file cannot be read.
+        """
+        if path.stat().st_size <= SMALL_FILE:
+            return self._full(path, scale, gltf_up)
+        low, high = self.bounds(path, scale, gltf_up)
+        diagonal = float(np.linalg.norm(high - low))
+        count = _COARSEST
+        while count * cell < diagonal and count <= FINEST:
+            count *= 2
+        if count > FINEST:
+            return self._full(path, scale, gltf_up)
+        key = self._key(path, scale, gltf_up, count)
+        data = None if key is None else self.cache.get(key)
+        if data is not None:
+            return _unpacked(data, path)
+        mesh = thin(self._full(path, scale, gltf_up), diagonal / count)
+        if key is not None and all(part.image is None for part in mesh.parts):
+            self.cache.put(key, _packed(mesh))
+        return mesh
+
+    def _full(self, path: Path, scale: Sequence[float], gltf_up: GltfUp) -> Mesh:
+        key = (path, tuple(scale))
+        if key not in self._loaded:
+            self._loaded[key] = load_mesh(path, scale, gltf_up=gltf_up)
+        return self._loaded[key]
+
+    def _key(
+        self, path: Path, scale: Sequence[float], gltf_up: GltfUp, detail: object
+    ) -> str | None:
+        if self.cache.folder is None:
+            return None
+        if path not in self._keys:
+            self._keys[path] = content_key(path)
+        facts = [list(scale), gltf_up, detail]
+        return cache_key(_REVISION, facts, [self._keys[path].encode()])
+
+
+def content_key(path: Path) -> str:
+    """Return a digest of a mesh file and of the files that belong to it.
+
+    Raises:
+        MeshError: The file cannot be read.
+    """
+    suffix = path.suffix.lower()
+    try:
+        inputs = [path.read_bytes()]
+        if pattern := _MATERIALS.get(suffix):
+            for other in sorted(path.parent.glob(pattern)):
+                inputs += [other.name.encode(), other.read_bytes()]
+    except OSError as error:
+        raise MeshError(f"the mesh cannot be read: {error.strerror}", path=path) from error
+    return cache_key(_REVISION, suffix, inputs)
+
+
+def thin(mesh: Mesh, cell: float) -> Mesh:
+    """Merge the vertices in each cell of a grid, and drop the triangles that vanish.
+
+    Args:
+        mesh: The mesh.
+        cell: Edge of a cell [m].
+    """
+    at = np.floor((mesh.vertices - mesh.vertices.min(axis=0)) / cell).astype(np.int64)
+    sizes = at.max(axis=0) + 1
+    number = (at[:, 0] * sizes[1] + at[:, 1]) * sizes[2] + at[:, 2]
+    _, first, owner = np.unique(number, return_index=True, return_inverse=True)
+    faces = owner.reshape(-1)[mesh.faces]
+    a, b, c = faces.T
+    kept = np.flatnonzero((a != b) & (b != c) & (c != a))
+    ordered = np.sort(faces[kept], axis=1)
+    triples = (ordered[:, 0] * len(first) + ordered[:, 1]) * len(first) + ordered[:, 2]
+    if len(first) < 2_000_000:  # else the product does not fit
+        kept = kept[np.sort(np.unique(triples, return_index=True)[1])]
+    if not len(kept):
+        return mesh
+    parts = []
+    ends = np.searchsorted(kept, [part.first for part in mesh.parts])
+    lasts = np.searchsorted(kept, [part.first + part.count for part in mesh.parts])
+    for part, start, end in zip(mesh.parts, ends.tolist(), lasts.tolist(), strict=True):
+        uv = None if part.uv is None else part.uv[kept[start:end] - part.first]
+        parts.append(replace(part, first=start, count=end - start, uv=uv))
+    return replace(
+        mesh, vertices=mesh.vertices[first], faces=faces[kept].astype(np.int64), parts=tuple(parts)
+    )
+
+
+def _packed(mesh: Mesh) -> bytes:
+    parts = [
+        {
+            "name": part.name,
+            "first": part.first,
+            "count": part.count,
+            "rgba": part.rgba,
+            "texture": None if part.texture is None else str(part.texture),
+        }
+        for part in mesh.parts
+    ]
+    arrays: dict[str, Any] = {
+        f"uv{number}": part.uv for number, part in enumerate(mesh.parts) if part.uv is not None
+    }
+    head = json.dumps({"parts": parts, "format": mesh.format}).encode()
+    stream = io.BytesIO()
+    np.savez(
+        stream,
+        head=np.frombuffer(head, np.uint8),
+        vertices=mesh.vertices,
+        faces=mesh.faces.astype(np.int32),
+        **arrays,
+    )
+    return stream.getvalue()
+
+
+def _unpacked(data: bytes, path: Path) -> Mesh:
+    with np.load(io.BytesIO(data)) as arrays:
+        head = json.loads(arrays["head"].tobytes())
+        parts = []
+        for number, part in enumerate(head["parts"]):
+            rgba = None if part["rgba"] is None else tuple(part["rgba"])
+            texture = None if part["texture"] is None else Path(part["texture"])
+            name = f"uv{number}"
+            uv = arrays.get(name)
+            parts.append(Part(part["name"], part["first"], part["count"], rgba, texture, None, uv))
+        faces = arrays["faces"].astype(np.int64)
+        return Mesh(arrays["vertices"], faces, tuple(parts), head["format"], path)
