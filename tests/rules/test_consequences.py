@@ -143,9 +143,7 @@ def test_swapped_limits_are_none_to_mujoco_and_pybullet(tmp_path):
     assert not mujoco.MjModel.from_xml_string(text).jnt_limited[0]
     (finding,) = _found(tmp_path, text, "lower-above-upper", "pybullet")
     assert finding.severity.label == "info"
-    assert finding.message.endswith(
-        "; make the joint continuous if it is unlimited, or else write lower below upper"
-    )
+    assert finding.data == {"lower": 1, "upper": -1}
     assert _levels(tmp_path, text, "lower-above-upper", "ros2") == ["error"]
     (finding,) = _found(tmp_path, text.replace('"1" upper', '"2.4" upper'), "lower-above-upper")
-    assert finding.message.endswith("PyBullet and MuJoCo ignore such limits; swap them")
+    assert (finding.data["lower"], finding.severity.label) == (2.4, "error")

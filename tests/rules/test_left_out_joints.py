@@ -51,13 +51,13 @@ def test_of_two_soft_limits_the_one_beyond_is_named(tmp_path):
         return _messages(tmp_path, _joint(more=more), "soft-limits-outside-hard", "moveit")
 
     assert said(-1.6, 1.4) == [
-        "soft lower limit -1.6 of joint 'swing' is beyond its lower limit -1.5, so it does nothing"
+        "soft lower limit -1.6 of joint 'swing' is beyond its lower limit -1.5, so it has no effect"
     ]
     assert said(-1.4, 1.7) == [
-        "soft upper limit 1.7 of joint 'swing' is beyond its upper limit 1.5, so it does nothing"
+        "soft upper limit 1.7 of joint 'swing' is beyond its upper limit 1.5, so it has no effect"
     ]
     (both,) = said(-1.6, 1.7)
-    assert both.endswith("are beyond its limits -1.5 to 1.5, so they do nothing")
+    assert both.endswith("are beyond its limits -1.5 to 1.5, so they have no effect")
 
 
 @pytest.mark.parametrize(("soft", "count"), [("-1.64", 0), ("-1.65", 0), ("-1.66", 1)])
@@ -157,7 +157,7 @@ def test_the_state_of_a_command_may_be_in_another_block(tmp_path):
 
     assert not said("position")
     assert said("velocity") == [
-        "joint 'swing' has the command 'position' and not the state of that name"
+        "joint 'swing' has the command interface 'position' but no such state interface"
     ]
 
 

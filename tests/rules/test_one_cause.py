@@ -169,7 +169,7 @@ def test_several_interfaces_are_one_finding_that_names_the_joints(write):
     rule = ("several-hardware-interfaces",)
     (finding,) = check(write("r.urdf", text), select=rule, targets=("ros1",))
     assert "joint 'jl0'" in finding.message
-    assert "so it does of 'jl1', 'jl2'" in finding.message
+    assert "the same applies to 'jl1', 'jl2'" in finding.message
 
 
 def test_followers_that_are_fixed_are_one_finding(write):
@@ -177,7 +177,7 @@ def test_followers_that_are_fixed_are_one_finding(write):
     lead = JOINT.format("l4", "end", "revolute", 'lower="0" upper="1"').replace("jl4", "lead")
     text = text.replace("</robot>", LINK.format("end") + lead + "</robot>")
     (finding,) = check(write("r.urdf", text), select=("mimic-dof-mismatch",))
-    assert "'jl0' is fixed and follows another; so are 'jl1', 'jl2', 'jl3'" in finding.message
+    assert finding.data == {"type": "fixed", "joints": ["jl0", "jl1", "jl2", "jl3"]}
 
 
 @pytest.mark.parametrize(("joints", "count"), [("a", 1), ("ab", 0)])

@@ -84,5 +84,5 @@ def test_limits_that_are_not_mirrored(write):
     (found,) = problems(write("many.urdf", limbs(4, -0.5)), "limits-not-mirrored")
     assert found.data == {"twin": "left_leg_0_joint", "mirrored": [-1, 1]}
     others = ", ".join(f"'right_leg_{n}_joint'" for n in range(1, 4))
-    assert found.message.endswith(f" goes from -1 to 1; the same is true of {others}")
+    assert found.message.endswith(f"; the same applies to {others}")
     assert found.place.line == found.subject.limit.place.line

@@ -1,4 +1,4 @@
-"""Transmissions and ros2_control."""
+"""Rules on transmissions and ros2_control."""
 
 FILES = (
     "transmissions",

@@ -1,4 +1,4 @@
-"""The files with controllers that are for a robot: named by it, by its launch files, or alone."""
+"""Find the controller files of a robot: referred to by a plugin, by launch files, or alone."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class ControllerFile(NamedTuple):
 
     Attributes:
         file: The file.
-        controllers: What is in it.
-        by_plugin: Whether a plugin of the robot names it.
-        by_launch: Whether a launch file names it beside the description.
-        shared: Whether it may be for another robot of the package as well.
+        controllers: The controllers in it.
+        by_plugin: Whether a plugin of the robot refers to it.
+        by_launch: Whether a launch file refers to it and to the description.
+        shared: Whether other robots of the package may use it.
     """
 
     file: SourceFile
@@ -44,10 +44,10 @@ class ControllerFile(NamedTuple):
 
 
 class Package:
-    """The files of the package that a description is in, each read when it is asked for."""
+    """Files of the package that contains a description, read on demand."""
 
     def __init__(self, robot: Robot, description: Description) -> None:
-        """Know where it is."""
+        """Find the folder of the package."""
         self.robot = robot
         self.description = description
         self.workspace = description.workspace
@@ -57,12 +57,12 @@ class Package:
 
     @cached_property
     def controller_files(self) -> list[ControllerFile]:
-        """The files with controllers that are for the robot."""
+        """The controller files of the robot."""
         return list(_found(self.robot, self))
 
     @cached_property
     def launch_files(self) -> list[SourceFile]:
-        """What is in ``launch``, as far as it is text of a likely size."""
+        """The text files in ``launch``, up to a limit of number and size."""
         if self.folder is None:
             return []
         workspace = self.workspace
@@ -72,7 +72,7 @@ class Package:
 
     @cached_property
     def other_files(self) -> list[SourceFile] | None:
-        """The ``.urdf`` and ``.xacro`` that the description is not made of; None if too many."""
+        """Other ``.urdf`` and ``.xacro`` files of the package; None if too many."""
         if self.folder is None:
             return []
         entries, found = 0, []
@@ -91,14 +91,14 @@ class Package:
 
     @cached_property
     def other_robots(self) -> list[SourceFile] | None:
-        """Those of them that are robots, and not this one in another form; None if too many."""
+        """The ``other_files`` that are different robots; None if too many."""
         if self.other_files is None:
             return None
         stem = _stem(self.description.path)
         return [f for f in self.other_files if _stem(f.path) != stem and _is_robot(f)]
 
     def shares(self, path: str) -> bool:
-        """Whether another robot names a file, or is made of what this one is made of."""
+        """Tell whether another robot refers to a file, or includes files of this robot."""
         names = [os.path.basename(other) for other in (path, *self.own)]
         mention = _mention(*names)
         others = self.other_robots
@@ -110,14 +110,14 @@ class Package:
         return bool(robots) and any(_mention(*robots).search(file.data) for file in launches)
 
     def launches(self, path: str) -> bool:
-        """Whether a launch file names the description and another file."""
+        """Tell whether a launch file refers to the description and to another file."""
         one = _mention(self.description.packages.file.name)
         other = _mention(os.path.basename(path))
         return any(one.search(file.data) and other.search(file.data) for file in self.launch_files)
 
 
 def package_of(robot: Robot, description: Description) -> Package:
-    """The package of a robot; the same for all rules that ask."""
+    """Get the package of a robot, one object for all rules."""
     return robot.memo.get("package", lambda: Package(robot, description))
 
 
@@ -178,7 +178,7 @@ def _stem(path: str) -> str:
 
 
 def _is_robot(file: SourceFile) -> bool:
-    """Whether a file is a robot by itself, and no part of one."""
+    """Tell whether a file is a complete robot, and not a part to include."""
     if not _TOP.search(file.data):
         return False
     outside = _MACRO.sub(b"", file.data)

@@ -1,4 +1,4 @@
-"""Controllers of ros_control and ros2_control in YAML, beside the joints that the robot has."""
+"""Rules on controllers of ros_control and ros2_control in YAML files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .controller_files import ControllerFile, Package, package_of
 
 APPLIES_TO = ("ros2_control", "transmission")
 
-_TOLD = ("Broadcaster", "StateController", "SensorController")
+_READ_ONLY = ("Broadcaster", "StateController", "SensorController")
 _WORDS = re.compile(r"[a-z]+|\d+")
 
 
@@ -24,18 +24,17 @@ _WORDS = re.compile(r"[a-z]+|\d+")
     WARNING,
     on=ROS,
     effects={
-        "ros2_control": "has no interface of that joint for the controller",
+        "ros2_control": "has no interface of this joint for the controller",
     },
 )
 def controller_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A controller names a joint that the robot does not have, or that cannot move.
+    """A controller refers to a joint that does not exist, or that is fixed.
 
-    The controllers stand in a YAML file, away from the robot, and a name that is mistaken there is
-    found when the controller is loaded. Looked at are the files that ``<parameters>`` of the plugin
-    that runs ros2_control names, and those of the robot's own package that a launch file names
-    beside the description, or that can be for no other robot. Where parts of the robot are left
-    away by arguments of xacro, or the file is for several robots, only a name that is near to a
-    joint which the controller lacks is told.
+    Controllers are configured in a YAML file, so a wrong joint name is found only when the
+    controller is loaded. Checked are files in ``<parameters>`` of the ros2_control plugin, and
+    files of the robot's package that a launch file uses with the description, or that no other
+    robot uses. If the file is for several robots, or xacro arguments remove parts of the robot,
+    only names that are similar to an unused joint are reported.
     """
     package = package_of(robot, description)
     for file in package.controller_files:
@@ -54,11 +53,11 @@ def _wrong(
     name = joint_of(node)
     if _has(robot, name):
         joint = robot.joint.get(name)
-        fixed = joint is not None and joint.is_fixed and not controller.kind.endswith(_TOLD)
+        fixed = joint is not None and joint.is_fixed and not controller.kind.endswith(_READ_ONLY)
         if fixed and not file.shared:
             yield Problem(
                 robot,
-                f"joint '{name}' is fixed, and controller '{controller.name}' cannot move it",
+                f"joint '{name}' is fixed, so controller '{controller.name}' cannot move it",
                 at=node.place,
             )
         return
@@ -71,7 +70,7 @@ def _wrong(
         asked = f"; did you mean '{near}'?" if near else ""
         yield Problem(
             robot,
-            f"controller '{controller.name}' names joint '{name}', which the robot does not "
+            f"controller '{controller.name}' refers to joint '{name}', which the robot does not "
             f"have{asked}",
             at=node.place,
             data={"joint": name, "suggestion": near},
@@ -80,7 +79,7 @@ def _wrong(
 
 @controller_unknown_joint.fix(UNSAFE)
 def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested joint in the file of controllers."""
+    """Write the suggested joint in the controller file."""
     file, start, end = problem.place.file, problem.place.start, problem.place.end
     wrong = re.search(rb"[\w.-]+(?=[\"']?$)", file.data[start:end])
     name = suggestion_of(problem, wrong[0].decode("utf-8", "replace")) if wrong is not None else ""
@@ -101,7 +100,7 @@ def _has_some(robot: Robot, *controllers: Controller) -> bool:
 
 
 def _is_sure(robot: Robot, package: Package, file: ControllerFile, controller: Controller) -> bool:
-    """Whether a controller is for this robot as it is, and not for one with other arguments."""
+    """Tell whether a controller is for the robot as expanded, not for other xacro arguments."""
     if not file.by_plugin and not file.by_launch:
         return False
     if _has_some(robot, controller):
@@ -115,14 +114,14 @@ def _is_sure(robot: Robot, package: Package, file: ControllerFile, controller: C
 
 
 def _have_prefix(robot: Robot, controller: Controller) -> bool:
-    """Whether the joints of a controller are those of the robot with another prefix."""
+    """Tell whether joints of a controller differ from those of the robot by a prefix only."""
     names = [joint_of(node) for node in controller.joints]
     known = [joint.name for joint in robot.joints if joint.name]
     return all(a not in known and any(a.endswith(b) or b.endswith(a) for b in known) for a in names)
 
 
 def _is_elsewhere(robot: Robot, package: Package, name: str) -> bool:
-    """Whether a name is written in a part of the package that this robot is made without."""
+    """Tell whether a name occurs in a file or a branch that this robot does not use."""
     if name in robot.link:
         return False
     sources = package.description.files if package.description.expansion is not None else []
@@ -131,9 +130,9 @@ def _is_elsewhere(robot: Robot, package: Package, name: str) -> bool:
 
 
 def _meant(robot: Robot, controller: Controller, name: str) -> str:
-    """The joint that was perhaps meant: of nearly that name, and not named by the controller."""
+    """Find the joint with a similar name that the controller does not contain."""
     named = {joint_of(node) for node in controller.joints}
-    if name in robot.link:  # the link's name for that of the joint which moves it
+    if name in robot.link:  # a link name in place of its joint
         joint = robot.tree.parent_joint(name)
         return joint.name if joint is not None and joint.has_axis else ""
     free = [joint.name for joint in robot.moving_joints if joint.name not in named]

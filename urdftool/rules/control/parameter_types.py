@@ -1,4 +1,4 @@
-"""The types that the parameters of ros2_control's controllers must have."""
+"""Rules on the types of parameters of ros2_controllers."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ _DOUBLES: dict[str, tuple[str, ...]] = {
         *_STEERED,
     ),
 }
-"""By class, the parameters that ros2_controllers declares as doubles, or as arrays of them."""
+"""Parameters that ros2_controllers declares as double or double array, by class."""
 
 _INTEGERS: dict[str, tuple[str, ...]] = {
     "DiffDriveController": ("wheels_per_side", "velocity_rolling_window_size"),
@@ -91,11 +91,11 @@ _INTEGERS: dict[str, tuple[str, ...]] = {
     },
 )
 def controller_parameter_type(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A parameter of a controller is an integer where a double is declared, or the other way round.
+    """A controller parameter is an integer instead of a double, or a double instead of an integer.
 
-    A parameter of ROS 2 has one type and nothing is converted. YAML takes ``1`` for an integer and
-    ``1.0`` for a double, so ``wheel_radius: 1`` keeps the controller from being loaded. Looked at
-    are the controllers of ros2_controllers in the files for this robot. One finding names the
+    ROS 2 does not convert parameter types. In YAML ``1`` is an integer and ``1.0`` is a double, so
+    the controller manager cannot load a controller with ``wheel_radius: 1``. Checked are
+    controllers of ros2_controllers in the controller files of the robot. One finding lists all
     parameters of a file.
     """
     if not robot.ros2_controls:
@@ -106,7 +106,7 @@ def controller_parameter_type(robot: Robot, description: Description) -> Iterato
             name, node, right = wrong[0]
             what = "doubles" if node.items is not None else "a double" if _is_int(node) else ""
             names = [f"{one}.{other.key}" for one, other, _ in wrong[1:]]
-            more = f"; the same is true of {some_of(names, 'parameters', 3)}" if names else ""
+            more = f"; the same applies to {some_of(names, 'parameters', 3)}" if names else ""
             yield Problem(
                 robot,
                 f"{node.key} of '{name}' must be {what or 'an integer'} for ROS 2; "
@@ -118,7 +118,7 @@ def controller_parameter_type(robot: Robot, description: Description) -> Iterato
 
 @controller_parameter_type.fix(SAFE)
 def write_declared_type(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the same numbers in the type that is declared; none is rounded."""
+    """Write the same numbers with the declared type, without rounding."""
     for file in package_of(context.robot, context.description).controller_files:
         if file.file.path != problem.place.path:
             continue
@@ -130,12 +130,12 @@ def write_declared_type(problem: Problem, context: FixContext) -> Proposal | Non
             if node.items is not None:
                 pairs = [(item, f"{item.text}.0") for item in node.items]
             spans += [Span(one.file, one.start, one.end, text.encode()) for one, text in pairs]
-        return safe("write the type that is declared", *spans) if spans else None
+        return safe("write the declared type", *spans) if spans else None
     return None
 
 
 def wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:
-    """Parameters of another type than declared: the controller, the value, and what is right."""
+    """Yield parameters with a wrong type: the controller, the value, and the corrected text."""
     try:
         root = yaml_of(file.file)
     except ConfigError:
@@ -160,7 +160,7 @@ def wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:
 
 
 def _at(node: Node, pattern: str) -> Iterator[Node]:
-    """The values at a path of keys, in which a star stands for each key."""
+    """Yield the values at a path of keys; a star matches each key."""
     before, star, after = pattern.partition(".*.")
     found = node.find(*before.split("."))
     if found is None or not star:

@@ -1,4 +1,4 @@
-"""What ``<ros2_control>`` says of the joints of the robot."""
+"""Rules on joints in ``<ros2_control>``."""
 
 from __future__ import annotations
 
@@ -32,18 +32,19 @@ APPLIES_TO = ("ros2_control",)
     },
 )
 def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
-    """A joint in ``<ros2_control>`` is not in the robot.
+    """A joint in ``<ros2_control>`` does not exist in the robot.
 
-    The parser looks up every joint to know its limits and whether it mimics another, and throws at
-    the first that it does not find. No controller starts, in simulation or on the robot.
+    ros2_control reads the limits and ``<mimic>`` of each joint from the URDF, and throws an
+    exception if the joint does not exist. No controller starts, neither in simulation nor on the
+    robot.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
             if joint.name and joint.name not in robot.joint and not is_unexpanded(joint.name):
                 yield Problem(
                     control.element,
-                    f"joint '{joint.name}' of ros2_control '{control.name}' is not in the robot"
-                    + did_you_mean(joint.name, robot.joint),
+                    f"joint '{joint.name}' of ros2_control '{control.name}' does not exist in "
+                    "the robot" + did_you_mean(joint.name, robot.joint),
                     at=joint.element.attribute_place("name"),
                     data={
                         "joint": joint.name,
@@ -54,7 +55,7 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
 
 @ros2_control_unknown_joint.fix(UNSAFE)
 def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested joint, if it is in no block yet."""
+    """Write the suggested joint, unless ``<ros2_control>`` already has it."""
     known = {joint.name for control in context.robot.ros2_controls for joint in control.joints}
     return None if problem.data["suggestion"] in known else write_suggestion(problem)
 
@@ -71,7 +72,8 @@ def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
 def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
     """A joint in ``<ros2_control>`` is fixed.
 
-    The parser throws: fixed joints make no sense to it.
+    A fixed joint has no interfaces. The parser throws an exception, and the controller manager does
+    not start.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
@@ -79,7 +81,7 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
             if written is not None and written.is_fixed:
                 yield Problem(
                     control.element,
-                    f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; take it out",
+                    f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; remove it",
                     at=joint.element.attribute_place("name"),
                     data={"joint": joint.name},
                 )
@@ -87,9 +89,9 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
 
 @ros2_control_fixed_joint.fix(UNSAFE)
 def remove_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the joint, whose states ROS before Jazzy reports."""
+    """Remove the joint; the fix is unsafe because ROS before Jazzy reports its state."""
     element = element_at(problem)
-    return unsafe("take the joint out", remove_element(element)) if element is not None else None
+    return unsafe("remove the joint", remove_element(element)) if element is not None else None
 
 
 @rule(
@@ -100,11 +102,11 @@ def remove_joint(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
-    """A joint that mimics another does not fit its ``<ros2_control>``.
+    """A mimic joint contradicts its ``<ros2_control>``.
 
-    What ``<mimic>`` in the URDF says holds: such a joint takes no command of its own unless it has
-    ``mimic="false"``, the joint it follows is in the same block, and ``mimic="true"`` needs a
-    ``<mimic>`` in the URDF. The parser throws otherwise.
+    The ``<mimic>`` of the URDF applies. Such a joint must not have a command interface unless it
+    has ``mimic="false"``, its leader must be in the same block, and ``mimic="true"`` requires a
+    ``<mimic>`` in the URDF. The parser throws an exception for any violation.
     """
     for control in robot.ros2_controls:
         names = {joint.name for joint in control.joints}
@@ -117,21 +119,21 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                 if joint.mimic == "true":
                     yield Problem(
                         control.element,
-                        f"joint '{joint.name}' has mimic=\"true\" and no <mimic> in the URDF",
+                        f"joint '{joint.name}' has mimic=\"true\" but no <mimic> in the URDF",
                         at=at.attribute_place("mimic"),
                     )
             elif joint.command_interfaces:
                 yield Problem(
                     control.element,
-                    f"joint '{joint.name}' follows '{written.mimic.joint}' and has a command "
-                    'interface; take it out, or write mimic="false"',
+                    f"joint '{joint.name}' mimics '{written.mimic.joint}' but has a command "
+                    'interface; remove it, or write mimic="false"',
                     at=joint.command_interfaces[0],
                     data={"joint": joint.name, "leader": written.mimic.joint},
                 )
             elif written.mimic.joint and written.mimic.joint not in names:
                 yield Problem(
                     control.element,
-                    f"joint '{joint.name}' follows '{written.mimic.joint}', which is not in "
+                    f"joint '{joint.name}' mimics '{written.mimic.joint}', which is not in "
                     f"ros2_control '{control.name}'; add it",
                     at=at.attribute_place("name"),
                     data={"joint": joint.name, "leader": written.mimic.joint},
@@ -140,13 +142,13 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
 
 @ros2_control_mimic.fix(UNSAFE)
 def remove_commands(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the command interfaces, since the joint follows another."""
+    """Remove the command interfaces of a mimic joint."""
     interface = element_at(problem)
     joint = interface.parent if interface is not None else None
     if interface is None or interface.tag != "command_interface" or joint is None:
         return None
     return unsafe(
-        "take its command interfaces out", *map(remove_element, joint.all("command_interface"))
+        "remove its command interfaces", *map(remove_element, joint.all("command_interface"))
     )
 
 
@@ -159,12 +161,11 @@ def remove_commands(problem: Problem, context: FixContext) -> Proposal | None:
     group="robot",
 )
 def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
-    """A ``<param>`` in ``<ros2_control>`` makes a joint a mimic joint.
+    """A ``<param>`` in ``<ros2_control>`` defines a mimic joint.
 
-    ``<param name="mimic">`` was how a joint in ``<ros2_control>`` followed another; since Jazzy
-    ros2_control takes that from the ``<mimic>`` of the URDF. Where the joint has a ``<mimic>`` of
-    the same joint and multiplier, the parameters do no harm, and only older versions read them: it
-    is an info.
+    Since Jazzy, ros2_control ignores ``<param name="mimic">`` and reads the ``<mimic>`` of the
+    URDF. If the joint has a ``<mimic>`` with the same leader and multiplier, only older versions
+    read the parameters, and the finding is an info.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
@@ -185,11 +186,11 @@ def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
 
 
 def _of_mimic_param(joint: ControlComponent, leader: str, mimic: Mimic | None) -> tuple[str, bool]:
-    """Compare the parameters that make a joint a mimic joint with its ``<mimic>``.
+    """Compare the mimic parameters of a joint with its ``<mimic>``.
 
     Args:
         joint: The joint in ``<ros2_control>``.
-        leader: The joint that its parameter names.
+        leader: The joint that its parameter refers to.
         mimic: The ``<mimic>`` of the joint in the URDF.
 
     Returns:
@@ -199,26 +200,26 @@ def _of_mimic_param(joint: ControlComponent, leader: str, mimic: Mimic | None) -
     if mimic is None:
         by = f' multiplier="{factor}"' if factor is not None else ""
         return (
-            f"joint '{joint.name}' follows '{leader}' by a <param>; "
+            f"joint '{joint.name}' mimics '{leader}' by a <param> only; "
             f"write <mimic joint='{leader}'{by}/> into the joint of the URDF",
             False,
         )
     if repeats_mimic(joint.params, mimic):
         return (
-            f"joint '{joint.name}' follows '{leader}' by a <param> and by its <mimic>; "
+            f"joint '{joint.name}' mimics '{leader}' by a <param> and by its <mimic>; "
             f"remove {'the <param>' if factor is None else 'both <param>, mimic and multiplier'}",
             True,
         )
     return (
-        f"joint '{joint.name}' follows '{leader}' with multiplier {factor or 1} by its <param>, "
+        f"joint '{joint.name}' mimics '{leader}' with multiplier {factor or 1} by its <param>, "
         f"but '{mimic.joint}' with multiplier {mimic.multiplier:g} by its <mimic>; "
-        "remove the <param> that are wrong, or correct the <mimic>",
+        "remove the wrong <param>, or correct the <mimic>",
         False,
     )
 
 
 def repeats_mimic(params: Mapping[str, str], mimic: Mimic) -> bool:
-    """Whether the parameters of a joint in ``<ros2_control>`` repeat its ``<mimic>``."""
+    """Tell whether parameters of a joint in ``<ros2_control>`` repeat its ``<mimic>``."""
     return params.get("mimic") == mimic.joint and (
         number(params.get("multiplier", "1")) == mimic.multiplier
     )
@@ -226,7 +227,10 @@ def repeats_mimic(params: Mapping[str, str], mimic: Mimic) -> bool:
 
 @ros2_control_legacy_mimic_param.fix(UNSAFE)
 def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
-    """Leave it to the ``<mimic>`` of the URDF, which ROS before Jazzy does not read here."""
+    """Remove the parameters, and write a ``<mimic>`` if the joint has none.
+
+    The fix is unsafe because ROS before Jazzy reads the parameters.
+    """
     param = element_at(problem)
     part = param.parent if param is not None else None
     joint = context.robot.joint.get(part.get("name") or "") if part is not None else None
@@ -248,4 +252,4 @@ def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
     params = {p.get("name") or "": p.text.strip() for p in part.all("param")}
     if not repeats_mimic(params, joint.mimic):
         return None
-    return unsafe("remove it: the joint has its <mimic>", *changes)
+    return unsafe("remove it: the joint has a <mimic>", *changes)

@@ -1,4 +1,4 @@
-"""The form of ``<ros2_control>``."""
+"""Rules on the elements of ``<ros2_control>``."""
 
 from __future__ import annotations
 
@@ -37,9 +37,10 @@ _CHILDREN = ("hardware", "properties", "joint", "sensor", "gpio", "transmission"
     },
 )
 def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
-    """A ``<ros2_control>`` lacks its name or type, or is of a type that there is not.
+    """A ``<ros2_control>`` has no name or type, or an unknown type.
 
-    There are ``system``, ``sensor`` and ``actuator``.
+    The types are ``system``, ``sensor`` and ``actuator``. The controller manager stops with an
+    exception.
     """
     for control in robot.ros2_controls:
         for name in ("name", "type"):
@@ -48,8 +49,8 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
         if control.type and control.type not in _TYPES:
             yield Problem(
                 control.element,
-                f"ros2_control '{control.name}' is of type '{control.type}'; "
-                f"there are {', '.join(_TYPES)}" + did_you_mean(control.type, _TYPES),
+                f"ros2_control '{control.name}' has the unknown type '{control.type}'; "
+                f"the types are {', '.join(_TYPES)}" + did_you_mean(control.type, _TYPES),
                 at=control.element.attribute_place("type"),
                 data={"type": control.type, "suggestion": nearest(control.type, _TYPES)},
             )
@@ -63,9 +64,10 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
     },
 )
 def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
-    """The hardware or a transmission of a ``<ros2_control>`` names no plugin.
+    """The hardware or a transmission of a ``<ros2_control>`` has no ``<plugin>``.
 
-    ``<plugin>`` says which class speaks to the hardware; without it the parser throws.
+    ``<plugin>`` is the class of the hardware interface or the transmission. Without it the
+    controller manager stops with an exception.
     """
     for control in robot.ros2_controls:
         hardware = control.element.child("hardware")
@@ -81,7 +83,7 @@ def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
             ):
                 yield Problem(
                     control.element,
-                    f"<{child.tag}> of ros2_control '{control.name}' names no <plugin>",
+                    f"<{child.tag}> of ros2_control '{control.name}' has no <plugin>",
                     at=child,
                 )
 
@@ -94,16 +96,17 @@ def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
     },
 )
 def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
-    """A ``<ros2_control>`` holds an element that it does not know.
+    """A ``<ros2_control>`` contains an unknown element.
 
-    There are hardware, joint, sensor, gpio and transmission; at any other the parser throws.
+    The known elements are hardware, properties, joint, sensor, gpio and transmission. The
+    controller manager stops with an exception for any other.
     """
     for control in robot.ros2_controls:
         for child in control.element.children:
             if child.tag not in _CHILDREN and ":" not in child.tag:
                 yield Problem(
                     control.element,
-                    f"ros2_control '{control.name}' has a <{child.tag}>; there are "
+                    f"ros2_control '{control.name}' has an unknown <{child.tag}>; it may have "
                     f"{', '.join(_CHILDREN)}{did_you_mean(child.tag, _CHILDREN)}",
                     at=child,
                     data={"suggestion": nearest(child.tag, _CHILDREN)},
@@ -128,10 +131,10 @@ def write_element(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
-    """A ``<ros2_control>`` does not stand directly in the robot.
+    """A ``<ros2_control>`` is not a child of ``<robot>``.
 
-    It is looked for among the children of ``<robot>`` only. Inside ``<gazebo>``, where one might
-    expect it, it is not seen.
+    The controller manager only reads children of ``<robot>``, and finds no ros2_control elements
+    inside others such as ``<gazebo>``.
     """
     for child in robot.element.children:
         if child.tag == "ros2_control":
@@ -140,13 +143,14 @@ def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
             if element.tag == "ros2_control":
                 yield Problem(
                     element,
-                    f"<ros2_control> stands inside <{child.tag}>; move it up into <robot>",
+                    f"<ros2_control> is inside <{child.tag}>, where it is not read; move it "
+                    "into <robot>",
                 )
 
 
 @ros2_control_nested.fix(BOTH)
 def move_up(problem: Problem, context: FixContext) -> Proposal | None:
-    """Move it up into the robot; it is unsafe if another is there, whose hardware it joins."""
+    """Move it into the robot; unsafe if the robot has another ``<ros2_control>``."""
     element = problem.element
     make = unsafe if context.robot.element.child("ros2_control") is not None else safe
     top: Element = element
@@ -156,8 +160,10 @@ def move_up(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     alone = element.parent is top and len(top.children) == 1 and top.tag == "gazebo"
     if alone and not top.attributes:
-        return make("move it up", replace_element(top, tuple(written_lines(element))))
-    return make("move it up", remove_element(element), insert_after(top, *written_lines(element)))
+        return make("move it into <robot>", replace_element(top, tuple(written_lines(element))))
+    return make(
+        "move it into <robot>", remove_element(element), insert_after(top, *written_lines(element))
+    )
 
 
 @rule(
@@ -168,9 +174,9 @@ def move_up(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def ros2_control_bad_param(robot: Robot) -> Iterator[Problem]:
-    """A ``<param>`` has no name, or an interface a size that is none.
+    """A ``<param>`` has no name, or the ``size`` of an interface is not a positive integer.
 
-    Every parameter is found by its name; ``size`` is a whole number above 0.
+    The controller manager stops with an exception.
     """
     for control in robot.ros2_controls:
         for element in control.element.walk():
@@ -187,6 +193,6 @@ def ros2_control_bad_param(robot: Robot) -> Iterator[Problem]:
                     yield Problem(
                         control.element,
                         f"size of interface '{element.get('name') or ''}' is '{size}'; "
-                        "write a whole number above 0",
+                        "write a positive integer",
                         at=element.attribute_place("size"),
                     )

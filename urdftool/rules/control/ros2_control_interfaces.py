@@ -1,4 +1,4 @@
-"""Which interfaces ``<ros2_control>`` gives the joints of the robot."""
+"""Rules on the interfaces of joints in ``<ros2_control>``."""
 
 from __future__ import annotations
 
@@ -34,10 +34,11 @@ APPLIES_TO = ("ros2_control",)
     },
 )
 def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
-    """An interface of a joint is there twice.
+    """A joint has the same interface twice.
 
-    Each interface is a resource with a name, ``joint/position``. The same one twice in a joint, or
-    the same command in two blocks of hardware, is a conflict.
+    The name of an interface, such as ``joint/position``, must be unique. The controller manager
+    refuses the same interface twice in a joint, or the same command interface in two
+    ``<ros2_control>`` blocks.
     """
     commands: dict[tuple[str, str], str] = {}
     for control in robot.ros2_controls:
@@ -54,7 +55,7 @@ def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
                         other = commands.setdefault((part.name, name), control.name)
                     if name in seen or other != control.name:
                         elsewhere = other != control.name
-                        where = f" in '{other}' already" if elsewhere else " twice"
+                        where = f", already in '{other}'" if elsewhere else " twice"
                         data = {"interface": name}
                         yield Problem(
                             control.element,
@@ -67,11 +68,11 @@ def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
 
 @ros2_control_duplicate_interface.fix(UNSAFE)
 def remove_second(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the second of one joint; of two blocks none is chosen."""
+    """Remove the second interface of a joint; if two blocks conflict, none is chosen."""
     element = element_at(problem)
     if element is None or "block" in problem.data:
         return None
-    return unsafe("take the second out", remove_element(element))
+    return unsafe("remove the second", remove_element(element))
 
 
 _STANDARD = ("position", "velocity", "acceleration", "effort")
@@ -85,10 +86,10 @@ _STANDARD = ("position", "velocity", "acceleration", "effort")
     },
 )
 def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
-    """An interface of a joint is nearly called as usual.
+    """The name of an interface is similar to a standard name.
 
-    Controllers look for ``position``, ``velocity``, ``acceleration`` and ``effort``. Other names
-    are right for hardware with more to say; a ``postion`` is found by nobody.
+    Controllers look for ``position``, ``velocity``, ``acceleration`` and ``effort``. Hardware may
+    have other interfaces, but a controller does not find ``postion``.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
@@ -97,7 +98,7 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
                 if interface.name not in _STANDARD and near:
                     yield Problem(
                         control.element,
-                        f"joint '{joint.name}' has an interface '{interface.name}'"
+                        f"joint '{joint.name}' has the nonstandard interface '{interface.name}'"
                         + did_you_mean(interface.name, _STANDARD, 0.8),
                         at=interface.element.attribute_place("name"),
                         data={"suggestion": near},
@@ -115,19 +116,18 @@ def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
     on=("ros2",),
     effects={
         "joint_trajectory_controller": (
-            "does not activate where it needs a state interface that is not there"
+            "does not activate if a required state interface is missing"
         ),
     },
 )
 def command_without_state(robot: Robot) -> Iterator[Problem]:
-    """A joint has a command interface and no state interface of that name.
+    """A joint has a command interface but no state interface of the same name.
 
-    Most controllers read the state of what they command: the trajectory controller does not
-    configure a joint of which it commands the velocity without its position and velocity. The
-    wheels of a drive are different: ``diff_drive_controller`` commands their velocity and reads
-    their position, or their velocity with ``position_feedback: false``. A joint that turns without
-    end is therefore right with either state. The state may be in another ``<ros2_control>`` block,
-    as that of a sensor is.
+    Most controllers read the state that they command: the trajectory controller requires position
+    and velocity states of a joint whose velocity it commands. ``diff_drive_controller`` commands
+    wheel velocities and reads positions, or velocities with ``position_feedback: false``; so one of
+    the two states is enough for a continuous joint. The state may be in a different
+    ``<ros2_control>`` block, such as that of a sensor.
     """
     given: dict[str, set[str]] = {}
     for control in robot.ros2_controls:
@@ -149,7 +149,8 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
                 words = quoted(interface.name for interface in missing)
                 yield Problem(
                     control.element,
-                    f"joint '{joint.name}' has the command {words} and not the state of that name",
+                    f"joint '{joint.name}' has the command interface {words} but no such state "
+                    "interface",
                     at=missing[0],
                     data={"missing": [interface.name for interface in missing]},
                 )
@@ -157,7 +158,7 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
 
 @command_without_state.fix(UNSAFE)
 def add_state(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the states of these names."""
+    """Add the missing state interfaces."""
     interface = element_at(problem)
     joint = interface.parent if interface is not None else None
     if joint is None:
@@ -172,7 +173,7 @@ def add_state(problem: Problem, context: FixContext) -> Proposal | None:
     names = [command.get("name") or "" for command in joint.all("command_interface")]
     missing = [name for name in names if name in ("position", "velocity") and name not in states]
     lines = tuple((f'<state_interface name="{name}"/>',) for name in dict.fromkeys(missing))
-    return unsafe("add the state", Change("insert", joint, blocks=lines))
+    return unsafe("add the state interface", Change("insert", joint, blocks=lines))
 
 
 @rule(
@@ -183,10 +184,10 @@ def add_state(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
-    """A joint moves and is in no ``<ros2_control>`` block, though others are.
+    """A moving joint is not in any ``<ros2_control>`` block, but other joints are.
 
-    Nobody reports where it is: RViz finds no transform to what hangs on it. A joint that is only to
-    be reported needs a state interface and no command.
+    No broadcaster publishes its state, so RViz has no transform to the links below it. A joint that
+    is only measured needs a state interface and no command interface.
     """
     known = {joint.name for control in robot.ros2_controls for joint in control.joints}
     if not known or not known.intersection(robot.joint) or _reports_otherwise(robot):
@@ -195,14 +196,15 @@ def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
         if joint.mimic is None and joint.has_axis and joint.name not in known:
             yield Problem(
                 joint,
-                f"joint '{joint.name}' moves and is in no <ros2_control>; "
-                "add it there with a state interface",
+                f"moving joint '{joint.name}' is not in <ros2_control>, so its state is not "
+                "published; "
+                "add it with a state interface",
             )
 
 
 @joint_outside_ros2_control.fix(UNSAFE)
 def add_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the joint to the one block there is, with its states and no command."""
+    """Add the joint with its states and without commands, if there is exactly one block."""
     joint = context.joint(problem)
     if len(context.robot.ros2_controls) != 1 or is_computed(joint.element):
         return None
@@ -217,7 +219,7 @@ def add_joint(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _reports_otherwise(robot: Robot) -> bool:
-    """Whether a plugin of Gazebo reports joints as well."""
+    """Tell whether a Gazebo plugin publishes joint states as well."""
     words = ("drive", "joint-state", "joint_state")
     return any(word in plugin.filename for plugin in robot.plugins for word in words)
 
@@ -230,10 +232,10 @@ def _reports_otherwise(robot: Robot) -> bool:
     },
 )
 def bad_initial_value(robot: Robot) -> Iterator[Problem]:
-    """The ``initial_value`` of an interface is no number, or outside the joint's limits.
+    """The ``initial_value`` of an interface is not a number, or is outside the joint limits.
 
-    The simulated hardware starts the joint there. Text that is no number ends it; a position
-    outside the limits is corrected with a jolt.
+    The simulated hardware starts the joint at this value. It stops with an exception if the text is
+    not a number, and moves a position outside the limits abruptly to the limit.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
@@ -243,11 +245,11 @@ def bad_initial_value(robot: Robot) -> Iterator[Problem]:
                     continue
                 value = number(text)
                 if value is None:
-                    wrong = "is no number"
+                    wrong = "is not a number"
                 elif interface.name == "position" and (
                     limits := _outside(robot, joint.name, value)
                 ):
-                    wrong = f"is outside the limits, {limits}"
+                    wrong = f"is outside the joint limits {limits}"
                 else:
                     continue
                 yield Problem(

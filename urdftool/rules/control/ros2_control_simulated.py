@@ -1,4 +1,4 @@
-"""ros2_control in Gazebo."""
+"""Rules on ros2_control in Gazebo."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ _ANY_PLUGINS = ("gazebo_ros2_control", *_GZ_PLUGINS)
     },
 )
 def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """The simulated hardware is that of the other Gazebo.
+    """The simulated hardware is for a different version of Gazebo.
 
     ``gazebo_ros2_control/GazeboSystem`` is for Gazebo Classic, ``gz_ros2_control/GazeboSimSystem``
-    for new Gazebo. The class of the one is not found by the other. Where the robot is for both,
-    the plugin that runs ros2_control tells which.
+    for new Gazebo. Each version only finds its own class. If both versions are targets, the
+    ros2_control plugin of the robot decides.
     """
     if {"gz", "gazebo-classic"} <= targets:
         targets = _of_plugins(robot)
@@ -61,7 +61,7 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
         if plugin.startswith(wrong) and hardware is not None:
             yield Problem(
                 control.element,
-                f"'{plugin}' is for the other Gazebo; write {right}",
+                f"'{plugin}' is for a different version of Gazebo; write {right}",
                 at=hardware.child("plugin"),
                 data={"write": right},
             )
@@ -69,7 +69,7 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
 
 @ros2_control_wrong_sim_plugin.fix(UNSAFE)
 def write_hardware(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the class of the Gazebo that it is for."""
+    """Write the class of the target version of Gazebo."""
     element = element_at(problem)
     right = problem.data["write"]
     if element is None or element.tag != "plugin":
@@ -78,7 +78,7 @@ def write_hardware(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _of_plugins(robot: Robot) -> frozenset[str]:
-    """The Gazebos for which a plugin runs ros2_control."""
+    """Find the versions of Gazebo for which a plugin runs ros2_control."""
     names = [plugin.filename for plugin in robot.plugins]
     found = {"gz" for name in names if any(word in name for word in _GZ_PLUGINS)}
     found |= {"gazebo-classic" for name in names if "gazebo_ros2_control" in name}
@@ -96,10 +96,10 @@ def _of_plugins(robot: Robot) -> frozenset[str]:
     },
 )
 def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
-    """Of simulated hardware and the plugin that runs it, one is missing.
+    """Simulated hardware without a ros2_control plugin, or a plugin without hardware.
 
-    The hardware in ``<ros2_control>`` and the plugin in ``<gazebo>`` belong together: the plugin
-    starts the controller_manager inside Gazebo, the hardware moves the joints there.
+    Both are required: the plugin in ``<gazebo>`` starts the controller_manager inside Gazebo, and
+    the hardware in ``<ros2_control>`` moves the joints.
     """
     simulated = [
         control
@@ -117,14 +117,15 @@ def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
         wanted = "libgazebo_ros2_control.so" if classic else "gz_ros2_control-system"
         yield Problem(
             first.element,
-            f"ros2_control '{first.name}' is simulated, and no <gazebo><plugin> runs it; "
+            f"ros2_control '{first.name}' has simulated hardware, but no Gazebo plugin runs it; "
             f'add one with filename="{wanted}"',
             data={"plugin": wanted},
         )
     elif plugins and not any(control.plugin for control in robot.ros2_controls):
         yield Problem(
             plugins[0].element,
-            f"plugin '{plugins[0].name}' runs ros2_control, and there is no <ros2_control> block",
+            f"plugin '{plugins[0].name}' runs ros2_control, but the robot has no "
+            "<ros2_control> block",
         )
 
 
@@ -136,7 +137,7 @@ _RUNS = {
 
 @ros2_control_sim_plugin_pair.fix(UNSAFE)
 def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the plugin, if the package has one file of controllers, without which it fails."""
+    """Add the plugin, if the package has exactly one controller file, which the plugin requires."""
     described = context.description
     own = described.packages.own
     controls = [c for c in context.robot.ros2_controls if c.element is problem.element]
@@ -179,10 +180,10 @@ def _manages(workspace: Workspace, path: Path) -> bool:
     },
 )
 def ros2_control_empty_parameters(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The plugin that runs ros2_control names no file of controllers, or one that is not there.
+    """The ros2_control plugin has no controller file, or the file does not exist.
 
-    ``<parameters>`` is the path of the YAML file with the controllers. Empty, it ends the plugin;
-    where the file is missing no controller can be loaded.
+    ``<parameters>`` is the path of the YAML file with the controllers. The plugin fails if it is
+    empty; if the file does not exist, no controller can be loaded.
     """
     for plugin in robot.plugins:
         if not any(word in plugin.filename for word in _ANY_PLUGINS):
@@ -192,9 +193,9 @@ def ros2_control_empty_parameters(robot: Robot, description: Description) -> Ite
             if "$(" in text or "${" in text:
                 continue
             if not text:
-                wrong = "is empty; name the YAML file of the controllers"
+                wrong = "is empty; write the path of the controller file"
             elif text.startswith(("/", "package://")) and not _is_there(text, description):
-                wrong = f"names '{text}', which is not there"
+                wrong = f"refers to '{text}', which does not exist"
             else:
                 continue
             yield Problem(
@@ -206,7 +207,7 @@ def _is_there(path: str, description: Description) -> bool:
     try:
         return description.workspace.exists(description.resolve(path))
     except PackageNotFound:
-        return True  # it cannot be said
+        return True  # cannot be checked
 
 
 _IMU = tuple(
@@ -228,9 +229,9 @@ _IMU = tuple(
     },
 )
 def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
-    """A state interface of an IMU is none that there is.
+    """A state interface of an IMU is unknown.
 
-    The simulated hardware looks the name up in a table without asking whether it is there.
+    The simulated hardware stops with an exception if a name is not in its table.
     """
     imus = {s.name for block in robot.gazebo for s in block.sensors if s.type == "imu"}
     for control in robot.ros2_controls:
@@ -244,7 +245,10 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                     yield Problem(
                         control.element,
                         f"sensor '{part.name}' has no state '{interface.name}'"
-                        + (did_you_mean(interface.name, _IMU) or f"; there are {', '.join(_IMU)}"),
+                        + (
+                            did_you_mean(interface.name, _IMU)
+                            or f"; the states are {', '.join(_IMU)}"
+                        ),
                         at=interface.element.attribute_place("name"),
                         data={"suggestion": nearest(interface.name, _IMU)},
                     )
@@ -264,10 +268,10 @@ def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
-    """A sensor of ``<ros2_control>`` is no sensor in Gazebo.
+    """A sensor of ``<ros2_control>`` does not exist in Gazebo.
 
-    The simulated hardware finds sensors by their name; the ``<sensor>`` in the ``<gazebo>`` block
-    must have the same.
+    The simulated hardware finds sensors by name: the ``<sensor>`` in the ``<gazebo>`` block must
+    have the same name.
     """
     known = [sensor.name for block in robot.gazebo for sensor in block.sensors]
     for control in robot.ros2_controls:
@@ -277,7 +281,7 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
             if part.kind == "sensor" and part.name not in known:
                 yield Problem(
                     control.element,
-                    f"no <sensor> of a <gazebo> block is called '{part.name}'"
+                    f"no <sensor> in a <gazebo> block has the name '{part.name}'"
                     + did_you_mean(part.name, known),
                     at=part.element.attribute_place("name"),
                     data={"sensor": part.name, "suggestion": nearest(part.name, known)},

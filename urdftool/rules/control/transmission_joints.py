@@ -1,4 +1,4 @@
-"""The joints that transmissions of ros_control drive."""
+"""Rules on joints of transmissions of ros_control."""
 
 from __future__ import annotations
 
@@ -39,9 +39,8 @@ APPLIES_TO = ("transmission", "plugin")
 def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
     """A transmission drives a fixed joint.
 
-    There is nothing to drive, and in Gazebo the joint does not even exist: fixed joints are lumped.
-    It is an error where the plugin of ``gazebo_ros_control`` is loaded and reads the transmission,
-    and a warning elsewhere.
+    A fixed joint cannot move, and Gazebo removes it by fixed joint lumping. The finding is an error
+    if the ``gazebo_ros_control`` plugin reads the transmission, and a warning in other cases.
     """
     loaded = any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins)
     for transmission in robot.transmissions:
@@ -61,7 +60,7 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                     keys.append("gazebo_ros_control (loaded)")
             yield Problem(
                 transmission.element,
-                f"{called(transmission)} drives '{joint.name}', which is fixed",
+                f"{called(transmission)} drives joint '{joint.name}', which is fixed",
                 at=joint.element.attribute_place("name"),
                 severity=None if len(keys) > 1 else WARNING,
                 effects=keys,
@@ -71,11 +70,11 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
 
 @transmission_on_immovable_joint.fix(UNSAFE)
 def remove_transmission(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the transmission, if it drives no other joint."""
+    """Remove the transmission, if it drives only this joint."""
     transmission = problem.element
     if sum(1 for _ in transmission.all("joint")) != 1:
         return None
-    return unsafe("take the transmission out", remove_element(transmission))
+    return unsafe("remove the transmission", remove_element(transmission))
 
 
 _PASSIVE = re.compile(
@@ -90,11 +89,11 @@ _PASSIVE = re.compile(
     group="robot",
 )
 def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
-    """A joint moves and has no transmission, in a robot that ros_control drives.
+    """A moving joint has no transmission, in a robot with gazebo_ros_control.
 
-    ``gazebo_ros_control`` knows the joints of transmissions and no others: this one swings freely,
-    and no joint state tells where it is. In a loop that a joint of SDF closes the others move it;
-    and casters, suspensions and other passive joints, by their names, are not driven.
+    ``gazebo_ros_control`` only handles joints of transmissions: other joints move freely, and their
+    state is not published. Joints of a loop that an SDF joint closes are not reported, neither are
+    casters, suspensions and other passive joints, recognized by name.
     """
     if not any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins):
         return
@@ -112,13 +111,13 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
         if not is_locked(joint) and not any(map(_PASSIVE.search, (joint.name, joint.child))):
             yield Problem(
                 joint,
-                f"joint '{joint.name}' moves and has no <transmission>, so nothing drives it",
+                f"joint '{joint.name}' moves but has no <transmission>, so nothing drives it",
             )
 
 
 @actuated_joint_without_transmission.fix(UNSAFE)
 def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add a transmission like those of the other joints, if these have one interface."""
+    """Add a transmission with the interface of the others, if they have the same."""
     joint = context.joint(problem)
     used = [
         text
@@ -145,14 +144,14 @@ def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _in_loops(robot: Robot) -> Iterator[str]:
-    """Joints of the loops that a ``<joint>`` in a ``<gazebo>`` closes."""
+    """Yield the joints of loops that a ``<joint>`` in a ``<gazebo>`` block closes."""
     for block in robot.gazebo:
         for joint in () if block.reference else block.element.all("joint"):
             sides = []
             for end in (joint.child("parent"), joint.child("child")):
                 name = end.text.strip() if end is not None else ""
                 if name not in robot.link and name != "world":
-                    yield from robot.joint  # which of them are in the loop is not known
+                    yield from robot.joint  # the joints of the loop are unknown
                 sides.append({name, *robot.tree.ancestors(name)} if name in robot.link else set())
             for name in sides[0] ^ sides[1]:
                 above = robot.tree.parent_joint(name)
@@ -168,11 +167,11 @@ def _in_loops(robot: Robot) -> Iterator[str]:
     },
 )
 def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
-    """A transmission of ROS 1 stands in a robot for ROS 2.
+    """A robot for ROS 2 has transmissions of ROS 1.
 
-    ``ros2_control`` looks for transmissions inside ``<ros2_control>``, and passes over those
-    directly in the robot. A robot that loads a plugin of Gazebo in ROS 1 which reads them is not
-    reported, whatever ROS its package is for.
+    ros2_control reads transmissions inside ``<ros2_control>`` and ignores those in ``<robot>``. A
+    robot with a ROS 1 Gazebo plugin that reads them is not reported, even if its package is for ROS
+    2.
     """
     if robot.transmissions and not any(_reads_transmissions(one) for one in robot.plugins):
         first = robot.transmissions[0]
@@ -181,13 +180,13 @@ def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             first.element,
             f"transmission '{first.name}'{more} is not read in ROS 2; "
-            "<ros2_control> says how joints are driven",
+            "write the interfaces in <ros2_control>",
             data={"transmissions": [one.name for one in robot.transmissions]},
         )
 
 
 def _reads_transmissions(plugin: Plugin) -> bool:
-    """Tell whether a plugin of Gazebo reads the transmissions of ROS 1."""
+    """Tell whether a Gazebo plugin reads the transmissions of ROS 1."""
     name = plugin.filename.rpartition("/")[2].removeprefix("lib").removesuffix(".so")
     return name in ("gazebo_ros_control", "gazebo_ros_controller_manager")
 
@@ -202,17 +201,17 @@ _NO_HARDWARE = "mock_components/GenericSystem"
 
 @ros1_transmission_in_ros2.fix(UNSAFE)
 def write_ros2_control(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write a ``<ros2_control>`` with the same joints and interfaces in their place.
+    """Replace the transmissions by a ``<ros2_control>`` with the same joints and interfaces.
 
-    Its hardware is that of the simulator, or the one that only repeats commands: which drives the
-    real robot only its maker knows.
+    Its hardware is that of the simulator, or one that only mirrors commands; the driver of the real
+    robot is unknown.
     """
     robot, targets = context.robot, context.targets
     if "ros1" in targets or set(_HARDWARE) <= targets:
         return None
     joints = list(_driven(robot))
     if not all(commands or robot.joint[name].mimic is not None for name, commands in joints):
-        return None  # transmissions that another reader than ros_control has
+        return None  # transmissions for a reader other than ros_control
     if not joints:
         return None
     if robot.ros2_controls:
@@ -220,7 +219,8 @@ def write_ros2_control(problem: Problem, context: FixContext) -> Proposal | None
         if not there.issuperset(name for name, _ in joints):
             return None
         return unsafe(
-            "leave it to <ros2_control>", *(remove_element(t.element) for t in robot.transmissions)
+            "remove it: <ros2_control> has the joints",
+            *(remove_element(t.element) for t in robot.transmissions),
         )
     if any(is_computed(t.element) or t.element.calls for t in robot.transmissions):
         return None
@@ -248,7 +248,7 @@ def write_ros2_control(problem: Problem, context: FixContext) -> Proposal | None
 
 
 def _driven(robot: Robot) -> Iterator[tuple[str, list[str]]]:
-    """Get the joints of transmissions, each once, with their commands; none for followers."""
+    """Get the joints of transmissions, each once, with their commands; none for mimic joints."""
     found: dict[str, list[str]] = {}
     for transmission in robot.transmissions:
         for joint in transmission.joints:

@@ -1,4 +1,4 @@
-"""Transmissions of ros_control."""
+"""Rules on transmissions of ros_control."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ JOINT_INTERFACES = ("EffortJointInterface", "PositionJointInterface", "VelocityJ
 
 
 def called(transmission: Transmission) -> str:
-    """A transmission by its name, or by its first joint."""
+    """Describe a transmission by its name, or by its first joint."""
     if transmission.name:
         return f"transmission '{transmission.name}'"
     joint = transmission.joints[0].name if transmission.joints else ""
@@ -37,10 +37,10 @@ def called(transmission: Transmission) -> str:
 
 @rule(ERROR, effects={"gazebo_ros_control": "fails to start: no joint is controlled"})
 def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
-    """A transmission names a joint that is not there.
+    """A transmission refers to a joint that does not exist.
 
-    ``gazebo_ros_control`` looks every joint up and gives up at the first that it does not find, so
-    one misspelt name leaves the whole robot limp. Drivers of real hardware do much the same.
+    ``gazebo_ros_control`` stops at the first unknown joint, so no joint of the robot is controlled.
+    Many hardware drivers do the same.
     """
     driven = {joint.name for transmission in robot.transmissions for joint in transmission.joints}
     idle = [name for name, joint in robot.joint.items() if name not in driven and joint.has_axis]
@@ -49,8 +49,8 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
             if joint.name and joint.name not in robot.joint and not is_unexpanded(joint.name):
                 yield Problem(
                     transmission.element,
-                    f"{called(transmission)} names joint '{joint.name}', "
-                    f"which is not there{did_you_mean(joint.name, idle, 0.8)}",
+                    f"{called(transmission)} refers to joint '{joint.name}', "
+                    f"which does not exist{did_you_mean(joint.name, idle, 0.8)}",
                     at=joint.element.attribute_place("name"),
                     data={"joint": joint.name, "suggestion": nearest(joint.name, idle, 0.8)},
                 )
@@ -58,7 +58,7 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
 
 @transmission_unknown_joint.fix(UNSAFE)
 def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested joint, which no transmission drives."""
+    """Write the suggested joint, which no other transmission drives."""
     return write_suggestion(problem)
 
 
@@ -66,30 +66,29 @@ def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
     WARNING,
     on=("ros1",),
     effects={
-        "gazebo_ros_control": "accepts it, and warns of deprecated syntax at every start",
+        "gazebo_ros_control": "accepts it, with a warning of deprecated syntax at every start",
     },
     group="robot",
 )
 def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
-    """A hardware interface lacks its ``hardware_interface/``.
+    """A hardware interface has no prefix ``hardware_interface/``.
 
-    ``EffortJointInterface`` alone is the syntax of before 2014. It is still taken, with a warning
-    for every joint, by ``gazebo_ros_control``; other hardware compares the whole name and finds
-    none.
+    ``EffortJointInterface`` alone is deprecated since 2014. ``gazebo_ros_control`` accepts it with
+    a warning for each joint; other hardware compares the full name and does not find it.
     """
     for transmission in robot.transmissions:
         if not transmission.name:
-            continue  # it is not read, which is reported
+            continue  # another rule reports that it is not read
         for joint in transmission.joints:
             for child in joint.element.all("hardwareInterface"):
                 name = child.text.strip()
                 if name in JOINT_INTERFACES:
                     yield Problem(
                         transmission.element,
-                        f"'{name}' in {called(transmission)} lacks its prefix; "
+                        f"'{name}' in {called(transmission)} has no prefix; "
                         f"write hardware_interface/{name}",
                         at=child,
-                        group="{count} hardware interfaces lack their prefix hardware_interface/, "
+                        group="{count} hardware interfaces have no prefix hardware_interface/, "
                         "in the transmissions {names}",
                     )
 
@@ -117,10 +116,10 @@ def write_prefix(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
-    """A transmission lacks its type, joint or actuator.
+    """A transmission has no type, joint or actuator.
 
-    The parser skips such a transmission with one line in the log, and a controller for its joint
-    then says that there is no such joint.
+    The parser skips the transmission with an error in the log, and a controller then reports that
+    its joint does not exist.
     """
     for transmission in robot.transmissions:
         if transmission.type.startswith("pr2_"):
@@ -152,9 +151,9 @@ def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
 def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
     """The joint of a transmission has no hardware interface.
 
-    Without ``<hardwareInterface>`` in the joint it is not known whether it is driven by effort,
-    velocity or position; the transmission is skipped. One inside the ``<actuator>`` is the layout
-    of before 2014 and does not count.
+    ``<hardwareInterface>`` in the joint selects effort, velocity or position; without it the
+    transmission is skipped. A ``<hardwareInterface>`` in the ``<actuator>`` is the layout before
+    2014, and is not read.
     """
     for transmission in robot.transmissions:
         if transmission.type.startswith("pr2_"):
@@ -163,18 +162,21 @@ def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
         for joint in transmission.joints:
             if joint.hardware_interfaces or not joint.name:
                 continue
-            where = "only in its actuator; move it into" if inside else "in none; write it into"
+            what = (
+                "has its <hardwareInterface> in the actuator; move it"
+                if inside
+                else ("has no <hardwareInterface>; write it")
+            )
             yield Problem(
                 transmission.element,
-                f"{called(transmission)} has its <hardwareInterface> {where} "
-                f'<joint name="{joint.name}">',
+                f'{called(transmission)} {what} into <joint name="{joint.name}">',
                 at=inside[0] if inside else joint,
             )
 
 
 @missing_hardware_interface.fix(UNSAFE)
 def move_interface(problem: Problem, context: FixContext) -> Proposal | None:
-    """Move the interface of the actuator into the joint."""
+    """Move the interface from the actuator into the joint."""
     transmission = problem.element
     joints = [joint for joint in transmission.all("joint") if not joint.child("hardwareInterface")]
     inside = [
@@ -202,10 +204,10 @@ _KNOWN = (
 
 @rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "fails to start: no joint is controlled"})
 def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
-    """A hardware interface is none that there is.
+    """A hardware interface is unknown.
 
-    ``gazebo_ros_control`` knows effort, position and velocity; any other name ends its start with a
-    fatal error, for all joints.
+    ``gazebo_ros_control`` reads effort, position and velocity interfaces; any other name stops it
+    with a fatal error, so no joint is controlled.
     """
     for transmission in robot.transmissions:
         for joint in transmission.joints:
@@ -214,12 +216,12 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 if name in JOINT_INTERFACES or name in _KNOWN or is_unexpanded(name):
                     continue
                 if "/" in name and not name.startswith("hardware_interface/"):
-                    continue  # that of another package
+                    continue  # interface of another package
                 near = did_you_mean(name, _KNOWN, 0.6)
                 yield Problem(
                     transmission.element,
-                    f"'{name}' in {called(transmission)} is no hardware interface"
-                    + (near or "; write such as hardware_interface/EffortJointInterface"),
+                    f"'{name}' in {called(transmission)} is not a hardware interface"
+                    + (near or "; write, for example, hardware_interface/EffortJointInterface"),
                     at=child,
                     data={"suggestion": nearest(name, _KNOWN, 0.6)},
                 )
@@ -241,9 +243,10 @@ def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
 def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
     """A joint of a transmission has several hardware interfaces.
 
-    Real hardware may offer them all; ``gazebo_ros_control`` takes the first and says so. One
-    finding names the joints. It skips transmissions of several joints, and another
-    ``<robotSimType>`` than ``DefaultRobotHWSim`` may take all interfaces: these are not reported.
+    Real hardware may support all of them; ``gazebo_ros_control`` takes the first, with a warning.
+    One finding lists all joints. Not reported are transmissions with several joints, which Gazebo
+    skips, and robots with a ``<robotSimType>`` other than ``DefaultRobotHWSim``, which may read all
+    interfaces.
     """
     if any(
         kind.text.strip() and kind.text.strip().rpartition("/")[2] != "DefaultRobotHWSim"
@@ -263,7 +266,7 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
             transmission.element,
             f"joint '{joint.name}' in {called(transmission)} has "
             f"{len(joint.hardware_interfaces)} interfaces; Gazebo takes the first"
-            + (f"; so it does of {others}" if others else ""),
+            + (f"; the same applies to {others}" if others else ""),
             at=list(joint.element.all("hardwareInterface"))[1],
         )
 
@@ -275,10 +278,10 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
     },
 )
 def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
-    """Two transmissions have one name, or drive one joint.
+    """Two transmissions have the same name, or drive the same joint.
 
-    The names are those of resources, and there can be one of each. Of two simple transmissions at
-    one joint, one is left over from a copy.
+    Names of transmissions must be unique. Of two simple transmissions for one joint,
+    ``gazebo_ros_control`` uses the second, with a warning.
     """
     names: set[str] = set()
     joints: dict[str, str] = {}
@@ -287,7 +290,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
         if name and name in names:
             yield Problem(
                 transmission.element,
-                f"a second transmission is called '{name}'; give it a name of its own",
+                f"another transmission also has the name '{name}'; make it unique",
                 at=transmission.element.attribute_place("name"),
                 data={"name": name},
             )
@@ -300,7 +303,8 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
         if joint.name and other != name:
             yield Problem(
                 transmission.element,
-                f"joint '{joint.name}' is driven by transmission '{other}' already; take one away",
+                f"joint '{joint.name}' is already driven by transmission '{other}'; remove "
+                "one of them",
                 at=joint.element.attribute_place("name"),
                 data={"joint": joint.name, "other": other},
             )
@@ -308,7 +312,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
 
 @duplicate_transmission.fix(UNSAFE)
 def number_transmission(problem: Problem, context: FixContext) -> Proposal | None:
-    """Append a number to the second name; of two at one joint none is chosen."""
+    """Append a number to a duplicate name; of two transmissions for a joint, none is chosen."""
     if "name" not in problem.data:
         return None
     return append_number(problem, {one.name for one in context.robot.transmissions})

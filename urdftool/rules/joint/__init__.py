@@ -1,4 +1,4 @@
-"""What a joint can do."""
+"""Rules on the type, axis, limits, dynamics and placement of joints."""
 
 FILES = (
     *("kind", "axis", "origin", "place", "limits", "range", "drive", "mimic", "gripper", "safety"),

@@ -1,4 +1,4 @@
-"""The axis of a joint."""
+"""Rules on the axis of a joint."""
 
 from __future__ import annotations
 
@@ -24,16 +24,17 @@ from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
     effects={
         "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 9)",
         "mujoco, drake": "reject the file",
-        "pybullet": "loads it; a force on the joint makes its position NaN",
+        "pybullet": "loads it; the joint position becomes NaN when a force acts on it",
         "urdfdom, pinocchio": "accept it without a message; the mass matrix is singular",
     },
 )
 def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
-    """A moving joint's axis is the zero vector.
+    """The axis of a moving joint is the zero vector.
 
     An axis is a direction, and readers divide by its length. MuJoCo, sdformat and Drake reject the
-    robot; PyBullet loads it, and the joint's position is NaN as soon as a force acts. On a fixed
-    joint it does no harm.
+    robot. PyBullet loads it, and the joint position becomes NaN when a force acts on the joint. The
+    axis of a fixed joint is not checked. ``shortest`` is the length below which an axis counts as
+    zero.
     """
     for joint in robot.joints:
         if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < shortest:
@@ -49,16 +50,17 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
     effects={
         "mujoco, drake, KDL": "normalize it",
         "urdfdom, gz, gazebo-classic, pybullet": (
-            "pass it on as it is; a joint in PyBullet then moves by another amount"
+            "keep its length; in PyBullet the joint then moves by a wrong amount"
         ),
     },
 )
 def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
-    """A moving joint's axis is not of unit length.
+    """The axis of a moving joint is not a unit vector.
 
-    The specification asks for a unit vector and urdfdom passes on what is written. MuJoCo, Drake
-    and KDL normalize it; PyBullet, and code that multiplies the joint's position with the axis,
-    moves the joint by a wrong amount.
+    The URDF specification requires a unit vector, and urdfdom keeps the written length. MuJoCo,
+    Drake and KDL normalize it. In PyBullet, and in code that multiplies the joint position by the
+    axis, the joint moves by a wrong amount. ``tolerance`` is the difference from length 1 that is
+    ignored.
     """
     for joint in robot.joints:
         if not joint.has_axis or joint.axis is None:
@@ -77,8 +79,8 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
 def write_unit_axis(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the same direction at unit length.
 
-    PyBullet takes the axis as it is written: at length 2 a revolute joint accelerates by half, and
-    a prismatic one moves by twice its position.
+    The fix is unsafe because PyBullet uses the written length: at length 2, a prismatic joint moves
+    by twice its position.
     """
     joint = context.joint(problem)
     if joint.axis is None:
@@ -98,22 +100,22 @@ def write_unit_axis(problem: Problem, context: FixContext) -> Proposal | None:
 def axis_omitted(robot: Robot) -> Iterator[Problem]:
     """A moving joint has no ``<axis>``.
 
-    The default is x (1 0 0). Many expect z; whoever means x helps the next reader by writing it.
-    As every reader takes the default, the rule is off unless it is selected. A wheel that does not
-    turn about x is a case of ``wheel-cylinder-axis``. Planar joints are left out: Pinocchio ignores
-    their axis, and sdformat rejects them.
+    The default is 1 0 0. Many readers of the file expect z, so an explicit axis is clearer. All
+    simulators use the default, so this rule is off unless selected. ``wheel-cylinder-axis`` reports
+    a wheel that does not turn about x. Planar joints are not reported: Pinocchio ignores their
+    axis, and sdformat rejects them.
     """
     for joint in robot.joints:
         if joint.has_axis and joint.axis is None and joint.type != "planar":
             yield Problem(
                 joint,
-                f"joint '{joint.name}' has no <axis>, so it is 1 0 0; write it down",
+                f"joint '{joint.name}' has no <axis>, so readers use 1 0 0; write it",
             )
 
 
 @axis_omitted.fix(SAFE)
 def write_default_axis(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the default, where no argument puts another axis there."""
+    """Write the default axis, unless a xacro argument may set a different one."""
     joint = context.joint(problem)
     behind = joint.child_element or joint.parent_element
     if behind is None or may_vary(joint.element):
@@ -130,10 +132,11 @@ def write_default_axis(problem: Problem, context: FixContext) -> Proposal | None
 def axis_nearly_canonical(
     robot: Robot, *, smallest: float = 1e-6, largest: float = 1e-2
 ) -> Iterator[Problem]:
-    """A joint's axis is almost, but not quite, along x, y or z.
+    """The axis of a joint is almost, but not exactly, along x, y or z.
 
-    That is noise of a drawing program. It tilts the arm by a hair, keeps analytic inverse
-    kinematics from seeing the axis for what it is, and makes mirrored arms differ.
+    This is rounding noise of a CAD export. It tilts the motion slightly, prevents analytic inverse
+    kinematics from recognizing the axis, and makes mirrored arms differ. An angle between
+    ``smallest`` and ``largest`` [rad] is reported.
     """
     for joint in robot.joints:
         if not joint.has_axis or joint.axis is None:
@@ -147,8 +150,8 @@ def axis_nearly_canonical(
         snapped = " ".join(sign if i == place else "0" for i in range(3))
         yield Problem(
             joint,
-            f"axis of joint '{joint.name}' is off by {middle / high:.1g} rad; "
-            f"write {snapped} if that is meant",
+            f"axis of joint '{joint.name}' is {middle / high:.1g} rad off a coordinate axis; "
+            f"write {snapped} if that is intended",
             at=joint.axis.element.attribute_place("xyz"),
             data={"write": snapped, "angle": middle / high},
         )

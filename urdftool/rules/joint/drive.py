@@ -1,4 +1,4 @@
-"""What drives a joint: effort, velocity, damping and friction."""
+"""Rules on effort and velocity limits, damping and friction of a joint."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ _UNITS = {"prismatic": ("N", "m/s")}
     group="robot",
 )
 def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A moving joint's effort limit is 0.
+    """The effort limit of a moving joint is 0.
 
-    It says that the motor has no force at all. Gazebo's physics believes it and the joint never
-    moves by itself; MuJoCo takes it for "no limit". Write what the drive can do, from its data
-    sheet. In a file with elements of Drake's, where it makes a joint passive, it is a remark. Where
-    a transmission, ros2_control or a plugin drives other joints and not this one, the joint is
-    passive and its effort of 0 is right.
+    Gazebo takes it as a motor without force, so the joint cannot be driven. MuJoCo takes it as no
+    limit. Write the maximum effort of the drive, from its data sheet. In a file with Drake elements
+    the finding is an info, because Drake uses 0 for a passive joint. A joint is not reported where
+    a transmission, ros2_control or a plugin drives other joints and not this one: it is passive,
+    and 0 is correct.
     """
     passive = "gz" not in targets and is_for_another_reader(robot.element)
     actuated = actuated_joints(robot)
@@ -53,8 +53,8 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             yield Problem(
                 joint,
                 f"effort limit of joint '{joint.name}' is 0; "
-                f"write the {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} of its "
-                "drive, if it has one",
+                f"write the maximum {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} "
+                "of its drive, if it has one",
                 at=limit.element.attribute_place("effort"),
                 severity=INFO if passive else None,
                 alike=joint.type == "prismatic",
@@ -71,17 +71,17 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     group="robot",
 )
 def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
-    """A moving joint's velocity limit is 0.
+    """The velocity limit of a moving joint is 0.
 
-    It says that the joint may not move. Gazebo's physics keeps to that; MoveIt takes it for no
-    limit and then cannot time a trajectory.
+    Gazebo then does not allow the joint to move. MoveIt takes it as a missing limit and cannot time
+    a trajectory.
     """
     for joint, limit in _driven(robot):
         if limit.velocity == 0.0:
             yield Problem(
                 joint,
-                f"velocity limit of joint '{joint.name}' is 0, so it may not move; "
-                f"write what it reaches [{_units(joint)[1]}]",
+                f"velocity limit of joint '{joint.name}' is 0, so it must not move; "
+                f"write its maximum [{_units(joint)[1]}]",
                 at=limit.element.attribute_place("velocity"),
                 alike=joint.type == "prismatic",
             )
@@ -111,8 +111,8 @@ def _units(joint: Joint) -> tuple[str, str]:
 def negative_limit(robot: Robot) -> Iterator[Problem]:
     """An effort or velocity limit is negative.
 
-    Both are magnitudes. Readers disagree on what a negative one means: no limit, its absolute
-    value, or a refusal.
+    Both limits are magnitudes. Readers differ: Gazebo takes a negative one as no limit, MuJoCo and
+    MoveIt take its absolute value, pinocchio rejects the robot.
     """
     for joint in robot.joints:
         if joint.limit is None:
@@ -138,12 +138,14 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
 def implausible_velocity(
     robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0, together: float = 4
 ) -> Iterator[Problem]:
-    """A joint's velocity limit is faster than arms and slides are.
+    """A velocity limit is higher than joints of robots reach.
 
-    In most cases it is in degrees or turns per minute, or a large number that means "none", such as
-    1000 or 1e6. Planners time trajectories by it. One number at more than ``together`` joints is
-    one finding. A joint whose two limits are equal does not move, and is not reported; neither is a
-    passive one, with an effort limit of 0, or one that ros2_control measures and nothing drives.
+    The number is usually in degrees per second or revolutions per minute, or it is a placeholder
+    for no limit, such as 1000 or 1e6. Planners time trajectories by it. A joint whose lower and
+    upper limit are equal is not reported, neither is a passive joint with effort limit 0, or a
+    joint that ros2_control only measures. ``fastest_turn`` [rad/s] and ``fastest_slide`` [m/s] are
+    the highest plausible velocities. Where more than ``together`` joints have the same value, they
+    are one finding.
     """
     found = []
     measured = measured_joints(robot)
@@ -160,7 +162,7 @@ def implausible_velocity(
         yield Problem(
             one.joint,
             f"velocity limit of joint '{one.joint.name}'{more} is {one.what}; "
-            "write what the drive reaches",
+            "write the maximum of the drive",
             at=one.limit.element.attribute_place("velocity"),
             alike=(one.is_slide, one.is_endless, bool(more)),
             data={"velocity": one.value},
@@ -178,11 +180,12 @@ def implausible_velocity(
 def implausible_effort(
     robot: Robot, *, largest: float = 1e4, together: float = 4
 ) -> Iterator[Problem]:
-    """A joint's effort limit is larger than drives have.
+    """An effort limit is higher than drives of robots deliver.
 
-    A large number that means "none" lets every command through, and a simulated motor tears the
-    robot apart where the real one would have stalled. One number at more than ``together`` joints
-    is one finding. A joint that nothing drives, though other joints are driven, is not reported.
+    A large placeholder for no limit allows every command: a simulated motor then exerts forces at
+    which the real one would have stalled. A joint that is not actuated, where other joints are, is
+    not reported. ``largest`` [N·m, N] is the highest plausible effort. Where more than ``together``
+    joints have the same value, they are one finding.
     """
     actuated = actuated_joints(robot)
     found = [
@@ -200,7 +203,7 @@ def implausible_effort(
         yield Problem(
             one.joint,
             f"effort limit of joint '{one.joint.name}'{more} is {one.what}; "
-            "write what the drive has",
+            "write the maximum of the drive",
             at=one.limit.element.attribute_place("effort"),
             alike=(one.is_slide, one.is_endless, bool(more)),
             data={"effort": one.value},
@@ -208,7 +211,7 @@ def implausible_effort(
 
 
 def _judged(value: float, most: float) -> str:
-    """Compare a limit with the largest plausible one: a power of ten above it means no limit."""
+    """Describe how a limit exceeds the largest plausible one; a power of ten means no limit."""
     return "in effect no limit" if _is_endless(value) else f"above {most:g}"
 
 
@@ -219,7 +222,7 @@ def _is_endless(value: float) -> bool:
 
 
 _ENDLESS = 1e6
-"""Velocity [rad/s, m/s] or effort [N·m, N] from which a limit is a number for "none"."""
+"""Velocity [rad/s, m/s] or effort [N·m, N] from which a limit is a placeholder for no limit."""
 
 
 class _Large(NamedTuple):
@@ -262,15 +265,15 @@ def _alike(found: list[_Large], together: float) -> Iterator[tuple[_Large, str]]
     ERROR,
     effects={
         "drake": "rejects the file",
-        "mujoco, pybullet": "simulate it as it is: the joint gains energy",
+        "mujoco, pybullet": "use the negative value: the joint gains energy",
     },
     of_motion=True,
 )
 def negative_dynamics(robot: Robot) -> Iterator[Problem]:
-    """A joint's damping or friction is negative.
+    """The damping or friction of a joint is negative.
 
-    It feeds energy into the joint instead of taking it out: the slightest motion grows until the
-    simulation diverges. Of a fixed joint no reader uses it.
+    A negative value adds energy to the joint, so a small motion grows until the simulation
+    diverges. For a fixed joint the finding is an info, because no reader uses the value.
     """
     for joint in robot.joints:
         dynamics = joint.dynamics
@@ -304,7 +307,7 @@ def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
 def empty_dynamics(robot: Robot) -> Iterator[Problem]:
     """A ``<dynamics>`` has neither damping nor friction.
 
-    Leaving the element out is fine, an empty one is not: urdfdom refuses the whole robot for it.
+    ``<dynamics>`` is optional, but urdfdom rejects the robot if it is empty.
     """
     for joint in robot.joints:
         if joint.dynamics is None:
@@ -316,18 +319,18 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 joint,
                 f"<dynamics> of joint '{joint.name}' has neither damping nor friction; "
-                "write one, or take it out",
+                "write one, or remove the element",
                 at=element,
             )
 
 
 @empty_dynamics.fix(SAFE)
 def remove_empty_dynamics(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the element."""
+    """Remove the empty ``<dynamics>``."""
     dynamics = context.joint(problem).dynamics
     if dynamics is None or dynamics.element.attributes:
         return None
-    return safe("take the empty <dynamics> out", remove_element(dynamics.element))
+    return safe("remove the empty <dynamics>", remove_element(dynamics.element))
 
 
 @rule(
@@ -340,10 +343,10 @@ def remove_empty_dynamics(problem: Problem, context: FixContext) -> Proposal | N
     },
 )
 def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
-    """Damping or friction is written as an element inside ``<dynamics>``.
+    """Damping or friction is written as a child element of ``<dynamics>``.
 
-    That is how SDF writes them. In URDF they are attributes, and a ``<dynamics>`` without
-    attributes gets the robot rejected.
+    SDF has child elements, URDF has attributes. Readers that use urdfdom reject a ``<dynamics>``
+    without attributes.
     """
     for joint in robot.joints:
         if joint.dynamics is None or not joint.dynamics.element.children:
@@ -361,7 +364,10 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
 
 @dynamics_as_child_elements.fix(UNSAFE)
 def write_dynamics_attributes(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write attributes; MuJoCo loads the joint without damping and friction until then."""
+    """Write the child elements as attributes.
+
+    The fix is unsafe because MuJoCo loads the robot without this damping and friction before it.
+    """
     dynamics = context.joint(problem).dynamics
     if dynamics is None:
         return None
@@ -380,18 +386,18 @@ def write_dynamics_attributes(problem: Problem, context: FixContext) -> Proposal
     INFO,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
     effects={
-        "mujoco, drake": "take 0: nothing slows a motion",
-        "pybullet": "takes 0: the motor that it adds holds the joint until it is switched off",
+        "mujoco, drake": "take 0: no damping slows the joint",
+        "pybullet": "takes 0: its default motor holds the joint until it is disabled",
         "gz, gazebo-classic": "take 0",
     },
 )
 def missing_dynamics(robot: Robot) -> Iterator[Problem]:
     """Moving joints have neither damping nor friction.
 
-    Nothing takes energy out of them: a joint without a motor swings for very long, and one under
-    position control for long. Real bearings and gears have both. The robot's joints are named
-    once, together. A joint whose two limits are equal does not swing, one that turns a wheel
-    rolls, and one that mimics another joint is slowed with it; they are not reported.
+    No energy is lost in them: a joint without a motor swings for very long, and a joint under
+    position control oscillates. Real bearings and gears have both. All such joints of a robot are
+    one finding. A joint is not reported if its lower and upper limit are equal, if it turns a
+    wheel, or if it is a mimic joint.
     """
     free = [
         joint

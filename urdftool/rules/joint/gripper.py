@@ -1,4 +1,4 @@
-"""Fingers of a gripper, and how they move together."""
+"""Rules on the fingers of a gripper."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ APPLIES_TO = ("joint",)
 @rule(
     INFO,
     effects={
-        "mujoco, pybullet": "move the fingers each on its own",
+        "mujoco, pybullet": "move the fingers independently",
     },
     default=False,
 )
 def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
-    """A left and a right finger move on their own.
+    """The left and the right finger of a gripper move independently.
 
-    Most parallel grippers have one motor. Without ``<mimic>`` the fingers need two commands and
-    close off centre.
+    Most parallel grippers have one motor. Without ``<mimic>`` the fingers need two commands, and
+    may close off center.
     """
     for joint in robot.joints:
         if "left" not in joint.name or "finger" not in joint.name or not joint.is_limited:
@@ -35,8 +35,8 @@ def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
         if joint.mimic is None and other.mimic is None:
             yield Problem(
                 other,
-                f"joints '{joint.name}' and '{other.name}' move on their own; "
-                "if one motor drives both, let one <mimic> the other",
+                f"joints '{joint.name}' and '{other.name}' move independently; "
+                "if one motor drives both, add <mimic> to one of them",
                 data={"joints": [joint.name, other.name]},
             )
 
@@ -45,18 +45,18 @@ def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
     WARNING,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
-            "move both fingers the same way: the gripper cannot grip"
+            "move both fingers in the same direction: the gripper cannot grip"
         ),
     },
 )
 def fingers_move_together(robot: Robot) -> Iterator[Problem]:
-    """The two sliding fingers of a gripper move in the same direction.
+    """The two prismatic fingers of a gripper move in the same direction.
 
-    Two prismatic joints of one parent, named as fingers, open and close a gripper if one goes one
-    way while the other goes the other. Here their axes point the same way in the frame of the
-    parent, and so do their ranges from zero, or one follows the other with a positive multiplier.
-    One axis was flipped, or the right finger is a copy of the left one. Nothing is reported of
-    ranges that have zero within them, unless one joint is a mimic joint of the other.
+    To open and close, two fingers on one parent link must move in opposite directions. Here their
+    axes have the same direction in the frame of the parent, and either their ranges extend to the
+    same side of 0, or one mimics the other with a positive multiplier. One axis is reversed, or the
+    right finger is a copy of the left one. Ranges that contain 0 are not reported, unless one joint
+    mimics the other.
     """
     for link in robot.links:
         slides = [j for j in robot.tree.child_joints(link.name) if j.type == "prismatic"]
@@ -78,8 +78,8 @@ def fingers_move_together(robot: Robot) -> Iterator[Problem]:
         if together:
             yield Problem(
                 other,
-                f"fingers '{one.name}' and '{other.name}' both move the same way, so the gripper "
-                f"cannot grip; {remedy}",
+                f"fingers '{one.name}' and '{other.name}' both move in the same direction, so the "
+                f"gripper cannot grip; {remedy}",
                 at=other.axis or other,
                 data={"joints": [one.name, other.name]},
             )
@@ -100,7 +100,7 @@ def _axis_in_parent(joint: Joint) -> Vector:
 
 
 def _way(joint: Joint) -> int | None:
-    """Where a joint goes from zero: 1 along its axis, -1 against it; None where it goes both."""
+    """Get the direction of motion from 0: 1 along the axis, -1 against it; None for both."""
     if joint.limit is None or joint.limit.lower is None or joint.limit.upper is None:
         return None
     lower, upper = joint.limit.lower, joint.limit.upper

@@ -1,4 +1,4 @@
-"""The type of a joint."""
+"""Rules on the type of a joint."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import meant
 
 _ELSEWHERE = {
-    "spherical": "only MuJoCo and PyBullet have it; three revolute joints do the same",
-    "ball": "only SDF and Drake's <drake:joint> have it; three revolute joints do the same",
-    "universal": "only SDF and Drake's <drake:joint> have it; two revolute joints do the same",
+    "spherical": "only MuJoCo and PyBullet read it; use three revolute joints",
+    "ball": "only SDF and Drake's <drake:joint> have it; use three revolute joints",
+    "universal": "only SDF and Drake's <drake:joint> have it; use two revolute joints",
     "screw": "only SDF and Drake's <drake:joint> have it",
     "hinge": "write revolute, or continuous without limits",
 }
@@ -40,14 +40,14 @@ _SYNONYMS = {
     ERROR,
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint has no known type",
-        "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet know 'spherical'",
+        "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet load 'spherical'",
     },
 )
 def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A joint has no type, or one that URDF does not have.
+    """A joint has no type, or a type that is not in URDF.
 
-    There are revolute, continuous, prismatic, fixed, floating and planar. Readers reject the robot
-    for any other word; MuJoCo and PyBullet load ``spherical`` nevertheless.
+    The types are revolute, continuous, prismatic, fixed, floating and planar. Readers reject the
+    robot for any other type, except that MuJoCo and PyBullet load ``spherical``.
     """
     for joint in robot.joints:
         if joint.type.lower() in JOINT_TYPES or is_unexpanded(joint.type):
@@ -59,7 +59,7 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
 
 @unknown_joint_type.full
 def every_unknown_type(robot: Robot) -> Iterator[Problem]:
-    """Report each type that URDF does not have, also in capitals or unexpanded."""
+    """Report each type that is not in URDF, also in capitals or unexpanded."""
     for joint in robot.joints:
         if joint.type not in JOINT_TYPES:
             problem = _unknown_type(joint, frozenset())
@@ -73,8 +73,8 @@ def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
         instead = _ELSEWHERE.get(kind)
         if instead is None:
             word = _SYNONYMS.get(kind) or meant(kind, JOINT_TYPES)
-            instead = f"write {word}" if word else f"there are {', '.join(sorted(JOINT_TYPES))}"
-        message = f"joint '{joint.name}' is of unknown type '{kind}'; {instead}"
+            instead = f"write {word}" if word else f"the types are {', '.join(sorted(JOINT_TYPES))}"
+        message = f"joint '{joint.name}' has the unknown type '{kind}'; {instead}"
     else:
         message = f"joint '{joint.name}' has no type; write type=\"…\""
     loads = kind == "spherical" and targets and targets <= {"mujoco", "pybullet"}
@@ -89,7 +89,7 @@ def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
 
 @unknown_joint_type.fix(UNSAFE)
 def write_joint_type(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the type that is meant."""
+    """Write the URDF type with a similar name or the same meaning."""
     word: str | None = problem.data.get("write")
     if word is None:
         return None
@@ -104,8 +104,8 @@ _PLANAR = {
     "pybullet": (
         "treats floating as fixed; the planar joint has two prismatic axes and a revolute one"
     ),
-    "mujoco": "has both; a floating joint must be at the root",
-    "drake (one damping)": "rejects the file: it reads three numbers of damping for a planar joint",
+    "mujoco": "loads both; a floating joint must be at the root",
+    "drake (one damping)": "rejects the file: it requires three damping values for a planar joint",
 }
 
 
@@ -117,16 +117,16 @@ _PLANAR = {
 def planar_or_floating(robot: Robot) -> Iterator[Problem]:
     """A joint is planar or floating.
 
-    sdformat drops the joint and keeps a pose relative to it, so Gazebo rejects the model.
-    robot_state_publisher publishes no transform for a floating joint and a fixed one for a planar
-    joint. MuJoCo has both types, Drake has planar joints.
+    sdformat removes the joint and keeps a pose relative to it, so Gazebo rejects the model.
+    robot_state_publisher publishes no transform for a floating joint, and a fixed one for a planar
+    joint. MuJoCo loads both types; Drake loads planar joints.
     """
     for joint in robot.joints:
         if joint.type in ("planar", "floating"):
             yield Problem(
                 joint,
-                f"joint '{joint.name}' is {joint.type}, which Gazebo rejects and "
-                "robot_state_publisher does not move; use revolute and prismatic joints, or "
+                f"joint '{joint.name}' is {joint.type}: Gazebo rejects it, and "
+                "robot_state_publisher does not move it; use revolute and prismatic joints, or "
                 "leave the root free",
                 at=joint.attribute_place("type"),
                 effects=holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
@@ -134,7 +134,7 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
 
 
 def _has_one_damping(joint: Joint) -> bool:
-    """Tell whether a joint is planar and its damping one number, as URDF has it."""
+    """Tell whether a joint is planar and has one damping value, as in URDF."""
     dynamics = joint.element.child("dynamics")
     damping = dynamics.get("damping") if dynamics is not None else None
     return joint.type == "planar" and damping is not None and len(damping.split()) == 1
@@ -152,8 +152,8 @@ def _has_one_damping(joint: Joint) -> bool:
 def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
     """A fixed joint has an axis, a limit or dynamics.
 
-    It does not move, so they mean nothing. Exporters write them. An incomplete ``<limit>`` gets the
-    robot rejected even so.
+    All readers ignore these elements. Exporters write them. Readers that use urdfdom still reject
+    the robot if the ``<limit>`` is incomplete.
     """
     for joint in robot.joints:
         if joint.is_fixed:
@@ -161,7 +161,9 @@ def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
                 if part is not None:
                     yield Problem(
                         joint,
-                        f"joint '{joint.name}' is fixed; its <{part.element.tag}> means nothing",
+                        f"joint '{joint.name}' is fixed, so its <{part.element.tag}> has no "
+                        "effect; "
+                        "remove it",
                         at=part,
                         data={"element": part.element.tag},
                     )
@@ -169,8 +171,8 @@ def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
 
 @redundant_on_fixed.fix(SAFE)
 def remove_from_fixed_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove what means nothing, where the joint is fixed whatever the arguments are."""
+    """Remove the element, unless a xacro argument sets the type of the joint."""
     element = element_at(problem)
     if element is None or is_computed(context.joint(problem).element, "type"):
         return None
-    return safe(f"take the <{element.tag}> away", remove_element(element))
+    return safe(f"remove the <{element.tag}>", remove_element(element))

@@ -1,4 +1,4 @@
-"""Whether a joint has the limits it needs."""
+"""Rules on missing and needless limits of a joint."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 def missing_limit(robot: Robot) -> Iterator[Problem]:
     """A revolute or prismatic joint has no ``<limit>``.
 
-    These two types are defined by their stops. urdfdom refuses the whole robot; MuJoCo lets the
-    joint turn for ever. A joint without stops is ``continuous``.
+    URDF requires it for these types. urdfdom rejects the robot; MuJoCo and Drake load the joint
+    without limits. A revolute joint without limits is ``continuous``.
     """
     for joint in robot.joints:
         if not joint.is_limited or joint.limit is not None:
@@ -45,7 +45,7 @@ def missing_limit(robot: Robot) -> Iterator[Problem]:
 
 @missing_limit.full
 def every_missing_limit(robot: Robot) -> Iterator[Problem]:
-    """Report each joint that needs limits and has none, also where they are misspelt."""
+    """Report each joint that needs limits and has none, also where they are misspelled."""
     for joint in robot.joints:
         if joint.is_limited and joint.limit is None:
             yield _without_limit(joint)
@@ -63,7 +63,7 @@ def _without_limit(joint: Joint) -> Problem:
 
 @missing_limit.fix(UNSAFE)
 def make_continuous(problem: Problem, context: FixContext) -> Proposal | None:
-    """Make a revolute joint without stops continuous."""
+    """Make a revolute joint without limits continuous."""
     joint = context.joint(problem)
     if joint.type != "revolute":
         return None
@@ -75,16 +75,16 @@ def make_continuous(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot (urdfdom 3, 4 and 6)",
         "pybullet": "takes 0",
-        "mujoco": "loads it: an effort that is not written has no limit, a velocity is not read",
-        "drake": "loads it: a velocity that is not written has no limit",
+        "mujoco": "loads it: without effort there is no limit, and velocity is never read",
+        "drake": "loads it: without velocity there is no limit",
     },
 )
 def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
-    """A ``<limit>`` lacks its effort or velocity.
+    """A ``<limit>`` has no effort or no velocity.
 
-    urdfdom refuses the robot, on a fixed or continuous joint too, unless it says version 1.2.
-    MuJoCo and Drake load it, so the fault only shows when ROS does. A joint of an unknown type has
-    a finding of its own.
+    urdfdom rejects the robot, also for a fixed or continuous joint, unless the URDF version is 1.2.
+    MuJoCo and Drake load it, so the defect is only noticed in ROS. For a joint of an unknown type,
+    ``unknown-joint-type`` is reported instead.
     """
     if _version(robot) >= 1.2:
         return
@@ -100,7 +100,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
             words = " and no ".join(missing)
             yield Problem(
                 joint,
-                f"<limit> of joint '{joint.name}' has no {words}; both must be written",
+                f"<limit> of joint '{joint.name}' has no {words}; both are required",
                 at=limit,
                 data={"missing": missing},
             )
@@ -115,7 +115,10 @@ def _version(robot: Robot) -> float:
 
 @limit_without_effort_or_velocity.fix(BOTH)
 def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the effort and velocity of most joints of the type; a fixed joint needs no limit."""
+    """Write the most frequent effort and velocity of joints of the same type.
+
+    The ``<limit>`` of a fixed joint is removed.
+    """
     joint = context.joint(problem)
     limit = joint.limit
     if limit is None:
@@ -123,7 +126,7 @@ def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None
     if joint.is_fixed:
         if is_computed(joint.element, "type"):
             return None
-        return safe("take the <limit> of the fixed joint away", remove_element(limit.element))
+        return safe("remove the <limit> of the fixed joint", remove_element(limit.element))
     changes, written = [], []
     for name in ("effort", "velocity"):
         if name not in limit.element.attributes:
@@ -134,11 +137,11 @@ def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None
             written.append(f'{name}="{value}"')
     if not changes:
         return None
-    return unsafe(f"write {' and '.join(written)}, as at its other joints", *changes)
+    return unsafe(f"write {' and '.join(written)}, as in its other joints", *changes)
 
 
 def _usual_value(robot: Robot, joint: Joint, name: str) -> str | None:
-    """Get the limit that the other joints of one type have most often, as it is written."""
+    """Get the most frequent limit of the other joints of the same type, as written."""
     counts: Counter[str] = Counter()
     for other in robot.joints:
         limit = other.limit
@@ -154,7 +157,7 @@ def _usual_value(robot: Robot, joint: Joint, name: str) -> str | None:
 
 
 _WITHOUT_BOUNDS = {
-    "urdfdom, gz, gazebo-classic, pinocchio": "take 0 for a bound that is not written",
+    "urdfdom, gz, gazebo-classic, pinocchio": "take 0 for a missing bound",
     "mujoco, pybullet, drake (both missing)": "load the joint without limits",
     "mujoco, pybullet (lower missing)": "take 0",
     "mujoco (upper missing)": "takes 0",
@@ -170,11 +173,11 @@ _WITHOUT_BOUNDS = {
     group="robot",
 )
 def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
-    """A revolute or prismatic joint's ``<limit>`` lacks lower, upper or both.
+    """The ``<limit>`` of a revolute or prismatic joint has no lower or no upper bound.
 
-    ROS and Gazebo take 0 for each that is not written, so with both missing the joint is locked at
-    0; MuJoCo, PyBullet and Drake let it move without limits. Exporters write wheels like that;
-    those are ``continuous``.
+    ROS and Gazebo take 0 for a missing bound. If both are missing they lock the joint at 0, while
+    MuJoCo, PyBullet and Drake load it without limits. Exporters write this for wheels, which should
+    be ``continuous``.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -193,7 +196,7 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             what = "neither lower nor upper: ROS and Gazebo lock it at 0, MuJoCo, PyBullet and "
             what += f"Drake leave it without limits; write both{or_type}"
         elif missing[0] == "lower":
-            what = "no lower: all but Drake take 0; write it"
+            what = "no lower: readers other than Drake take 0; write it"
         else:
             what = "no upper: ROS, Gazebo and MuJoCo take 0, PyBullet -1; write it"
         severity = WARNING if len(missing) == 2 or _is_empty(limit) else INFO
@@ -214,10 +217,10 @@ def _is_empty(limit: Limit) -> bool:
 
 @limit_without_bounds.fix(UNSAFE)
 def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | None:
-    """Make a revolute joint without stops continuous; write 0 for one bound that is missing.
+    """Make a revolute joint without bounds continuous; write 0 for one missing bound.
 
-    Readers differ on what a missing bound is: pinocchio and urdfdom read 0, PyBullet reads an upper
-    one as -1, and MuJoCo takes a joint with one bound for one without limits.
+    The fix is unsafe because readers differ: pinocchio and urdfdom take 0 for a missing bound,
+    PyBullet takes -1 for a missing upper bound.
     """
     limit = context.joint(problem).limit
     if limit is None:
@@ -232,15 +235,16 @@ def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | Non
     WARNING,
     effects={
         "gz, gazebo-classic, pybullet, pinocchio": "ignore the bounds",
-        "urdfdom, drake": "pass them on",
+        "urdfdom, drake": "keep them",
         "mujoco": "3.3 enforces them unless both are 0, 4.0 ignores them",
     },
 )
 def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
     """A continuous joint has a lower or upper limit.
 
-    A continuous joint turns without end and most readers pass over the bounds; MuJoCo 3.3 keeps to
-    them unless both are 0, so the same file is two robots. A joint with stops is ``revolute``.
+    A continuous joint turns without limits, and most readers ignore the bounds. MuJoCo 3.3 enforces
+    them unless both are 0, so simulators load two different robots. A joint with bounds is
+    ``revolute``.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -249,15 +253,15 @@ def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
         if limit.lower is None and limit.upper is None:
             continue
         if limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
-            continue  # which is reported
+            continue  # lower-above-upper reports it
         name = "lower" if limit.lower is not None else "upper"
         if not (limit.lower or limit.upper):
-            remedy = "take lower and upper out"
+            remedy = "remove lower and upper"
         else:
-            remedy = "take lower and upper out, or make it revolute"
+            remedy = "remove lower and upper, or make it revolute"
         yield Problem(
             joint,
-            f"joint '{joint.name}' is continuous and its bounds are ignored; {remedy}",
+            f"joint '{joint.name}' is continuous, so most readers ignore its bounds; {remedy}",
             at=limit.element.attribute_place(name),
         )
 
@@ -270,4 +274,4 @@ def remove_bounds(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     names = [name for name in ("lower", "upper") if name in limit.element.attributes]
     changes = [remove_attribute(limit.element, name) for name in names]
-    return unsafe(f"take {' and '.join(names)} out", *changes)
+    return unsafe(f"remove {' and '.join(names)}", *changes)

@@ -1,4 +1,4 @@
-"""Joints that follow another."""
+"""Rules on mimic joints."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ APPLIES_TO = ("mimic",)
     group="robot",
 )
 def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
-    """A mimic joint follows a joint that is not there.
+    """A mimic joint refers to a joint that does not exist.
 
-    Nothing then moves it. urdfdom does not look, MuJoCo drops the constraint, Drake rejects the
-    file, ros2_control does not start. A ``<mimic>`` without the attribute ``joint`` is worse:
-    urdfdom, and with it every reader of ROS, Gazebo and pinocchio, rejects the robot.
+    Nothing then moves the joint. urdfdom does not check the name, MuJoCo removes the constraint,
+    Drake rejects the file, and ros2_control does not start. If the attribute ``joint`` is missing,
+    urdfdom rejects the robot, and so do all readers that use it: ROS, Gazebo and pinocchio.
     """
     stripped = {name.strip() for name in robot.joint}
     for joint, mimic in _mimics(robot):
@@ -54,7 +54,7 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
 
 @mimic_unknown_joint.full
 def every_unknown_leader(robot: Robot) -> Iterator[Problem]:
-    """Report each joint that follows none of the robot, also where the attribute is misspelt."""
+    """Report each mimic joint without an existing leader, also if the attribute is misspelled."""
     for joint, mimic in _mimics(robot):
         if mimic.joint not in robot.joint:
             if mimic.joint.strip():
@@ -65,14 +65,14 @@ def every_unknown_leader(robot: Robot) -> Iterator[Problem]:
 
 
 def _without_leader(joint: Joint) -> str:
-    return f"<mimic> of joint '{joint.name}' names no joint; write joint=\"…\""
+    return f"<mimic> of joint '{joint.name}' has no joint name; write joint=\"…\""
 
 
 def _unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
     near = did_you_mean(mimic.joint, robot.joint)
     return Problem(
         joint,
-        f"joint '{joint.name}' mimics '{mimic.joint}', which is no joint{near}",
+        f"joint '{joint.name}' mimics '{mimic.joint}', but the robot has no such joint{near}",
         at=mimic.element.attribute_place("joint"),
         alike=bool(near),
         data={"suggestion": nearest(mimic.joint, robot.joint)},
@@ -80,13 +80,13 @@ def _unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
 
 
 def _is_misspelt(element: Element) -> bool:
-    """Whether the attribute is there under another name, which is a finding of its own."""
+    """Tell whether the attribute has a different name, which another rule reports."""
     return "name" in element.attributes or "joint" in misspelt_attributes(element).values()
 
 
 @mimic_unknown_joint.fix(UNSAFE)
 def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Follow the joint that is meant."""
+    """Write the existing joint with the most similar name."""
     joint = context.joint(problem)
     if joint.mimic is None:
         return None
@@ -107,7 +107,8 @@ def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | N
 def mimic_cycle(robot: Robot) -> Iterator[Problem]:
     """Mimic joints follow each other in a circle.
 
-    None of them leads. MoveIt then ignores all mimic joints of the robot.
+    No joint of the circle leads, so nothing defines their positions. MoveIt then ignores all mimic
+    joints of the robot. Remove one ``<mimic>``.
     """
     done: set[str] = set()
     for joint, _ in _mimics(robot):
@@ -125,7 +126,7 @@ def mimic_cycle(robot: Robot) -> Iterator[Problem]:
 
 @mimic_cycle.full
 def every_joint_of_circle(robot: Robot) -> Iterator[Problem]:
-    """Report each joint that follows itself in the end."""
+    """Report each mimic joint that follows itself, directly or through others."""
     for joint, mimic in _mimics(robot):
         circle = [joint.name]
         leader = joint if mimic.joint == joint.name else robot.joint.get(mimic.joint)
@@ -137,12 +138,12 @@ def every_joint_of_circle(robot: Robot) -> Iterator[Problem]:
 
 
 def _of_circle(joint: Joint, circle: list[str]) -> Problem:
-    assert joint.mimic is not None  # only mimic joints are gone through
+    assert joint.mimic is not None  # callers pass mimic joints only
     if len(circle) == 1:
         message = f"joint '{joint.name}' mimics itself; it must follow another joint"
     else:
         names = " follows ".join(f"'{name}'" for name in (*circle, circle[0]))
-        message = f"mimic joints follow each other: {names}; one must lead"
+        message = f"mimic joints follow each other: {names}; remove one <mimic>"
     place = joint.mimic.element.attribute_place("joint")
     return Problem(joint, message, at=place, data={"joints": circle})
 
@@ -157,9 +158,9 @@ def _of_circle(joint: Joint, circle: list[str]) -> Problem:
 def mimic_chain(robot: Robot) -> Iterator[Problem]:
     """A mimic joint follows a joint that is itself a mimic joint.
 
-    robot_state_publisher goes over the joints once, in the order of the alphabet. A joint whose
-    leader comes later gets no transform, and its part of the robot vanishes from tf. Let each
-    follow the first leader, with the multipliers multiplied.
+    robot_state_publisher processes the joints once, in alphabetical order. If the leader comes
+    later, it publishes no transform for the joint, and the links below are missing in tf. Refer to
+    the first leader, and multiply the multipliers.
     """
     for joint, mimic in _mimics(robot):
         leader = robot.joint.get(mimic.joint)
@@ -181,9 +182,10 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
 
 @mimic_chain.fix(UNSAFE)
 def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | None:
-    """Follow the first leader, with the multipliers multiplied.
+    """Refer to the first leader, and multiply the multipliers.
 
-    It is the same motion, and another constraint in MuJoCo, which ties the joint to another one.
+    The fix is unsafe because it changes which joints the MuJoCo constraint couples; the motion is
+    the same.
     """
     mimic, data = context.joint(problem).mimic, problem.data
     if mimic is None:
@@ -198,14 +200,15 @@ def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | Non
 @rule(
     WARNING,
     effects={
-        "mujoco": "4.0: the two constraints fight, and the leader stops early too",
+        "mujoco": "4.0: limit and mimic constraint conflict, and the leader stops early too",
     },
 )
 def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
-    """A mimic joint's own limits stop it before its leader is at its limit.
+    """The limits of a mimic joint are too narrow for the range of its leader.
 
-    Where the leader goes to its end, the follower would have to go beyond its own. The constraint
-    pulls, the stop holds, and the gripper halts half way or shakes.
+    At the limit of the leader, the mimic joint would have to be beyond its own limit. In MuJoCo 4.0
+    the mimic constraint and the limit conflict: the leader stops early, and a gripper may
+    oscillate. ``tolerance`` [rad or m] is the difference that is ignored.
     """
     for joint, mimic in _mimics(robot):
         leader = robot.joint.get(mimic.joint)
@@ -222,7 +225,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
             name = "lower" if ends[0] < lower - tolerance else "upper"
             yield Problem(
                 joint,
-                f"joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
+                f"mimic joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
                 f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}",
                 at=joint.limit.element.attribute_place(name),
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
@@ -231,9 +234,9 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
 
 @mimic_limits_inconsistent.fix(UNSAFE)
 def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | None:
-    """Lower the limits of the leader to what its follower can do.
+    """Reduce the limits of the leader to the range that the mimic joint allows.
 
-    The limits of the follower are those of the hardware, and are not raised.
+    The limits of the mimic joint are not increased, because the hardware defines them.
     """
     joint = context.joint(problem)
     mimic = joint.mimic
@@ -264,12 +267,12 @@ def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | 
     },
 )
 def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
-    """A mimic joint or its leader does not have just one way to move, or the multiplier is 0.
+    """A mimic joint or its leader does not have exactly one axis, or the multiplier is 0.
 
-    A fixed joint has no position to follow or to give, a floating or planar one has several. With a
-    multiplier of 0 the joint stands still. Fixed followers are one finding, and so are all
-    followers of one leader. Only a remark is a fixed follower that is not in ``<ros2_control>``:
-    it does not move, which is what fixed says.
+    A fixed joint has no position, a floating or planar joint has several. With a multiplier of 0
+    the joint never moves. Fixed mimic joints are one finding, and so are all mimic joints of one
+    leader. For a fixed mimic joint that is not in ``<ros2_control>`` the finding is an info: it
+    does not move, as its type says.
     """
     controlled = {one.name for block in robot.ros2_controls for one in block.joints}
     alike: dict[tuple[str, str], list[tuple[Joint, Mimic]]] = {}
@@ -285,16 +288,16 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     joint,
                     f"joint '{joint.name}' follows '{leader.name}' with multiplier 0, so it never "
-                    "moves; write how far it goes, or make it fixed",
+                    "moves; write its multiplier, or make it fixed",
                     at=mimic.element.attribute_place("multiplier"),
                     effects=(),
                 )
     for (kind, leading), found in alike.items():
         (joint, mimic), names = found[0], [f"'{joint.name}'" for joint, _ in found]
         if leading:
-            what = f"'{leading}' is {kind} and is followed by {', '.join(names)}"
+            what = f"'{leading}' is {kind} and is mimicked by {', '.join(names)}"
         else:
-            what = f"{names[0]} is {kind} and follows another"
+            what = f"{names[0]} is {kind} and mimics another"
             what += f"; so are {', '.join(names[1:])}" if names[1:] else ""
         keys = set()
         if any(_differ(joint, robot.joint.get(mimic.joint)) for joint, mimic in found):
@@ -303,7 +306,7 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
             keys.add("ros2_control")
         yield Problem(
             joint,
-            f"joint {what}; only a joint with one axis can",
+            f"joint {what}; <mimic> requires joints with one axis",
             at=mimic,
             severity=INFO if kind == "fixed" and not leading and keys <= {"moveit"} else None,
             effects=keys,
@@ -313,25 +316,25 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
 
 @mimic_dof_mismatch.full
 def every_mimic_of_fixed_joint(robot: Robot) -> Iterator[Problem]:
-    """Report each mimic joint whose leader is fixed, and has no position to follow."""
+    """Report each mimic joint whose leader is fixed and so has no position."""
     for joint, mimic in _mimics(robot):
         leader = robot.joint.get(mimic.joint)
         if leader is not None and leader.is_fixed:
             yield Problem(
                 joint,
-                f"joint '{joint.name}' follows '{leader.name}', which is fixed; only a joint with "
-                "one axis can be followed",
+                f"joint '{joint.name}' mimics '{leader.name}', which is fixed; <mimic> requires "
+                "joints with one axis",
                 at=mimic.element.attribute_place("joint"),
                 data={"type": leader.type, "joints": [joint.name]},
             )
 
 
 _VARIABLES = {"fixed": 0, "planar": 3, "floating": 7}
-"""Numbers that state a joint's position in MoveIt; of every other type one."""
+"""Number of position variables of a joint in MoveIt; every other type has one."""
 
 
 def _differ(joint: Joint, leader: Joint | None) -> bool:
-    """Whether two joints have positions of different sizes in MoveIt."""
+    """Tell whether two joints have different numbers of position variables in MoveIt."""
     return leader is not None and (_VARIABLES.get(joint.type, 1) != _VARIABLES.get(leader.type, 1))
 
 
@@ -340,37 +343,38 @@ def _differ(joint: Joint, leader: Joint | None) -> bool:
     on=("gazebo-classic", "mujoco", "pybullet"),
     effects={
         "pybullet": "ignores <mimic>: the joint moves on its own",
-        "gz, gazebo-classic": "drop it where sdformat 12.3 reads the robot",
+        "gz, gazebo-classic": "drop it if sdformat 12.3 reads the robot",
         "mujoco": "3.3 ignores it, 4.0 makes it a constraint",
     },
 )
 def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """The robot has mimic joints, and the simulator does not simulate them.
+    """The simulator does not simulate the mimic joints of the robot.
 
-    The follower is then a free joint that hangs where gravity takes it. Gazebo Classic needs a
-    plugin for it, MuJoCo before 4.0 an ``<equality>``, PyBullet a gear constraint. Joints that a
-    Gazebo plugin names in ``<mimicJoint>``, and those that move a link which a ``<joint>`` of SDF
-    in a ``<gazebo>`` block joins to another, are reported for MuJoCo and PyBullet alone.
+    A mimic joint then moves freely, independent of its leader. Gazebo Classic requires a plugin for
+    it, MuJoCo before 4.0 an ``<equality>``, PyBullet a gear constraint. Joints that a Gazebo plugin
+    names in ``<mimicJoint>`` are reported for MuJoCo and PyBullet only, and so are joints of a loop
+    that an SDF ``<joint>`` in a ``<gazebo>`` block closes.
     """
     plugged = {
         child.text.strip() for plugin in robot.plugins for child in plugin.element.all("mimicJoint")
     } | _in_loops(robot)
     free = [pair for pair in _mimics(robot) if pair[0].name not in plugged]
     if free:
-        yield _hanging(free, "where <mimic> is not simulated; add a plugin or a constraint")
+        yield _hanging(free, "where <mimic> is not simulated; add a plugin or a constraint", [])
     moved = [pair for pair in _mimics(robot) if pair[0].name in plugged]
     readers = [name for target, name in _WITHOUT_PLUGINS.items() if target in targets]
     if moved and readers:
-        read = "do" if len(readers) > 1 else "does"
+        do = "do" if len(readers) > 1 else "does"
         yield _hanging(
             moved,
-            f"in {' and '.join(readers)}, which {read} not read what moves it in Gazebo; add a "
-            "constraint",
+            f"in {' and '.join(readers)}, which {do} not read the Gazebo plugin or SDF joint that "
+            "moves it; add a constraint",
+            readers,
         )
 
 
 def _in_loops(robot: Robot) -> set[str]:
-    """Name the mimic joints that move an end of a joint of SDF, which closes a loop."""
+    """Get the names of mimic joints above an end of an SDF joint, which closes a loop."""
     ends = {
         end.text.strip()
         for block in robot.gazebo
@@ -389,15 +393,15 @@ def _in_loops(robot: Robot) -> set[str]:
 _WITHOUT_PLUGINS = {"mujoco": "MuJoCo before 4.0", "pybullet": "PyBullet"}
 
 
-def _hanging(mimics: list[tuple[Joint, Mimic]], where: str) -> Problem:
+def _hanging(mimics: list[tuple[Joint, Mimic]], where: str, readers: list[str]) -> Problem:
+    """Report mimic joints that move freely, and the readers for which this holds alone."""
     joint, mimic = mimics[0]
-    more = f" and {len(mimics) - 1} more" if len(mimics) > 1 else ""
-    are = "mimic joints hang" if more else "a mimic joint hangs"
+    more = f" (and {len(mimics) - 1} more)" if len(mimics) > 1 else ""
     return Problem(
         joint,
-        f"joint '{joint.name}'{more}: {are} free {where}",
+        f"mimic joint '{joint.name}'{more} moves freely {where}",
         at=mimic,
-        data={"joints": [one.name for one, _ in mimics]},
+        data={"joints": [one.name for one, _ in mimics], "readers": readers},
     )
 
 

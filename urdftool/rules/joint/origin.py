@@ -1,4 +1,4 @@
-"""Where and how a part is placed."""
+"""Rules on the rotation of an ``<origin>``."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
 @rule(
     WARNING,
     effects={
-        "urdfdom, gz, gazebo-classic": "take radians: 90 is 116.6° after fourteen turns",
+        "urdfdom, gz, gazebo-classic": "take radians: 90 rad is 116.6° after 14 turns",
     },
 )
 def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iterator[Problem]:
-    """A rotation is more than a full turn.
+    """A rotation of an ``<origin>`` is more than one turn.
 
-    Roll, pitch and yaw are in radians. 90 is taken for 90 rad, which comes out at 116.6°, so the
-    part stands askew.
+    Roll, pitch and yaw are in radians. 90 means 90 rad, which is the same rotation as 116.6°, so
+    the part has a wrong orientation. ``largest`` [rad] is the largest angle that is not reported.
     """
     for element in census(robot).known["origin"]:
         text = element.attributes.get("rpy")
@@ -41,9 +41,9 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
         if abs(angle) in _DEGREES:
             data |= {"degrees": True, "write": format_numbers(map(math.radians, angles))}
             shown = " ".join(f"{math.radians(a):.6g}" for a in angles)
-            what = f"has {angle:g} in its rpy, which looks like degrees; in radians write {shown}"
+            what = f"has {angle:g} in its rpy, apparently degrees; write {shown} in radians"
         else:
-            what = f"has {angle:g} rad in its rpy, more than a full turn; are these degrees?"
+            what = f"has {angle:g} rad in its rpy, more than one turn; check for degrees"
         around = element.parent.tag if element.parent is not None else "robot"
         whose = owner(element) if around == "joint" else f"the <{around}> of {owner(element)}"
         yield Problem(element, f"{whose} {what}", at=element.attribute_place("rpy"), data=data)

@@ -1,4 +1,4 @@
-"""Where joints are, compared with the geometry of the links that they join."""
+"""Rules on joint positions relative to the geometry of the joined links."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 class _Miss(NamedTuple):
-    """How far the axis of a joint passes from the geometry of its two bodies [m]."""
+    """Distances of the axis of a joint from the geometry of its two rigid bodies [m]."""
 
     joint: Joint
     place: Vector
@@ -34,11 +34,11 @@ class _Miss(NamedTuple):
     parent_size: float
 
     def is_off_child(self, part: float, least: float) -> bool:
-        """Whether the axis misses the child by a part of its size, and by a distance."""
+        """Tell whether the axis misses the child by a part of its size, and by a distance [m]."""
         return self.child > max(part * self.child_size, least)
 
     def is_off(self, part: float, least: float) -> bool:
-        """Whether the axis misses both."""
+        """Tell whether the axis misses both bodies."""
         off_parent = self.parent > max(part * self.parent_size, least)
         return off_parent and self.is_off_child(part, least)
 
@@ -57,17 +57,18 @@ def axis_misses_links(
     certain: float = 1.0,
     together: float = 1e-3,
 ) -> Iterator[Problem]:
-    """A joint's axis passes through the geometry of neither of its links.
+    """The axis of a joint does not pass through the geometry of either of its links.
 
-    A link turns about the frame of its joint. CAD exporters leave frames at the origin of the
-    assembly, or place the meshes twice: the robot may look right where all joints are at zero, and
-    comes apart as soon as one moves. Export each link with its own coordinate system at its joint.
+    A link rotates about the frame of its joint. CAD exporters may leave all frames at the origin of
+    the assembly, or apply the position of meshes twice: the robot looks correct if all joints are
+    at 0, and its links separate as soon as a joint moves. Export each link with its own frame, at
+    its joint.
 
-    It is reported where one axis misses both links by more than ``certain`` times their size; where
-    most axes of the robot, and at least two, miss both by ``part`` of their size; or where three or
-    more joints are in one place, within ``together`` [m], and the axes of all miss the link they
-    move. What is fixed to a link counts as the link, ``least`` [m] is the least distance, and of
-    geometry the bounding box counts. One finding names the joints.
+    It is reported in three cases: one axis misses both links by more than ``certain`` times their
+    size; most axes of the robot, and at least two, miss both links by ``part`` of their size; or
+    three or more joints are within ``together`` [m], and all their axes miss the child link. Links
+    that are fixed to a link count as part of it, and bounding boxes are used as geometry. ``least``
+    [m] is the smallest distance that is reported. One finding names all joints.
     """
     misses = list(_misses(robot))
     off = [miss for miss in misses if miss.is_off(part, least)]
@@ -88,7 +89,7 @@ def axis_misses_links(
     why = (
         f"the frames of {len(in_one_place)} links are in one place"
         if in_one_place
-        else "its frame is not where the two meet"
+        else "the joint frame is misplaced"
     )
     yield Problem(
         joint,
@@ -100,7 +101,7 @@ def axis_misses_links(
 
 
 def _in_one_place(misses: list[_Miss], part: float, least: float, together: float) -> list[_Miss]:
-    """Three or more joints in one place, whose axes all miss the link that they move."""
+    """Find three or more joints in one place whose axes all miss the link that they move."""
     off = [miss for miss in misses if miss.is_off_child(part, least)]
     for miss in off if len(off) >= 3 else ():
         group = [other for other in misses if math.dist(miss.place, other.place) <= together]
@@ -110,7 +111,7 @@ def _in_one_place(misses: list[_Miss], part: float, least: float, together: floa
 
 
 def _misses(robot: Robot) -> Iterator[_Miss]:
-    """Measure the joints that turn, and both of whose bodies have geometry that is known."""
+    """Measure the axes of revolute and continuous joints between bodies with known geometry."""
     turning = [joint for joint in robot.joints if joint.type in _TURNING]
     if not turning:
         return
@@ -146,11 +147,11 @@ def _gap(
     place: Vector,
     way: Vector,
 ) -> tuple[float, float] | None:
-    """Measure how far a line passes from the geometry of rigidly connected links, and their size.
+    """Measure the distance of a line from the geometry of rigidly connected links, and their size.
 
     Returns:
-        The distance and the largest length of a link [m]; None where they have no geometry, or one
-        that is not known.
+        The distance and the largest length of a link [m]; None if they have no geometry, or if its
+        size is unknown.
     """
     best, size = math.inf, 0.0
     for name in names:
@@ -170,9 +171,9 @@ def _gap(
 
 
 def _distance(place: Vector, way: Vector, box: Bounds, enough: float) -> float:
-    """Measure the distance of a line from a box [m]; ``enough`` where it is not less.
+    """Measure the distance of a line from a box [m], up to ``enough``.
 
-    The distance along the line is convex, so its minimum is found by a golden section search.
+    The distance is a convex function along the line, so a golden-section search finds the minimum.
     """
     middle = box.centre
     at = sum((m - p) * w for m, p, w in zip(middle, place, way, strict=True))

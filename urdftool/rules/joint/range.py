@@ -1,4 +1,4 @@
-"""From where to where a joint goes."""
+"""Rules on the range of a joint."""
 
 from __future__ import annotations
 
@@ -30,13 +30,12 @@ from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
     },
 )
 def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A joint's lower limit is above its upper one.
+    """The lower limit of a joint is above its upper limit.
 
-    No position lies between them, and each reader makes something else of it: PyBullet and MuJoCo
-    take the joint as unlimited, Gazebo swaps the two, Drake aborts, MoveIt plans nothing. In
-    PyBullet's own models ``lower="1" upper="-1"`` is the way to say that there is no limit; there,
-    for no other target, it is a remark. So the two are not swapped where they are whole numbers of
-    that size: a revolute joint without limits is ``continuous``.
+    Readers treat such limits differently: PyBullet and MuJoCo load the joint without limits, Gazebo
+    swaps the limits, Drake aborts, MoveIt cannot plan. In the models of PyBullet ``lower="1"
+    upper="-1"`` means no limits; if PyBullet and MuJoCo are the only targets, the finding is an
+    info. Such limits are not swapped: a revolute joint without limits is ``continuous``.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if lower > upper:
@@ -52,7 +51,7 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 
 @lower_above_upper.full
 def every_inverted_limit(robot: Robot) -> Iterator[Problem]:
-    """Report each inverted limit at its element; a bound that is not written is 0."""
+    """Report each inverted limit at its element, with 0 for a missing bound."""
     for joint in robot.joints:
         limit = joint.limit
         if joint.is_limited and limit is not None:
@@ -64,11 +63,11 @@ def every_inverted_limit(robot: Robot) -> Iterator[Problem]:
 
 def _inverted(joint: Joint, lower: float, upper: float) -> str:
     if says_unlimited(lower, upper):
-        so = "PyBullet and MuJoCo take it as unlimited, other readers do not; "
+        so = "PyBullet and MuJoCo take the joint as unlimited, other readers do not; "
         so += (
-            "make the joint continuous if it is unlimited, or else write lower below upper"
+            "make it continuous, or write lower below upper"
             if joint.type == "revolute"
-            else "write lower below upper, as far apart as the joint may slide"
+            else "write the range of the joint"
         )
     else:
         so = "PyBullet and MuJoCo ignore such limits; swap them"
@@ -76,13 +75,13 @@ def _inverted(joint: Joint, lower: float, upper: float) -> str:
 
 
 def says_unlimited(lower: float, upper: float) -> bool:
-    """Whether limits are those by which PyBullet's models say that there is none, as 1 and -1."""
+    """Tell whether limits mean no limits in models of PyBullet, such as 1 and -1."""
     return lower in (0.0, 1.0) and upper in (-1.0, 0.0) and lower > upper
 
 
 @lower_above_upper.fix(UNSAFE)
 def swap_bounds(problem: Problem, context: FixContext) -> Proposal | None:
-    """Swap the two; make a joint continuous whose limits mean that there are none."""
+    """Swap the limits, or make a revolute joint continuous if they mean no limits."""
     joint = context.joint(problem)
     found = bounds_of_joint(joint)
     if found is None:
@@ -92,7 +91,7 @@ def swap_bounds(problem: Problem, context: FixContext) -> Proposal | None:
     element = found[0].element
     lower, upper = element.get("lower") or "", element.get("upper") or ""
     changes = set_attribute(element, "lower", upper), set_attribute(element, "upper", lower)
-    return unsafe("swap the two", *changes)
+    return unsafe("swap lower and upper", *changes)
 
 
 def _make_continuous(joint: Joint) -> Proposal | None:
@@ -129,10 +128,10 @@ def is_locked(joint: Joint) -> bool:
     group="robot",
 )
 def locked_by_limits(robot: Robot) -> Iterator[Problem]:
-    """A joint's lower and upper limit are equal.
+    """The lower and upper limit of a joint are equal.
 
-    It is meant not to move. MuJoCo drops such a limit, so the very joint that was locked turns
-    freely; planners keep an axis that does nothing. A joint that does not move is ``fixed``.
+    The joint is meant not to move. MuJoCo ignores such limits, so the joint turns freely, and
+    planners have a variable without effect. A joint that does not move should be ``fixed``.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if lower == upper:
@@ -147,7 +146,7 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
 
 @locked_by_limits.fix(UNSAFE)
 def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
-    """Make a joint fixed that cannot leave 0, and that nothing drives."""
+    """Make a joint fixed if its only position is 0 and nothing drives it."""
     joint = context.joint(problem)
     if problem.data["position"] != 0.0 or joint.mimic is not None:
         return None
@@ -164,20 +163,20 @@ def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
     WARNING,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
-            "take radians: 90 is more than fourteen turns"
+            "take radians: 90 rad is more than 14 turns"
         ),
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake (none)": (
-            "keep it as a limit, which is never reached"
+            "keep it as a limit that is never reached"
         ),
     },
 )
 def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[Problem]:
-    """A revolute joint's limit is larger than two turns.
+    """A limit of a revolute joint is larger than two turns.
 
-    Angles are in radians. 90 lets the joint turn fourteen times, which winds up cables and gives
-    planners a hundred ways to one pose. A very large number mostly means that there is no limit;
-    then the joint is ``continuous``. A joint that moves a mere frame, one of several that stand for
-    a robot that moves freely, is let be.
+    Angles are in radians. A limit of 90 allows 14 turns, and planners find many solutions for one
+    pose. A very large number usually means no limit; the joint should then be ``continuous``. A
+    joint that only moves a frame without mass and geometry, such as one of six that give a free
+    robot its pose, is not reported. ``largest`` [rad] is the largest limit that is not reported.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -193,7 +192,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
         if abs(value) >= 1e3:
             yield Problem(
                 joint,
-                f"{what} means none; make the joint continuous",
+                f"{what} is in effect no limit; make the joint continuous",
                 at=at,
                 severity=INFO,
                 effects=("urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake (none)",),
@@ -203,7 +202,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
             low, high = math.radians(lower), math.radians(upper)
             yield Problem(
                 joint,
-                f"{what} looks like degrees; in radians the range is {low:.5g} to {high:.5g}",
+                f"{what} looks like degrees; write {low:.5g} to {high:.5g} in radians",
                 at=at,
                 data={"limit": value, "degrees": True},
             )
@@ -211,7 +210,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
             turns = abs(value) / (2 * math.pi)
             yield Problem(
                 joint,
-                f"{what} is {turns:.3g} turns; limits are in radians",
+                f"{what} is {turns:.3g} turns; write radians",
                 at=at,
                 data={"limit": value},
             )
@@ -223,7 +222,7 @@ def _looks_like_degrees(value: float) -> bool:
 
 @limit_in_degrees.fix(UNSAFE)
 def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the same range in radians; make a joint continuous whose limits mean none."""
+    """Write the same range in radians, or make the joint continuous if it has no limits."""
     joint = context.joint(problem)
     limit = joint.limit
     if limit is None:
@@ -248,12 +247,12 @@ def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal |
     },
 )
 def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
-    """A prismatic joint's limit, or the place of a joint, is more than ten metres.
+    """A limit of a prismatic joint, or the distance of a joint from its parent, is above 10 m.
 
-    Lengths are in metres. Numbers of a drawing in millimetres make a thousandfold robot. A joint
-    that moves a mere frame, one of several that stand for a robot that moves freely, is let be, and
-    so is a range that is about as long as a shape of the robot: a gantry on its beam, with legs at
-    both ends.
+    Lengths are in meters. Numbers in millimeters make the robot a thousand times too large. A joint
+    that only moves a frame without mass and geometry, such as one of six that give a free robot its
+    pose, is not reported. A range about as long as a shape of the robot, such as a gantry, is not
+    reported either. ``largest`` [m] is the largest length that is not reported.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
@@ -264,7 +263,7 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
             yield Problem(
                 joint,
                 f"{name} limit of joint '{joint.name}' is {value:g} m; "
-                f"if that is millimetres, write {value / 1000:g}",
+                f"if it is in millimeters, write {value / 1000:g}",
                 at=limit.element.attribute_place(name),
                 data={"limit": value},
             )
@@ -277,19 +276,19 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
             yield Problem(
                 joint,
                 f"joint '{joint.name}' is {abs(far):g} m from its parent; "
-                f"if that is millimetres, write {far / 1000:g}",
+                f"if it is in millimeters, write {far / 1000:g}",
                 at=joint.origin.element.attribute_place("xyz"),
                 data={"distance": abs(far)},
             )
 
 
 _FAR, _FARTHEST = 100.0, 1e4
-"""Lengths [m] between which a number is in millimeters, and not one that means none."""
+"""Numbers between these are lengths in millimeters, and no placeholders for no limit."""
 
 
 @prismatic_in_millimetres.fix(UNSAFE)
 def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the thousandth."""
+    """Divide the lengths by 1000."""
     found = attribute_at(problem)
     joint = context.joint(problem)
     if found is None:
@@ -310,7 +309,7 @@ def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | 
         for bound, value in (("lower", joint.limit.lower), ("upper", joint.limit.upper))
         if value
     ]
-    return unsafe("write them in metres", *changes)
+    return unsafe("write them in meters", *changes)
 
 
 @rule(
@@ -325,10 +324,11 @@ def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | 
 def limit_rounded_outward(
     robot: Robot, *, smallest: float = 1e-7, largest: float = 1e-3
 ) -> Iterator[Problem]:
-    """A revolute joint's limit is a multiple of 90° that was rounded up.
+    """A limit of a revolute joint is slightly beyond a multiple of 90°, because it was rounded up.
 
-    ``3.1416`` is seven millionths of a radian beyond a half turn. Planners use them, and drives
-    trip on them. Round limits towards zero: ``3.1415``.
+    ``3.1416`` is 7e-6 rad beyond a half turn. Planners use this range, but drives may stop there.
+    Round limits toward zero: ``3.1415``. A difference between ``smallest`` and ``largest`` [rad] is
+    reported.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.type != "revolute":
@@ -341,7 +341,7 @@ def limit_rounded_outward(
                 inside = math.copysign(math.floor(turns * quarter * 1e4) / 1e4, value)
                 yield Problem(
                     joint,
-                    f"{name} limit {value:g} of joint '{joint.name}' is beyond {turns * 90}° "
+                    f"{name} limit {value:g} of joint '{joint.name}' exceeds {turns * 90}° "
                     f"by {beyond:.1g} rad; write {inside:g}",
                     at=limit.element.attribute_place(name),
                     alike=name,
@@ -363,13 +363,13 @@ def round_limit_toward_zero(problem: Problem, _context: FixContext) -> Proposal 
     INFO,
     on=("moveit",),
     effects={
-        "moveit": "takes the whole range: several values of the joint give one pose",
+        "moveit": "takes the whole range: several joint positions give one pose",
     },
 )
 def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
-    """A revolute joint's range is more than a full turn.
+    """The range of a revolute joint is more than one turn.
 
-    One pose of the arm then has several joint values, and a planner may go the long way round.
+    Several joint positions then give the same pose, and a planner may take the longer way.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.type == "revolute" and 2 * math.pi + 1e-3 < upper - lower < 1e3:
@@ -392,11 +392,12 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
     group="robot",
 )
 def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
-    """A joint's range does not contain 0.
+    """The range of a joint does not contain 0.
 
-    Simulators start every joint at 0, so the first step throws it back over its stop, and planners
-    start out of bounds. ros2_control can set an ``initial_value``. The range itself is as it should
-    be: an elbow that cannot be straight has it.
+    Simulators start every joint at 0: the first step pushes the joint back into its range, and a
+    planner rejects the start state. Set an ``initial_value`` in ros2_control. The range itself can
+    be correct, as of an elbow that cannot be straight. ``tolerance`` [rad or m] is the distance of
+    0 from the range that is ignored.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.mimic is not None or lower > upper:
@@ -414,9 +415,9 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
 
 
 def _moves_a_frame(robot: Robot, joint: Joint) -> bool:
-    """Whether a joint's child is only there to carry the next joint, with its like at the root."""
+    """Tell whether a joint only positions the next one, as several joints at a free root do."""
     if not any(map(_is_body, robot.links)):
-        return False  # nothing but frames are written
+        return False  # the robot has only frames
     while joint.child in robot.link and not _is_body(robot.link[joint.child]):
         above = robot.tree.parent_joint(joint.parent)
         if above is None or above.type not in ("prismatic", "revolute", "continuous"):
@@ -426,7 +427,7 @@ def _moves_a_frame(robot: Robot, joint: Joint) -> bool:
 
 
 def _has_shape_as_long(robot: Robot, length: float) -> bool:
-    """Whether a shape is between half and twice as long as a range, as the rail of a slide is."""
+    """Tell whether a shape has between half and twice a length [m], as the rail of a slide has."""
     reach = reaches(robot)
     boxes = (reach.shape(shape) for _, shape in robot.shapes)
     return any(box is not None and 0.5 <= max(box.size) / length <= 2 for box in boxes if length)
@@ -437,7 +438,7 @@ def _is_body(link: Link) -> bool:
 
 
 def _bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:
-    """Revolute and prismatic joints of which both bounds are written and can be read."""
+    """Yield revolute and prismatic joints with two valid bounds, their limit and the bounds."""
     for joint in robot.joints:
         found = bounds_of_joint(joint)
         if joint.is_limited and found is not None:
@@ -445,7 +446,7 @@ def _bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:
 
 
 def bounds_of_joint(joint: Joint) -> tuple[Limit, float, float] | None:
-    """Get the limit of a joint with its bounds [rad or m], if both are written and can be read."""
+    """Get the limit of a joint with its bounds [rad or m], if both are valid numbers."""
     limit = joint.limit
     if limit is None or limit.lower is None or limit.upper is None:
         return None

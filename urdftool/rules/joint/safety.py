@@ -1,4 +1,4 @@
-"""Soft limits."""
+"""Rules on soft limits."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ APPLIES_TO = ("safety_controller",)
 def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
     """A ``<safety_controller>`` has no ``k_velocity``.
 
-    It is the one attribute of it that must be written; urdfdom refuses the whole robot without it.
+    ``k_velocity`` is the only required attribute; urdfdom rejects the robot without it.
     """
     for joint in robot.joints:
         safety = joint.safety_controller
@@ -32,7 +32,8 @@ def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
         if "k_velocity" not in misspelt_attributes(safety.element).values():
             yield Problem(
                 joint,
-                f"<safety_controller> of joint '{joint.name}' has no k_velocity; write it",
+                f"<safety_controller> of joint '{joint.name}' has no k_velocity, which is "
+                "required; write it",
                 at=safety,
             )
 
@@ -46,11 +47,11 @@ def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
     },
 )
 def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A joint's soft limits leave it no range.
+    """The soft limits of a joint leave no range.
 
-    Both are 0 where they are not written. MoveIt takes them for the range of the joint, so a
-    ``<safety_controller k_velocity="10"/>`` alone locks it at 0. Of a robot that is neither for ROS
-    nor for MoveIt nothing is reported, as no other reader uses soft limits.
+    Soft limits default to 0. MoveIt uses them as the range of the joint, so ``<safety_controller
+    k_velocity="10"/>`` alone locks the joint at 0. Robots for targets other than ROS and MoveIt are
+    not checked, because no other reader uses soft limits.
     """
     if targets.isdisjoint(ROS) and not _are_used(robot, targets):
         return
@@ -66,8 +67,8 @@ def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
         if low >= high or apart:
             yield Problem(
                 joint,
-                f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave it no range; "
-                "write soft_lower_limit and soft_upper_limit within its limits",
+                f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave no range; "
+                "write soft_lower_limit and soft_upper_limit within the joint limits",
                 at=safety,
                 data={"soft_lower": low, "soft_upper": high},
             )
@@ -75,7 +76,7 @@ def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
 
 @soft_limits_lock_joint.fix(UNSAFE)
 def write_hard_limits(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the hard limits."""
+    """Write the joint limits as soft limits."""
     joint = context.joint(problem)
     found, safety = bounds_of_joint(joint), joint.safety_controller
     if found is None or safety is None or found[1] >= found[2]:
@@ -84,7 +85,7 @@ def write_hard_limits(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _write_limits(safety: SafetyController, limit: Limit, *names: str) -> Proposal:
-    """Write hard limits as the soft ones."""
+    """Write bounds of the joint limits as soft limits."""
     changes = [
         set_attribute(safety.element, f"soft_{name}_limit", (limit.element.get(name) or "").strip())
         for name in names
@@ -102,13 +103,14 @@ def _write_limits(safety: SafetyController, limit: Limit, *names: str) -> Propos
 def soft_limits_outside_hard(
     robot: Robot, targets: frozenset[str], *, tolerance: float = 1e-6
 ) -> Iterator[Problem]:
-    """A joint's soft limits lie beyond its hard ones.
+    """The soft limits of a joint are beyond its joint limits.
 
-    They should slow the joint before the stop; out there they never do. A controller allows
-    ``k_position`` times the distance to the soft limit as velocity, so one that is beyond by no
-    more than the velocity limit divided by ``k_position`` still slows the joint, and is not
-    reported. Nor are those of a robot without transmissions and ros2_control that is not for
-    MoveIt, as nothing uses them.
+    Soft limits slow the joint before it reaches its limit; beyond the limit they have no effect. A
+    controller limits the velocity to ``k_position`` times the distance to the soft limit. A soft
+    limit that is beyond by less than the velocity limit divided by ``k_position`` still slows the
+    joint, and is not reported. Robots without transmissions and ros2_control are reported for
+    MoveIt only, because nothing else uses soft limits. ``tolerance`` [rad or m] is the difference
+    that is ignored.
     """
     if not _are_used(robot, targets):
         return
@@ -126,7 +128,7 @@ def soft_limits_outside_hard(
         if below and above:
             what = (
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' are beyond its limits "
-                f"{limit.lower:g} to {limit.upper:g}, so they do nothing"
+                f"{limit.lower:g} to {limit.upper:g}, so they have no effect"
             )
         elif below or above:
             word, soft, hard = (
@@ -134,7 +136,7 @@ def soft_limits_outside_hard(
             )
             what = (
                 f"soft {word} limit {soft:g} of joint '{joint.name}' is beyond its {word} limit "
-                f"{hard:g}, so it does nothing"
+                f"{hard:g}, so it has no effect"
             )
         else:
             continue
@@ -149,7 +151,7 @@ def soft_limits_outside_hard(
 
 @soft_limits_outside_hard.fix(UNSAFE)
 def clamp_soft_limits(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the hard limits, where the soft ones are beyond."""
+    """Write the joint limits where the soft limits are beyond them."""
     joint = context.joint(problem)
     found, safety = bounds_of_joint(joint), joint.safety_controller
     if found is None or safety is None:
@@ -169,13 +171,13 @@ def clamp_soft_limits(problem: Problem, context: FixContext) -> Proposal | None:
 def soft_limits_far_inside(
     robot: Robot, targets: frozenset[str], *, part: float = 0.5
 ) -> Iterator[Problem]:
-    """A joint's soft limits leave less than half of its range.
+    """The soft limits of a joint leave less than half of its range.
 
-    They should begin shortly before the hard limits: those of 395 joints in 40 public descriptions
-    leave at least 78 % of the range. Otherwise a sign, a decimal point or a unit is wrong, or only
-    the hard limits were changed. Planners then refuse positions that the robot can take. ``part``
-    is the part of the range that the soft limits must leave. Of a robot without transmissions and
-    ros2_control that is not for MoveIt nothing is reported, as nothing uses soft limits.
+    Soft limits should be close to the joint limits: those of 395 joints in 40 public descriptions
+    leave at least 78 % of the range. Usually a sign, a decimal point or a unit is wrong, or only
+    the joint limits were changed. Planners then reject positions that the robot can reach. ``part``
+    is the part of the range that the soft limits must leave. Robots without transmissions and
+    ros2_control are reported for MoveIt only, because nothing else uses soft limits.
     """
     if not _are_used(robot, targets):
         return
@@ -192,22 +194,22 @@ def soft_limits_far_inside(
             yield Problem(
                 joint,
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave {left:.0%} of its "
-                f"range {limit.lower:g} to {limit.upper:g}; MoveIt plans within them alone",
+                f"range {limit.lower:g} to {limit.upper:g}; MoveIt plans only within them",
                 at=safety,
                 data={"part": left},
             )
 
 
 def _are_used(robot: Robot, targets: frozenset[str]) -> bool:
-    """Whether something reads soft limits: controllers of ROS, or MoveIt."""
+    """Tell whether ROS controllers or MoveIt read the soft limits."""
     return bool(robot.transmissions or robot.ros2_controls) or "moveit" in targets
 
 
 def _still_acting(safety: SafetyController, limit: Limit) -> float:
-    """How far beyond a hard limit a soft one still slows the joint [rad, m].
+    """Compute how far beyond a joint limit a soft limit still slows the joint [rad, m].
 
-    ros_control allows ``k_position`` times the distance to the soft limit as velocity, and no more
-    than the velocity limit (joint_limits_interface.h).
+    ros_control limits the velocity to ``k_position`` times the distance to the soft limit, and to
+    the velocity limit (joint_limits_interface.h).
     """
     if safety.k_position <= 0 or not limit.velocity:
         return 0.0

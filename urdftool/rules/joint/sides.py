@@ -1,4 +1,4 @@
-"""The left and the right of a robot: where their joints are, and how they move."""
+"""Rules on the symmetry of joints on the left and right side of a robot."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from ..words import quoted
     group="robot",
 )
 def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
-    """A joint is not where the mirror image of its twin is.
+    """A joint is not at the mirror image of the corresponding joint on the other side.
 
-    Left and right are told by the names of the links, and nothing is said of names with two such
-    words that may be paired in several ways. It is said of robots of which most such pairs
-    mirror each other, of joints that move, and of the first from which a limb is off, not of those
-    below. Limbs whose joints have the same ``<origin>`` on both sides are copies, and not reported.
+    Left and right are recognized by link names; ambiguous names are not compared. Reported are
+    joints that move, of robots where most pairs are symmetric. Only the first displaced joint of a
+    limb is reported. Limbs whose joints have the same ``<origin>`` on both sides are copies, and
+    not reported.
     """
     for pair, gap in sides(robot).off:
         right = pair.right_joint
@@ -36,8 +36,8 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
             continue
         yield Problem(
             right,
-            f"joint '{right.name}' is {gap * 1000:.3g} mm from where '{pair.left_joint.name}' has "
-            "its mirror image; one of the two is misplaced",
+            f"joint '{right.name}' is {gap * 1000:.3g} mm from the mirror image of "
+            f"'{pair.left_joint.name}'; correct the origin of one of them",
             at=right.origin or right,
             data={"twin": pair.left_joint.name, "distance": gap},
         )
@@ -61,14 +61,14 @@ def _has_the_same_origin(pair: Pair) -> bool:
 def limits_not_mirrored(
     robot: Robot, *, tolerance: float = 0.03, together: float = 3
 ) -> Iterator[Problem]:
-    """A joint and its twin of the other side do not move alike.
+    """A joint and the corresponding joint on the other side have ranges that are not symmetric.
 
-    Left and right are told by the names of the links. Where both axes turn mirrored, the limits are
-    the same; where one turns the other way, they are swapped with the other sign. An axis that was
-    flipped alone, or limits that were, break that. ``tolerance`` [rad or m] is the difference that
-    is ignored. Grippers of equal limits are copies, and not reported. More than ``together`` such
-    joints are one finding. Joints that are not where the mirror has them are left out, and those
-    that carry neither mass nor shapes.
+    Left and right are recognized by link names. If both axes are mirrored, the limits must be
+    equal; if one axis is reversed, the limits must be negated and swapped. Usually one axis or one
+    pair of limits has the wrong sign. Gripper joints with equal limits are copies, and not
+    reported, neither are displaced joints and joints that move no mass or geometry. ``tolerance``
+    [rad or m] is the difference that is ignored. More than ``together`` such joints are one
+    finding.
     """
     found = sides(robot)
     if found.normal is None:
@@ -77,7 +77,7 @@ def limits_not_mirrored(
     also = ""
     if len(unlike) > together:
         names = ", ".join(f"'{pair.right_joint.name}'" for pair, _, _ in unlike[1:])
-        also = f"; the same is true of {names}"
+        also = f"; the same applies to {names}"
     for pair, message, wanted in unlike[:1] if also else unlike:
         joint = pair.right_joint
         data = {"twin": pair.left_joint.name, "mirrored": list(wanted)}
@@ -88,7 +88,7 @@ _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
 
 
 def _carries_nothing(robot: Robot, link: Link) -> bool:
-    """Whether a link and all below it are frames."""
+    """Tell whether a link and its descendants have neither mass nor geometry."""
     names = (link.name, *robot.tree.descendants(link.name))
     return all(
         one.mass == 0 and not one.visuals and not one.collisions
@@ -99,11 +99,11 @@ def _carries_nothing(robot: Robot, link: Link) -> bool:
 def _unlike(
     robot: Robot, found: Sides, tolerance: float
 ) -> Iterator[tuple[Pair, str, tuple[float, float]]]:
-    """Find pairs of joints with ranges that do not mirror each other.
+    """Find pairs of joints with ranges that are not symmetric.
 
     Yields:
-        The pair, what is wrong with the right joint, and the range that mirrors that of the left
-        one [rad or m].
+        The pair, the message about the right joint, and the range that mirrors the left joint [rad
+        or m].
     """
     for pair in found.pairs:
         if found.is_displaced(pair):
@@ -125,10 +125,10 @@ def _unlike(
         if _near(right, other, tolerance):
             what = "its axis or its limits have the wrong sign"
         else:
-            what = f"the mirror image of '{twin}' goes from {low:g} to {high:g}"
+            what = f"the mirrored range is {low:g} to {high:g}"
         message = (
-            f"joint '{name}' goes from {right[0]:g} to {right[1]:g} and is not the mirror image of "
-            f"'{twin}': {what}"
+            f"range {right[0]:g} to {right[1]:g} of joint '{name}' is not the mirror image of the "
+            f"range of '{twin}': {what}"
         )
         yield pair, message, wanted
 
@@ -137,21 +137,21 @@ def _unlike(
     INFO,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
-            "keep the axis: the same command turns one of them the other way"
+            "keep the axis: the same command turns one of them in the opposite direction"
         ),
     },
 )
 def axis_against_others(robot: Robot) -> Iterator[Problem]:
-    """A joint's axis points the other way than those of its likes.
+    """The axis of a joint is reversed compared with similar joints.
 
-    Four legs, or wheels, have joints of one kind, told by their names. Where three of four axes
-    point one way, or one of two sides is turned and the other is not, one was flipped.
+    Legs or wheels have joints of the same kind, recognized by their names. If three of four axes
+    have one direction, or a pair of sides differs from the other pairs, one axis is reversed.
 
-    A pair that is alone of its kind is compared with the others of its limb, or of the robot where
-    the limb has fewer than two: in some robots the axes of left and right have one direction, in
-    others they are mirror images, and a single pair that is neither as all others are was flipped.
-    Only axes of one kind are compared, such as those across the robot, and wheels only with
-    wheels. Limits that are not symmetric show how a pair is meant, and it is not reported.
+    A pair that is the only one of its kind is compared with the other pairs of its limb, or of the
+    robot if the limb has fewer than two: in some robots the axes of left and right are parallel, in
+    others they are mirror images. Only axes of similar direction are compared, such as those across
+    the robot, and wheels only with wheels. Asymmetric limits show the intended direction; such a
+    pair is not reported.
     """
     found = sides(robot)
     if found.normal is None:
@@ -160,7 +160,7 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
     for pair in found.pairs:
         if pair.left_joint.has_axis and found.turns_alike(pair) is not None:
             axis = found.axis(pair.left, pair.left_joint) or (0.0, 0.0, 0.0)
-            across = abs(axis[found.normal]) > 0.5  # a wheel, and not what steers it
+            across = abs(axis[found.normal]) > 0.5  # excludes steering joints
             kind = family_of(pair.left_joint.name), pair.left_joint.type, across
             families.setdefault(kind, []).append(pair)
     for pairs in families.values():
@@ -176,8 +176,8 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
             names = f"'{other.left_joint.name}' and '{other.right_joint.name}'"
             yield Problem(
                 joint,
-                f"axis of joint '{joint.name}' is to that of '{twin.name}' not as those of {names} "
-                "are to each other; one of them is flipped",
+                f"axis of joint '{joint.name}' is reversed relative to '{twin.name}', compared "
+                f"with {names}; check the sign of one axis",
                 at=joint.axis or joint,
                 data={"twin": twin.name},
             )
@@ -185,17 +185,17 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
 
 
 class _Turn(NamedTuple):
-    """The axes of a pair of joints, of unit length, in the frame of the root."""
+    """Unit axes of a pair of joints, in the frame of the root."""
 
     pair: Pair
     left: Vector
     right: Vector
     wheel: bool
-    """Whether the joints turn without limit and move nothing further."""
+    """Whether the joints are continuous and move no other joint."""
 
     @property
     def same(self) -> bool:
-        """Whether the two point the same way, as far as they do."""
+        """Whether the two axes have the same direction."""
         return _dot(self.left, self.right) > 0
 
 
@@ -204,7 +204,7 @@ def _dot(one: Vector, other: Vector) -> float:
 
 
 def _lone(robot: Robot, found: Sides) -> Iterator[Problem]:
-    """Axes of a pair alone of its kind that are to each other as those of no other pair are."""
+    """Report pairs that are alone of their kind and differ from every comparable pair."""
     turns = [turn for pair in found.pairs if (turn := _turn(robot, found, pair))]
     kinds = Counter(family_of(turn.pair.left_joint.name) for turn in turns)
     for turn in turns:
@@ -228,8 +228,8 @@ def _lone(robot: Robot, found: Sides) -> Iterator[Problem]:
         names = quoted(other.pair.left_joint.name for other, _ in votes)
         yield Problem(
             joint,
-            f"axis of joint '{joint.name}' is to that of '{twin.name}' not as those of {names} "
-            "are to those of their twins; one of the two is flipped",
+            f"axis of joint '{joint.name}' is reversed relative to '{twin.name}', compared with "
+            f"the pairs of {names}; check the sign of one axis",
             at=joint.axis or joint,
             data={"twin": twin.name},
         )
@@ -248,10 +248,10 @@ def _turn(robot: Robot, found: Sides, pair: Pair) -> _Turn | None:
 
 
 def _agree(one: _Turn, other: _Turn, normal: int) -> bool | None:
-    """Whether the axes of two pairs are to each other alike; None where they are not comparable.
+    """Compare the relative direction of the axes of two pairs; None if not comparable.
 
-    Axes across the robot are compared with each other, those at right angles to that with each
-    other, and oblique ones with parallel ones.
+    Axes across the robot are compared with each other, perpendicular ones with each other, and
+    oblique ones with parallel ones.
     """
     kinds = [_straight(turn, normal) for turn in (one, other)]
     if kinds[0] is not None:
@@ -261,7 +261,7 @@ def _agree(one: _Turn, other: _Turn, normal: int) -> bool | None:
 
 
 def _straight(turn: _Turn, normal: int) -> bool | None:
-    """Whether axes are across the robot rather than at right angles to that; None if oblique."""
+    """Tell whether axes are across the robot (True) or perpendicular (False); None if oblique."""
     if abs(_dot(turn.left, turn.right)) < 0.95:
         return None
     part = abs(turn.left[normal])
@@ -269,13 +269,13 @@ def _straight(turn: _Turn, normal: int) -> bool | None:
 
 
 def _limits_tell(pair: Pair) -> bool:
-    """Whether the limits of a pair differ from what they are with the axis turned around."""
+    """Tell whether the limits of a pair are asymmetric, so that they show a direction."""
     ranges = [_range(joint) for joint in (pair.left_joint, pair.right_joint)]
     return any(one is not None and not _near(one, (-one[1], -one[0]), 0.03) for one in ranges)
 
 
 def _limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
-    """The pairs above and below one, as far as one carries one other."""
+    """Find the pairs above and below a pair in its limb, up to the next branch."""
     by_link = {other.left.name: other for other in found.pairs if not other.left_joint.is_fixed}
     carrier: dict[str, str] = {}
     for link in by_link:
@@ -294,7 +294,7 @@ def _limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
 
 
 def _odd_of(turn: _Turn, others: list[_Turn], normal: int) -> Joint:
-    """The joint of a pair whose axis the others do not have, if they have one; else the right."""
+    """Choose the joint whose axis differs from those of all other pairs; the right one if none."""
     pair = turn.pair
     across = _straight(turn, normal)
     if across and all(_dot(turn.right, other.right) > 0 for other in others):
@@ -303,7 +303,7 @@ def _odd_of(turn: _Turn, others: list[_Turn], normal: int) -> Joint:
 
 
 def _odd(found: Sides, pair: Pair, pairs: list[Pair]) -> Joint:
-    """The one joint whose axis, as it stands, no other of its kind has; else the right one."""
+    """Choose the joint whose axis no other joint of the kind has; the right one if none."""
     joints = [
         (joint, axis)
         for other in pairs
