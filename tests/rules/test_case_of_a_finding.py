@@ -137,7 +137,7 @@ def test_a_wrong_vector_of_a_visual_and_of_a_color(write):
 
 @pytest.mark.parametrize(
     ("text", "says"),
-    [("1 ", "read it as meant"), ("1kg", "rejects the file"), ("nan", None)],
+    [("1 ", "read it as intended"), ("1kg", "rejects the file"), ("nan", None)],
 )
 def test_mujoco_and_text_that_is_no_number(write, text, says):
     path = write("r.urdf", swing(LIMIT.format(text, 2)))
@@ -357,8 +357,8 @@ def test_an_effort_of_0_makes_a_joint_passive_in_drake(write):
         ("planar", "0.1 0.2 0.3", "reads one for each"),
         ("planar", "0.1 0.2", "rejects"),
         ("continuous", "0.1 0.2 0.3", "rejects"),
-        ("continuous", "0.1 N", "reads as far"),
-        ("continuous", "0,1 0.2", "reads as far"),
+        ("continuous", "0.1 N", "reads the leading"),
+        ("continuous", "0,1 0.2", "reads the leading"),
     ],
 )
 def test_drake_reads_three_dampings_of_a_planar_joint(write, kind, damping, says):

@@ -181,7 +181,7 @@ def test_unexpanded_expression(tmp_path, more, reader):
 def test_a_brace_without_dollar_in_a_plain_urdf(tmp_path):
     robot = _robot(HEAVY, first='<gazebo reference="wheel_{side}_link"><mu1>1</mu1></gazebo>')
     message = found(tmp_path, "unexpanded-expression", robot).message
-    assert message.endswith("write what '{side}' stands for")
+    assert message.endswith("write the value of '{side}'")
 
 
 RAISED = COLLISION.replace("<geometry>", '<origin xyz="0 0 0.1"/><geometry>').replace(

@@ -113,13 +113,13 @@ def test_a_transmission_is_not_for_a_joint_that_has_one_or_another_number(tmp_pa
             "<provideFeedback>true</provideFeedback>",
             "remove it, because joint 'j' is fixed and lumped",
         ),
-        ("fixed", "<preserveFixedJoint>true</preserveFixedJoint>", "write it at joint 'j'"),
+        ("fixed", "<preserveFixedJoint>true</preserveFixedJoint>", "write it for joint 'j'"),
         (
             "fixed",
             '<preserveFixedJoint value="false"/><stopCfm>1</stopCfm>',
             "remove them, because joint 'j' is fixed and lumped",
         ),
-        ("continuous", "<provideFeedback>true</provideFeedback>", "write it at joint 'j'"),
+        ("continuous", "<provideFeedback>true</provideFeedback>", "write it for joint 'j'"),
     ],
 )
 def test_what_would_do_nothing_at_a_lumped_joint_is_to_be_removed(tmp_path, kind, inside, remedy):

@@ -127,7 +127,7 @@ def test_both_frictions_of_a_block_are_one_finding(tmp_path):
     assert said("<mu1>-1</mu1><mu2>50</mu2><kp>0</kp>") == [
         "mu1 is -1; a friction cannot be below 0",
         "mu2 is 50; rubber on concrete has about 1",
-        "kp is 0, so that nothing carries the link; Gazebo's own is 1e12",
+        "kp is 0, so contacts do not support the link; the default is 1e12",
     ]
 
 
@@ -139,7 +139,7 @@ def test_an_old_name_beside_the_new_one_is_to_be_removed(tmp_path):
 
     assert said("") == ["cfmDamping is now called implicitSpringDamper; write that"]
     assert said("<implicitSpringDamper>1</implicitSpringDamper>") == [
-        "cfmDamping is now called implicitSpringDamper, which is written as well; remove it"
+        "cfmDamping is now called implicitSpringDamper, which the block has too; remove it"
     ]
 
 

@@ -74,7 +74,7 @@ def test_several_of_a_file_are_one_finding(lint):
         joint_limits=LIMITS.format(velocity="2", on="true", position="1"),
     )
     assert len(found) == 1
-    assert "the same is true of max_position of joint 'elbow'" in found[0]
+    assert "the same applies to max_position of joint 'elbow'" in found[0]
 
 
 def test_solvers_and_cartesian_limits(lint):
@@ -102,8 +102,8 @@ def test_ros_1_converts_integers(lint):
         (WHOLE, "arm_controller", None),
         (WHOLE.replace("action_ns: follow_joint_trajectory, ", ""), "arm_controller", "action_ns"),
         (WHOLE.replace("follow_joint_trajectory", "''"), "arm_controller", None),
-        (WHOLE.replace("type: FollowJointTrajectory, ", ""), "arm_controller", "lacks type"),
-        (WHOLE.replace("[elbow]", "[]"), "arm_controller", "lacks joints"),
+        (WHOLE.replace("type: FollowJointTrajectory, ", ""), "arm_controller", "has no type"),
+        (WHOLE.replace("[elbow]", "[]"), "arm_controller", "has no joints"),
         (WHOLE.replace("Trajectory,", "Trajectroy,"), "arm_controller", "'FollowJointTrajectory'?"),
         (WHOLE, "arm_controler", "did you mean 'arm_controller'?"),
     ],

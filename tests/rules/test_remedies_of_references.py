@@ -31,10 +31,10 @@ def found(write, rule, blocks, **more):
 def test_a_word_that_the_joint_has_is_to_be_removed(write, at_joint, removed):
     blocks = '<gazebo reference="finger_link"><provideFeedback>1</provideFeedback></gazebo>'
     (finding,) = found(write, "misplaced-extension", blocks + at_joint, fixes=True)
-    assert ("remove it, because joint 'j' has its own" in finding.message) == removed
-    assert ("write it at joint 'j'" in finding.message) != removed
+    assert ("remove it, because joint 'j' already has its own" in finding.message) == removed
+    assert ("write it for joint 'j'" in finding.message) != removed
     assert finding.fix is not None
-    assert ("take" in finding.fix.message) == removed
+    assert ("remove" in finding.fix.message) == removed
 
 
 @pytest.mark.parametrize(
@@ -57,4 +57,4 @@ def test_a_link_of_sdf_is_not_found_by_a_reference(write):
     )
     (finding,) = found(write, "dangling-reference", blocks)
     assert "suggestion" not in finding.data
-    assert "a link of SDF" in finding.message
+    assert "an SDF link" in finding.message

@@ -20,8 +20,8 @@ def test_attributes_nobody_reads_are_one_finding_of_all_their_elements(tmp_path)
     assert messages(tmp_path, inside, "unknown-attribute") == [
         (
             5,
-            "<dynamics> of joint 'j0' (and 2 more) has the attributes 'D', 'K', 'mu_coulomb', which"
-            " URDF does not know; readers pass over them",
+            "<dynamics> of joint 'j0' (and 2 more) has the unknown attributes 'D', 'K', "
+            "'mu_coulomb'; URDF readers ignore them",
         )
     ]
 
@@ -35,14 +35,14 @@ def test_a_misspelt_attribute_is_told_at_each_place_for_each_is_mended(tmp_path)
 def test_a_remark_is_told_apart_from_what_is_lost(tmp_path):
     found = messages(tmp_path, '<dynamics damping="0.1" note="x" K="1"/>', "unknown-attribute")
     assert [message.partition(" has ")[2] for _, message in found] == [
-        "the attribute 'note', which URDF does not know; readers pass over it",
-        "the attribute 'K', which URDF does not know; readers pass over it",
+        "the unknown attribute 'note'; URDF readers ignore it",
+        "the unknown attribute 'K'; URDF readers ignore it",
     ]
 
 
 def test_elements_nobody_reads_are_one_finding(tmp_path):
     assert messages(tmp_path, "<gearbox/>", "unknown-element") == [
-        (5, "<gearbox> does not belong in joint 'j0' (and 2 more); URDF readers pass over it")
+        (5, "<gearbox> does not belong in joint 'j0' (and 2 more); URDF readers ignore it")
     ]
 
 

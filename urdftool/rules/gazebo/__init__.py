@@ -1,4 +1,4 @@
-"""What Gazebo does with a robot's `<gazebo>` blocks."""
+"""Rules on ``<gazebo>`` blocks and the plugins and sensors in them."""
 
 FILES = (
     "tags",

@@ -22,7 +22,7 @@ OF_JOINT = words(
 """Keywords of a joint that hold a value; the others are of a link."""
 
 _NOT_OF_PARTS = words("static preserveFixedJoint disableFixedJointLumping")
-"""Flags of the model, or of how it is converted."""
+"""Flags of the model, or of its conversion."""
 
 _KIND_IN_WORDS = {
     "number": "a finite number",

@@ -1,4 +1,4 @@
-"""Which links a robot stands on and grips with."""
+"""Find the links with which a robot rolls, stands and grips."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NOT_WHEEL = re.compile(
 
 
 def contact_role(robot: Robot, link: Link) -> str:
-    """What a link touches the world as: ``wheel``, ``caster``, ``foot``, ``finger`` or nothing."""
+    """Get the role of a link in contact: ``wheel``, ``caster``, ``foot``, ``finger`` or empty."""
     if not link.collisions:
         return ""
     joint = robot.tree.parent_joint(link.name)
@@ -40,10 +40,10 @@ def contact_role(robot: Robot, link: Link) -> str:
 
 
 def _grips(robot: Robot, link: Link) -> bool:
-    """Whether a finger moves, or another one toward it.
+    """Tell whether a finger moves, or another finger moves toward it.
 
-    One whose gripper has no joint that moves is a part of the wrist: the joint that moves it has
-    another name, and no finger is mounted on it with a joint that moves.
+    A finger of a gripper without moving joints is a part of the wrist: the joint that moves it has
+    an unrelated name, and no finger moves relative to it.
     """
     members = [one for one, _ in attached_links(robot, link)]
     for member in members:
@@ -58,12 +58,12 @@ def _grips(robot: Robot, link: Link) -> bool:
 
 
 def is_wheel(robot: Robot, link: Link) -> bool:
-    """Whether a link, or one that is rigidly attached to it, rolls on the ground."""
+    """Tell whether a link, or one that is fixed to it, rolls on the ground."""
     return any(contact_role(robot, one) == "wheel" for one, _ in attached_links(robot, link))
 
 
 def _rolls(robot: Robot, link: Link) -> bool:
-    """Whether a link turns without end about an axis that lies level, and is round.
+    """Tell whether a link is round and turns continuously about a horizontal axis.
 
     The link may be fixed to the one that the joint moves, as a tire to its hub.
     """
@@ -82,13 +82,13 @@ def _rolls(robot: Robot, link: Link) -> bool:
 
 
 def _is_moved(robot: Robot, link: Link) -> bool:
-    """Whether a joint that is not fixed has a link as its child."""
+    """Tell whether a link is the child of a joint that is not fixed."""
     joint = robot.tree.parent_joint(link.name)
     return joint is not None and not joint.is_fixed
 
 
 def _is_round_about(collision: Collision, joint: Joint, place: Pose = IDENTITY) -> bool:
-    """Whether a shape is a cylinder or sphere that turns about its own middle.
+    """Tell whether a shape is a cylinder or sphere with its center on the axis of a joint.
 
     Args:
         collision: The shape.
@@ -108,7 +108,7 @@ def _is_round_about(collision: Collision, joint: Joint, place: Pose = IDENTITY) 
 
 
 def axis_up(robot: Robot, link: Link, joint: Joint) -> float:
-    """How far a joint's axis points up in the root's frame, where all joints are at zero."""
+    """Compute the vertical component of a joint's unit axis, with all joints at 0."""
     pose = pose_of(joint.origin)
     for name in robot.tree.ancestors(link.name):
         above = robot.tree.parent_joint(name)
@@ -118,14 +118,14 @@ def axis_up(robot: Robot, link: Link, joint: Joint) -> float:
 
 
 def _moves(robot: Robot, link: Link) -> bool:
-    """Whether a joint that moves lies between a link and the root."""
+    """Tell whether a moving joint is between a link and the root."""
     names = [link.name, *robot.tree.ancestors(link.name)]
     joints = [robot.tree.parent_joint(name) for name in names]
     return any(joint is not None and not joint.is_fixed for joint in joints)
 
 
 def has_friction(blocks: list[GazeboExtension]) -> bool:
-    """Whether the blocks of a link say how it grips."""
+    """Tell whether the blocks of a link set its friction."""
     for block in blocks:
         if block.value("mu1") is not None or block.value("mu2") is not None:
             return True

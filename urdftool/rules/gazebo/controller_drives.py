@@ -1,4 +1,4 @@
-"""What a ``diff_drive_controller`` in YAML drives, and what it is told of its wheels."""
+"""Find the wheels and parameters of ``diff_drive_controller`` in YAML files."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from .drive_wheels import Drive, Told, wheel_of
 def controller_drives(
     robot: Robot, description: Description, poses: dict[str, Pose]
 ) -> Iterator[Drive]:
-    """The controllers whose wheels are known, in the files that are for a robot.
+    """Yield the controllers with known wheels, from the controller files of a robot.
 
     Args:
         robot: The robot.
         description: Its description.
-        poses: Of its links in the frame of the root; empty where they are not worked out yet.
+        poses: Poses of its links in the frame of the root; empty if not computed yet.
     """
     for file in package_of(robot, description).controller_files:
         for controller in file.controllers:
@@ -57,12 +57,12 @@ def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose])
         len(pairs) > 1 or (_value(controller, "wheels_per_side") or 1) > 1,
         _is_simulated(robot),
         [
-            (told, pairs[0])
-            for told in _parameter(controller, "wheel_separation", "wheel_separation_multiplier")
+            (length, pairs[0])
+            for length in _parameter(controller, "wheel_separation", "wheel_separation_multiplier")
         ],
         [
-            (told, pairs[0][0])
-            for told in _parameter(
+            (length, pairs[0][0])
+            for length in _parameter(
                 controller,
                 "wheel_radius",
                 "wheel_radius_multiplier",
@@ -76,8 +76,8 @@ def _parameter(controller: Controller, name: str, *multipliers: str) -> Iterator
     for node in controller.named(name):
         value = _scalar(node)
         if value is not None:
-            meant = value * math.prod(_value(controller, word) or 1.0 for word in multipliers)
-            yield Told(name, value, meant, node.place)
+            scaled = value * math.prod(_value(controller, word) or 1.0 for word in multipliers)
+            yield Told(name, value, scaled, node.place)
 
 
 def _value(controller: Controller, name: str) -> float | None:
@@ -89,7 +89,7 @@ def _scalar(node: Node) -> float | None:
 
 
 def _is_simulated(robot: Robot) -> bool:
-    """Whether the wheels turn as their axes say, which hardware need not."""
+    """Tell whether a simulator turns the wheels about their axes, unlike real hardware."""
     return any("_ros2_control/" in (block.plugin or "") for block in robot.ros2_controls) or any(
         "gazebo_ros_control" in plugin.filename for plugin in robot.plugins
     )

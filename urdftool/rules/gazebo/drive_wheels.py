@@ -1,4 +1,4 @@
-"""What drives on wheels, plugins and controllers: on which, and what it is told of them."""
+"""Find wheel drives, plugins and controllers, with their wheels and configured lengths."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _DIAMETER = ("wheel_diameter", "wheelDiameter")
 
 
 class Wheel(NamedTuple):
-    """A wheel as it stands where all joints are at zero, in the frame of the root [m]."""
+    """A wheel in the frame of the root [m], with all joints at 0."""
 
     joint: Joint
     pose: Pose
@@ -34,7 +34,7 @@ class Wheel(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The link's name."""
+        """Name of the link."""
         return self.joint.child
 
 
@@ -43,14 +43,14 @@ Pair = tuple[Wheel, Wheel]
 
 
 class Told(NamedTuple):
-    """A length that a drive is told.
+    """A length in the parameters of a drive.
 
     Attributes:
-        word: How it is written.
+        word: Name of the parameter.
         value: The length [m].
-        meant: The same, with what it is multiplied by [m].
-        place: Where it is written.
-        per_radius: Of a wheel's size, 2 for a diameter and 1 for a radius.
+        meant: The length with its multipliers [m].
+        place: Location in the file.
+        per_radius: 2 for the diameter of a wheel, 1 for its radius.
     """
 
     word: str
@@ -61,17 +61,17 @@ class Told(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """A plugin or controller.
+    """A plugin or controller that drives wheels.
 
     Attributes:
-        name: Which, in words.
-        subject: What a finding of it is about.
+        name: Its name, with its kind.
+        subject: The element or joint of its findings.
         pairs: The wheels that it drives.
-        named: Where it names the first of them.
+        named: Location of its first wheel name.
         skids: Whether its wheels slip sideways when it turns.
-        turns: Whether it goes ahead when the wheels of both sides are given the same velocity.
-        separations: What it is told of the distance of a pair.
-        sizes: What it is told of the size of a wheel.
+        turns: Whether the robot moves ahead if the wheels of both sides have the same velocity.
+        separations: Configured distances, each with its pair of wheels.
+        sizes: Configured radii and diameters, each with its wheel.
     """
 
     name: str
@@ -85,7 +85,7 @@ class Drive(NamedTuple):
 
 
 def drives(robot: Robot) -> Iterator[Drive]:
-    """The drives of a robot whose wheels are known."""
+    """Yield the drives of a robot with known wheels."""
     poses: dict[str, Pose] = {}
     for plugin in robot.plugins:
         if _ROLLS.search(plugin.filename.rpartition("/")[2]):
@@ -121,13 +121,13 @@ def _of_plugin(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator
         len(pairs) > 1 or bool(_SKIDS.search(plugin.filename)),
         bool(_DRIVES.search(plugin.filename.rpartition("/")[2])),
         [
-            (told, pairs[min(index, len(pairs) - 1)])
-            for index, told in _told(plugin, _SEPARATION, 1)
+            (length, pairs[min(index, len(pairs) - 1)])
+            for index, length in _told(plugin, _SEPARATION, 1)
         ],
         [
-            (told, pairs[min(index, len(pairs) - 1)][0])
+            (length, pairs[min(index, len(pairs) - 1)][0])
             for names, per_radius in ((_RADIUS, 1), (_DIAMETER, 2))
-            for index, told in _told(plugin, names, per_radius)
+            for index, length in _told(plugin, names, per_radius)
         ],
     )
 
@@ -148,7 +148,7 @@ def _mirrored(tag: str) -> str:
 
 
 def wheel_of(robot: Robot, poses: dict[str, Pose], name: str) -> Wheel | None:
-    """The wheel that a joint turns; None where there is no such joint, or it cannot turn."""
+    """Get the wheel that a joint turns; None if there is no such joint, or it is fixed."""
     joint = robot.joint.get(name)
     if joint is None or joint.child not in poses or joint.is_fixed:
         return None

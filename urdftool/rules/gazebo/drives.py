@@ -1,4 +1,4 @@
-"""Plugins that drive on wheels, beside the wheels that the robot has."""
+"""Rules on wheel drives, compared with the wheels of the robot."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from .wheel_pair import radius_about
 
 APPLIES_TO = ("plugin", "ros2_control", "transmission")
 
-_SLIP = 2.5  # a base that skids is often told of a wider track, since it turns less than it rolls
+_SLIP = (
+    2.5  # a skid-steer base is often configured with a larger separation, because its wheels slip
+)
 
 
 @rule(
@@ -33,39 +35,39 @@ _SLIP = 2.5  # a base that skids is often told of a wider track, since it turns 
 def drive_size_mismatch(
     robot: Robot, *, apart: float = 0.05, round: float = 0.15
 ) -> Iterator[Problem]:
-    """A drive plugin or controller is told of other wheels than the robot has.
+    """The wheel separation or radius of a drive differs from the wheels of the robot.
 
-    It works out from the distance of the wheels and from their radius how fast each has to turn,
-    and where the robot is. Half the distance, or a diameter written for a radius, is a factor of
-    two in both. A distance is let pass from the inner edges of the wheels to the outer, and beyond
-    by the part ``apart``, a radius by the part ``round``; the distance of wheels that skid may be
-    more than that. A wheel is measured with all that is fixed to it, as a tire to its hub. Plugins
-    stand in the robot, a ``diff_drive_controller`` in a YAML file that is
-    for it (``controller-unknown-joint``); there a multiplier beside a length may make it right.
+    The drive computes wheel velocities and odometry from them. Common mistakes are half the
+    separation, or the diameter in place of the radius: both are a factor of two. The separation is
+    accepted between the inner and the outer edges of the wheels, with a tolerance of ``apart`` (a
+    part of it); the radius with a tolerance of ``round``. The separation of skid-steer drives may
+    be larger, because the wheels slip. Links that are fixed to a wheel, such as a tire, are part of
+    it. Checked are plugins, and ``diff_drive_controller`` in the controller files of the robot (see
+    ``controller-unknown-joint``), with its multipliers.
     """
     for drive in drives(robot):
-        for told, pair in drive.separations:
-            yield from _separation(robot, drive, told, pair, apart, _SLIP if drive.skids else 1.0)
-        for told, wheel in drive.sizes:
-            yield from _radius(robot, drive, told, wheel, round)
+        for length, pair in drive.separations:
+            yield from _separation(robot, drive, length, pair, apart, _SLIP if drive.skids else 1.0)
+        for length, wheel in drive.sizes:
+            yield from _radius(robot, drive, length, wheel, round)
 
 
 @rule(
     WARNING,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": "keep the axis as written: the wheels turn against each other",
+        "gz, gazebo-classic": "keep the axis as written: the wheels turn in opposite directions",
     },
 )
 def drive_direction_mismatch(robot: Robot) -> Iterator[Problem]:
-    """The wheels of a drive do not turn the way that its plugin takes for ahead.
+    """The wheels of a drive turn in a different direction than the drive assumes.
 
-    To go ahead the plugin, or a ``diff_drive_controller`` in Gazebo, gives the joints of both sides
-    the same velocity, and takes them to turn about an axis to the left. With the axes against each
-    other the robot turns on the spot; with both to the right, or the sides exchanged, it turns the
-    wrong way. A wheel that is turned over by the ``rpy`` of its joint has its axis turned with it.
-    Of simulated ``<ros2_control>`` without its file of controllers, where the sides are told by the
-    names of the wheels, only axes against each other are told.
+    To move ahead, the plugin, or a ``diff_drive_controller`` in Gazebo, gives the joints of both
+    sides the same velocity, and assumes axes that point to the left of the robot. If the axes point
+    in opposite directions, the robot turns on the spot; if both point to the right, or left and
+    right are exchanged, it moves backward. The ``rpy`` of a joint also rotates its axis. If the
+    controller file of simulated ``<ros2_control>`` is unknown, left and right are recognized by
+    wheel names, and only opposite axes are reported.
     """
     seen: set[str] = set()
     for drive in drives(robot):
@@ -85,8 +87,8 @@ def drive_direction_mismatch(robot: Robot) -> Iterator[Problem]:
             elif one < 0:
                 yield Problem(
                     drive.subject,
-                    f"{drive.name} takes '{left.joint.name}' for the left wheel, and "
-                    "both axes point to the other side; exchange the two, or turn both axes",
+                    f"{drive.name} has '{left.joint.name}' as left wheel, but both axes point to "
+                    "the right; exchange the wheels, or reverse both axes",
                     at=drive.named,
                 )
                 break
@@ -105,15 +107,15 @@ def _against(left: Wheel, right: Wheel, to_the_left: float, driver: str) -> Prob
     wrong = left if to_the_left < 0 else right
     return Problem(
         wrong.joint,
-        f"axes of '{left.joint.name}' and '{right.joint.name}' point against each other, so "
-        f"{driver} turns the robot where it should go ahead; turn that of '{wrong.joint.name}' "
-        "to the left of the robot",
+        f"axes of '{left.joint.name}' and '{right.joint.name}' point in opposite directions, so "
+        f"{driver} turns the robot in place of moving ahead; reverse the axis of "
+        f"'{wrong.joint.name}'",
         at=wrong.joint.axis or wrong.joint,
     )
 
 
 def _commanded(robot: Robot) -> Iterator[Pair]:
-    """A left and a right wheel that simulated ros2_control sets the velocity of."""
+    """Yield left and right wheels whose velocity simulated ros2_control commands."""
     driven = {
         part.name
         for control in robot.ros2_controls
@@ -133,7 +135,7 @@ def _commanded(robot: Robot) -> Iterator[Pair]:
 
 
 def _separation(
-    robot: Robot, drive: Drive, told: Told, pair: Pair, tolerance: float, slip: float
+    robot: Robot, drive: Drive, length: Told, pair: Pair, tolerance: float, slip: float
 ) -> Iterator[Problem]:
     along = pair[0].axis
     if abs(dot(along, pair[1].axis)) < 0.95:
@@ -146,20 +148,22 @@ def _separation(
         (a, b), (c, d) = sorted((spans[0], spans[1]))
         middles, inner, outer = (c + d - a - b) / 2, min(between, c - b), max(between, d - a)
     low, high = inner * (1 - tolerance), outer * slip * (1 + tolerance)
-    if any(low <= abs(one) <= high for one in (told.value, told.meant)) or middles < 1e-6:
+    if any(low <= abs(one) <= high for one in (length.value, length.meant)) or middles < 1e-6:
         return
-    half = "; that is half of it" if abs(told.value - middles / 2) < 0.05 * middles else ""
+    half = ", twice that" if abs(length.value - middles / 2) < 0.05 * middles else ""
     yield Problem(
         drive.subject,
-        f"{told.word} of {drive.name} is {told.value:.4g} m, and wheels '{pair[0].name}' "
+        f"{length.word} of {drive.name} is {length.value:.4g} m, but wheels '{pair[0].name}' "
         f"and '{pair[1].name}' are {middles:.4g} m apart{half}; write {middles:.4g}",
-        at=told.place,
-        data={"parameter": told.word.strip("<>"), "written": told.value, "measured": middles},
+        at=length.place,
+        data={"parameter": length.word.strip("<>"), "written": length.value, "measured": middles},
     )
 
 
-def _radius(robot: Robot, drive: Drive, told: Told, wheel: Wheel, part: float) -> Iterator[Problem]:
-    link, per_radius = robot.link[wheel.name], told.per_radius
+def _radius(
+    robot: Robot, drive: Drive, length: Told, wheel: Wheel, part: float
+) -> Iterator[Problem]:
+    link, per_radius = robot.link[wheel.name], length.per_radius
     axis = wheel.joint.axis.xyz if wheel.joint.axis is not None else (1.0, 0.0, 0.0)
     reach = reaches(robot)
     kinds: tuple[ShapeKind, ...] = ("collisions", "visuals")
@@ -167,31 +171,31 @@ def _radius(robot: Robot, drive: Drive, told: Told, wheel: Wheel, part: float) -
     found = [radius for box in boxes if box and (radius := radius_about(box, axis))]
     if not found:
         return
-    # a hub may be covered by a hub cap, or carry something that is not round
+    # a hub may have a cap, or carry a part that is not round
     members = reach.attached(link)
     for member in members if len(members) > 1 else ():
         for kind in kinds:
             box = reach.body(link, kind, [member])
             radius = radius_about(box, axis) if box is not None else None
             found += [] if radius is None else [radius]
-    said = {told.value / per_radius, told.meant / per_radius}
-    if any(abs(one - radius) <= part * radius for radius in found for one in said):
+    written = {length.value / per_radius, length.meant / per_radius}
+    if any(abs(one - radius) <= part * radius for radius in found for one in written):
         return
     right = found[0] * per_radius
     word, other = ("diameter", "radius") if per_radius == 2 else ("radius", "diameter")
     mistaken = found[0] * (3 - per_radius)
-    also = f"; that is its {other}" if abs(told.value - mistaken) <= 0.05 * mistaken else ""
+    also = f"; the value is its {other}" if abs(length.value - mistaken) <= 0.05 * mistaken else ""
     yield Problem(
         drive.subject,
-        f"{told.word} of {drive.name} is {told.value:.4g} m, and wheel '{wheel.name}' has "
+        f"{length.word} of {drive.name} is {length.value:.4g} m, but wheel '{wheel.name}' has "
         f"a {word} of {right:.4g} m{also}; write {right:.4g}",
-        at=told.place,
-        data={"parameter": told.word.strip("<>"), "written": told.value, "measured": right},
+        at=length.place,
+        data={"parameter": length.word.strip("<>"), "written": length.value, "measured": right},
     )
 
 
 def _span(robot: Robot, wheel: Wheel, along: Vector) -> tuple[float, float] | None:
-    """From where to where a wheel lies along a direction of the root's frame [m]."""
+    """Compute the extent of a wheel along a direction of the root's frame [m]."""
     link = robot.link[wheel.name]
     reach = reaches(robot)
     box = reach.body(link, "collisions") or reach.body(link, "visuals")

@@ -1,4 +1,4 @@
-"""Which links and joints of a URDF are left in the model that Gazebo loads."""
+"""Find the links and joints of a URDF that remain in the model in Gazebo."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from .lumping import is_lumped
 
 
 def kept_links(robot: Robot) -> set[str] | None:
-    """Name the links that sdformat 12.3 writes: bodies with mass on bodies with mass.
+    """Find the links that sdformat 12.3 writes: bodies with mass on bodies with mass.
 
-    A body has the name of its topmost link. Below a body without mass nothing is left, and nothing
-    at all where that is the root.
+    A body has the name of its topmost link. sdformat omits all links below a body without mass, and
+    all links if the root has no mass.
 
     Returns:
-        The names, or None where the robot is not one tree, of which sdformat reads nothing.
+        The names, or None if the robot is not one tree, of which sdformat reads nothing.
     """
     if len(robot.tree.roots) != 1:
         return None
@@ -33,23 +33,23 @@ def kept_links(robot: Robot) -> set[str] | None:
 
 
 def is_joint_kept(robot: Robot, joint: Joint, kept: set[str]) -> bool:
-    """Tell whether a joint is one in Gazebo too.
+    """Tell whether a joint remains a joint in Gazebo.
 
     Args:
         robot: The robot.
         joint: One of its joints.
-        kept: The links that :func:`kept_links` names.
+        kept: The links that :func:`kept_links` returns.
     """
     return joint.child in kept and not is_lumped(robot, joint.child)
 
 
 def is_named_as_link(robot: Robot, joint: Joint, kept: set[str]) -> bool:
-    """Tell whether Gazebo has a joint of URDF and a link of the same name, and rejects the model.
+    """Tell whether Gazebo rejects the model because a joint and a link have the same name.
 
     Args:
         robot: The robot.
         joint: One of its joints.
-        kept: The links that :func:`kept_links` names.
+        kept: The links that :func:`kept_links` returns.
     """
     if joint.name not in robot.link or not is_joint_kept(robot, joint, kept):
         return False

@@ -1,8 +1,8 @@
-"""The words that Gazebo's reader knows inside ``<gazebo>``.
+"""Keywords that sdformat converts inside ``<gazebo>``.
 
-sdformat turns a URDF into SDF. Of the children of a ``<gazebo>`` it converts the keywords here;
-all others it copies as they are into the link, joint or model, where only what SDF has there is
-read.
+sdformat converts a URDF to SDF. It converts the children of ``<gazebo>`` that are keywords. It
+copies all others unchanged into the link, joint or model, where readers ignore them if they are not
+SDF.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NUMBERS = words(
     "mu1 mu2 kp kd maxVel minDepth laserRetro dampingFactor stopCfm stopErp fudgeFactor "
     "springReference springStiffness maxContacts"
 )
-"""Those read with ``std::stod`` or ``std::stoi``, which throw where there is no number."""
+"""Keywords read with ``std::stod`` or ``std::stoi``, which throw if the text is not a number."""
 
 FLAGS = words(
     "turnGravityOff selfCollide static provideFeedback implicitSpringDamper cfmDamping "
@@ -35,15 +35,15 @@ FLAGS = words(
 )
 
 SURFACE = words("mu1 mu2 fdir1 kp kd minDepth maxVel maxContacts laserRetro")
-"""Those that are written into the collisions of a link."""
+"""Keywords written into the collisions of a link."""
 
 NOT_IN_GZ = words(
     "kp kd minDepth maxVel maxContacts dampingFactor laserRetro selfCollide provideFeedback "
     "implicitSpringDamper cfmDamping stopCfm stopErp fudgeFactor"
 )
-"""Those that nothing in new Gazebo reads."""
+"""Keywords that new Gazebo ignores."""
 
 
 def is_true(text: str | None) -> bool:
-    """Whether sdformat takes the value of a flag for true."""
+    """Tell whether sdformat reads a flag as true."""
     return text is not None and (text.lower() in ("true", "yes") or text == "1")

@@ -1,4 +1,4 @@
-"""What is lost when Gazebo joins fixed links into one body."""
+"""Rules on settings that are lost when Gazebo lumps fixed joints."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 
 
 def is_kept(robot: Robot, joint: Joint) -> bool:
-    """Whether a fixed joint stays a joint in Gazebo."""
+    """Tell whether a fixed joint remains a joint in Gazebo."""
     blocks = robot.extensions.get(joint.name, [])
     return any(is_true(block.value(word)) for block in blocks for word in _KEEPERS)
 
 
 def keeps_joint(element: Element) -> bool:
-    """Tell whether an element of a joint's block keeps a fixed joint in Gazebo."""
+    """Tell whether an element in a block of a joint preserves a fixed joint."""
     return element.tag in _KEEPERS and is_true(element.get("value") or element.text)
 
 
 def is_lumped(robot: Robot, link: str) -> bool:
-    """Whether Gazebo makes a link part of the body above it."""
+    """Tell whether Gazebo lumps a link into its parent."""
     joint = robot.tree.parent_joint(link)
     return (
         joint is not None
@@ -50,7 +50,7 @@ def is_lumped(robot: Robot, link: str) -> bool:
 
 
 def body_of(robot: Robot, link: str) -> str:
-    """The link whose body a link becomes part of; itself where it stays."""
+    """Get the link into which a link is lumped, or the link itself."""
     seen = set()
     while is_lumped(robot, link) and link not in seen:
         seen.add(link)
@@ -61,11 +61,11 @@ def body_of(robot: Robot, link: str) -> str:
 
 
 def remove_words(block: Element, words: frozenset[str]) -> Proposal:
-    """Remove children of a ``<gazebo>`` by their tags; the block too, if it has no others."""
+    """Remove children of a ``<gazebo>`` by their tags, or the block if it has no others."""
     gone = [child for child in block.children if child.tag in words]
     if len(gone) == len(block.children):
-        return unsafe("take the block away", remove_element(block))
-    return unsafe("take it away", *map(remove_element, gone))
+        return unsafe("remove the block", remove_element(block))
+    return unsafe("remove it", *map(remove_element, gone))
 
 
 def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
@@ -79,17 +79,18 @@ def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
     on=GAZEBO,
     effects={
         "gz, gazebo-classic": (
-            "merge the joint and drop what the block holds, without a message (sdformat 12.3)"
+            "lump the joint and drop the contents of the block, without a message (sdformat 12.3)"
         ),
     },
     group="robot",
 )
 def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
-    """A fixed joint has something in Gazebo and is not kept.
+    """A fixed joint has a ``<gazebo>`` block but is not preserved.
 
-    Fixed joints do not exist in the simulated robot: their links are joined into one body. A force
-    sensor at one, or a plugin, goes with it and nothing is said. ``preserveFixedJoint`` keeps it.
-    Settings of the joint alone have no effect at one that does not move, and are a warning.
+    Gazebo removes fixed joints and lumps their links into one body. A force sensor or a plugin of
+    the joint is dropped without a message. Add ``preserveFixedJoint`` to keep the joint. If the
+    block only has settings of the joint, which have no effect on a fixed joint, the finding is a
+    warning.
     """
     for block in robot.gazebo:
         joint = robot.joint.get(block.reference or "")
@@ -135,16 +136,16 @@ def preserve_joint(problem: Problem, context: FixContext) -> Proposal | None:
     WARNING,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": "apply the flag to the whole merged body",
+        "gz, gazebo-classic": "apply the flag to the whole lumped body",
     },
     group="robot",
 )
 def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
-    """A flag of a link that is joined to another holds for both.
+    """A flag of a lumped link applies to the whole body.
 
-    ``turnGravityOff`` and ``selfCollide`` at a link on a fixed joint are written on the body it
-    becomes part of. A camera frame without weight makes the whole robot float. At the
-    heaviest link of the body it is taken to be meant.
+    Gazebo writes ``turnGravityOff`` and ``selfCollide`` of a link with a fixed joint to the body
+    that it is lumped into. A camera frame without mass can turn gravity off for the whole robot. A
+    flag of the heaviest link of the body is taken as intended.
     """
     for name, block in _blocks_of_links(robot):
         if not is_lumped(robot, name):
@@ -163,9 +164,9 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
             means = "with itself" if word == "selfCollide" else ""
             yield Problem(
                 block.element,
-                f"<{word}> of '{name}' holds for all of '{body}', which it is fixed to: "
+                f"<{word}> of '{name}' applies to all of '{body}', which it is fixed to: "
                 f"{what} {means}".rstrip()
-                + f"; write it at '{body}' if that is meant",
+                + f"; write it for '{body}' if that is intended",
                 at=child,
                 alike=word,
                 data={"element": word, "link": name, "body": body},
@@ -174,7 +175,7 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
 
 @lumped_flag_leaks.fix(UNSAFE)
 def remove_flag(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the flag; the block too, if it has nothing else."""
+    """Remove the flag, or the block if it has no others."""
     element = element_at(problem)
     if element is None:
         return None
@@ -185,14 +186,14 @@ def remove_flag(problem: Problem, context: FixContext) -> Proposal | None:
     ERROR,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": "leave out the link and all below it (sdformat 12.3)",
+        "gz, gazebo-classic": "omit the link and its descendants (sdformat 12.3)",
     },
 )
 def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
-    """A fixed joint is kept, and on one side of it nothing has mass.
+    """A fixed joint is preserved, but one of its bodies has no mass.
 
-    A link that stays a link of its own needs mass to be simulated. sdformat then takes the
-    ``preserveFixedJoint`` away, or does not model the link. A small inertial will do.
+    Gazebo only simulates links with mass. sdformat then ignores ``preserveFixedJoint``, or omits
+    the link. Add a small inertial.
     """
     for joint in robot.joints:
         if not joint.is_fixed or not is_kept(robot, joint) or joint.child not in robot.link:
@@ -205,7 +206,7 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
             if all(robot.link[name].mass <= 0 for name in links):
                 yield Problem(
                     joint,
-                    f"fixed joint '{joint.name}' is kept, and link '{side}' has no mass; "
+                    f"fixed joint '{joint.name}' is preserved, but link '{side}' has no mass; "
                     f"give '{side}' a small <inertial>",
                     data={"link": side},
                 )
@@ -214,7 +215,7 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
 
 @preserved_joint_massless.fix(UNSAFE)
 def add_inertial_of_kept_link(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add an inertial of a few grams to the child, if that is the link without mass."""
+    """Add a small inertial to the child, if it is the link without mass."""
     child = context.robot.link.get(context.joint(problem).child)
     if child is None or problem.data["link"] != child.name:
         return None
@@ -234,12 +235,12 @@ def add_inertial_of_kept_link(problem: Problem, context: FixContext) -> Proposal
     group="robot",
 )
 def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
-    """A named collision or visual loses what Gazebo is told of its link.
+    """Gazebo does not apply the settings of a link to a named collision or visual.
 
-    sdformat knows the shapes of a link by names that begin with the link's. A ``<collision
-    name="hull">`` is taken for one that came from another link: it is renamed, and friction,
-    contact or material of the link are not applied to it. Leave the name out, or begin it with the
-    link's.
+    sdformat recognizes the shapes of a link by names that begin with the name of the link. It takes
+    ``<collision name="hull">`` as a shape of a lumped link: it renames the shape, and does not
+    apply friction, contact or material of the link. Remove the name, or begin it with the name of
+    the link.
     """
     for link in robot.links:
         words = {
@@ -247,26 +248,26 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
             for block in robot.extensions.get(link.name, [])
             for child in block.element.children
         }
-        for what, shapes, told in (
+        for what, shapes, tags in (
             ("collision", link.collisions, words & (SURFACE | {"collision"})),
             ("visual", link.visuals, words & {"material", "visual"}),
         ):
             for shape in shapes:
-                if told and shape.name and not shape.name.startswith(link.name):
-                    lost = " or ".join(sorted(told))
+                if tags and shape.name and not shape.name.startswith(link.name):
+                    lost = " or ".join(sorted(tags))
                     yield Problem(
                         link,
-                        f"{what} '{shape.name}' does not begin with '{link.name}', so Gazebo "
-                        f"applies no {lost} to it; name it '{link.name}_{shape.name}'",
+                        f"name of {what} '{shape.name}' does not begin with '{link.name}', so "
+                        f"Gazebo applies no {lost} to it; write '{link.name}_{shape.name}'",
                         at=shape.element.attribute_place("name"),
-                        alike=(what, *sorted(told)),
-                        data={"write": f"{link.name}_{shape.name}", "elements": sorted(told)},
+                        alike=(what, *sorted(tags)),
+                        data={"write": f"{link.name}_{shape.name}", "elements": sorted(tags)},
                     )
 
 
 @named_geometry_loses_extensions.fix(UNSAFE)
 def prefix_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the link's name in front, if nothing refers to the shape; friction applies then."""
+    """Prefix the name with that of the link, if nothing refers to it; its settings then apply."""
     found = attribute_at(problem)
     link = context.link(problem)
     if found is None:
@@ -276,7 +277,7 @@ def prefix_name(problem: Problem, context: FixContext) -> Proposal | None:
     if name in context.texts:
         return None
     new = f"{link.name}_{name}"
-    return unsafe(f"call it '{new}'", set_attribute(element, attribute, new))
+    return unsafe(f"write name '{new}'", set_attribute(element, attribute, new))
 
 
 @rule(
@@ -284,16 +285,16 @@ def prefix_name(problem: Problem, context: FixContext) -> Proposal | None:
     on=GAZEBO,
     effects={
         "gz, gazebo-classic": (
-            "give the collision another name: the sensor reports no contact (sdformat 12.3)"
+            "rename the collision: the sensor reports no contact (sdformat 12.3)"
         ),
     },
 )
 def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
-    """A contact sensor names a collision that will have another name.
+    """A contact sensor refers to a collision that Gazebo renames.
 
-    The collision of a link on a fixed joint moves to the body it is joined to, and gets a name with
-    ``fixed_joint_lump`` in it. In the ``<contact>`` of a sensor the old name stays, and means
-    nothing.
+    Gazebo moves the collision of a link with a fixed joint to the body that it is lumped into, and
+    adds ``fixed_joint_lump`` to its name. The ``<contact>`` of a sensor keeps the old name, so the
+    sensor reports no contact.
     """
     for name, block in _blocks_of_links(robot):
         for sensor in block.sensors:
@@ -308,8 +309,8 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
                     new = f"{body}_fixed_joint_lump__{link.name}_collision"
                     yield Problem(
                         block.element,
-                        f"'{text}' will be called '{new}' (or '{new}_1' …), as '{link.name}' is "
-                        f"fixed to '{body}'; write that, or keep the joint",
+                        f"collision '{text}' becomes '{new}' (or '{new}_1' …) in Gazebo, because "
+                        f"'{link.name}' is fixed to '{body}'; write that, or preserve the joint",
                         at=collision,
                         data={"write": new, "link": link.name, "body": body},
                     )
@@ -318,7 +319,7 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
 
 @lumped_link_referenced.fix(UNSAFE)
 def write_merged_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the name that the collision will have."""
+    """Write the name of the collision in Gazebo."""
     element = element_at(problem)
     new = problem.data["write"]
     if element is None:
@@ -334,10 +335,10 @@ def write_merged_name(problem: Problem, context: FixContext) -> Proposal | None:
     group="robot",
 )
 def surface_without_collision(robot: Robot) -> Iterator[Problem]:
-    """A link is told how it grips and has nothing to grip with.
+    """A link has contact settings but no collision.
 
-    Friction and contact are written into the collisions of a link. Where there is none they are
-    dropped; often the collision is what is missing.
+    Gazebo writes friction and contact settings into the collisions of a link, and drops them if
+    there is none. The collision may be missing.
     """
     for name, block in _blocks_of_links(robot):
         if robot.link[name].collisions:
@@ -345,10 +346,10 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
         children = [child for child in block.element.children if child.tag in SURFACE]
         if children:
             words = quoted(dict.fromkeys(c.tag for c in children)).replace("'", "")
-            do = "does" if len(children) == 1 else "do"
+            have = "has" if len(children) == 1 else "have"
             yield Problem(
                 block.element,
-                f"{words} {do} nothing, as link '{name}' has no collision",
+                f"{words} {have} no effect, because link '{name}' has no collision",
                 at=children[0],
                 alike=tuple(child.tag for child in children),
                 data={"elements": [child.tag for child in children]},
@@ -357,8 +358,8 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
 
 @surface_without_collision.fix(UNSAFE)
 def remove_surface(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove it, if the link has no visual either; the block too, if it has nothing else."""
+    """Remove the settings, if the link has no visual, or the block if it has no others."""
     link = context.robot.link.get(problem.element.get("reference") or "")
     if link is None or link.visuals:
-        return None  # the collision is what is missing
+        return None  # rather the collision is missing
     return remove_words(problem.element, SURFACE)

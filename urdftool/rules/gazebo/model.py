@@ -1,4 +1,4 @@
-"""The model as a whole."""
+"""Rules on the whole model in Gazebo."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ from .wheel_pair import wheel_pair
 def robot_level_static(robot: Robot) -> Iterator[Problem]:
     """A robot with joints is static.
 
-    ``<gazebo><static>true`` freezes the whole model: nothing falls, and no joint moves whatever
-    drives it. To hold the base alone, fix it to a link called ``world``.
+    ``<gazebo><static>true`` makes the whole model static: nothing falls, and no joint moves, even
+    with a controller. To fix only the base, add a fixed joint to a link named ``world``.
     """
     for block in robot.gazebo:
         child = block.element.child("static")
@@ -59,10 +59,10 @@ def robot_level_static(robot: Robot) -> Iterator[Problem]:
     },
 )
 def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
-    """No link with mass feels gravity.
+    """Gravity is off for all links with mass.
 
-    ``turnGravityOff`` at every link holds a robot up that would sag or fall, and is left behind
-    more often than meant. What it weighs no longer counts in the simulation.
+    ``turnGravityOff`` on every link prevents that a robot falls, and is often left over from a
+    test. The simulated controllers then carry no weight.
     """
     heavy = [link.name for link in robot.links if link.mass > 0]
     off = [
@@ -90,10 +90,10 @@ def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
     },
 )
 def reserved_name(robot: Robot) -> Iterator[Problem]:
-    """A link or joint has a name that SDF keeps for itself.
+    """A link or joint has a name that SDF reserves.
 
-    ``world`` means the fixed world and may only be the root; names with two underscores at both
-    ends, such as ``__model__``, are SDF's own. The model is not loaded.
+    ``world`` is the fixed world and may only be the root. Names with two underscores at both ends,
+    such as ``__model__``, are reserved. Gazebo rejects the model.
     """
     parts: list[Link | Joint] = [*robot.links, *robot.joints]
     for part in parts:
@@ -101,14 +101,14 @@ def reserved_name(robot: Robot) -> Iterator[Problem]:
         if len(name) > 4 and name.startswith("__") and name.endswith("__"):
             yield Problem(
                 part,
-                f"'{name}' is a name that SDF keeps for itself; leave out the underscores",
+                f"name '{name}' is reserved in SDF; remove the underscores",
                 at=part.element.attribute_place("name"),
             )
     if "world" in robot.link and robot.tree.parent_joint("world") is not None:
         link = robot.link["world"]
         yield Problem(
             link,
-            "link 'world' is not the root; Gazebo keeps that name for the fixed world",
+            "link 'world' is not the root, but the name is reserved for the fixed world; rename it",
             at=link.element.attribute_place("name"),
         )
 
@@ -136,19 +136,18 @@ def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
     WARNING,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": "load the robot, and nothing drives its joints",
+        "gz, gazebo-classic": "load the robot, but nothing drives its joints",
     },
 )
 def missing_control_plugin(
     robot: Robot, description: Description, targets: frozenset[str]
 ) -> Iterator[Problem]:
-    """Joints move, and no plugin drives or reports them.
+    """Joints move, but no plugin controls them or publishes their state.
 
-    In Gazebo a joint without a plugin swings freely: the arm collapses as soon as it is spawned.
-    And nobody publishes joint states, so that RViz has no transforms past the first joint. Joints
-    that their limits lock need no plugin, and where a condition of xacro leaves out a part for
-    Gazebo, nothing is reported. Of a robot with two wheels on one axle that turn about
-    its y axis, the numbers of a differential drive are given.
+    In Gazebo a joint without a plugin moves freely: an arm collapses after spawning. Without joint
+    states RViz has no transforms of the links. Joints with equal limits are ignored, and robots
+    with a part for Gazebo in a xacro condition are not reported. For a robot with two wheels on one
+    axle about its y axis, the message has the parameters of a differential drive.
     """
     joints = [
         joint
@@ -177,7 +176,7 @@ def missing_control_plugin(
     names = quoted(joint.name for joint in joints)
     verb = "move" if len(joints) > 1 else "moves"
     if pair is None:
-        remedy = "one, such as ros2_control's or a joint state publisher"
+        remedy = "one, such as ros2_control or a joint state publisher"
     else:
         remedy = (
             f"gz-sim-diff-drive-system with <left_joint>{pair.left.name}</left_joint>, "
@@ -185,20 +184,20 @@ def missing_control_plugin(
             f"<wheel_separation>{pair.separation:.4g}</wheel_separation> and "
             f"<wheel_radius>{pair.radius:.4g}</wheel_radius>"
         )
-    acts = "drives them" if reported else "drives or reports any joint"
+    acts = "drives them" if reported else "drives any joint or publishes its state"
     data: dict[str, object] = {"joints": [joint.name for joint in joints]}
     if pair is not None:
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
-    message = f"{names} {verb} and no Gazebo plugin {acts}; add {remedy}"
+    message = f"{names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
     yield Problem(robot, message, data=data)
 
 
 @missing_control_plugin.fix(UNSAFE)
 def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add one that reports the joints in new Gazebo; that of ros_control in Gazebo Classic.
+    """Add a joint state publisher for new Gazebo, or gazebo_ros_control for Gazebo Classic.
 
-    A pair of wheels on one axle gets a differential drive in new Gazebo. An end effector that
-    another robot includes is driven by the plugin of that robot.
+    A pair of wheels on one axle gets a differential drive in new Gazebo. A robot that other robots
+    include is not changed, because they have the plugin.
     """
     if {"gz", "gazebo-classic"} <= context.targets:
         return None
@@ -208,7 +207,7 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
             return None
         control = '\t<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>'
         lines = ("<gazebo>", control, "</gazebo>")
-        return unsafe("add that of ros_control", append_child(context.robot.element, *lines))
+        return unsafe("add gazebo_ros_control", append_child(context.robot.element, *lines))
     report = (
         '\t<plugin filename="gz-sim-joint-state-publisher-system"'
         ' name="gz::sim::systems::JointStatePublisher"/>'
@@ -236,7 +235,7 @@ _FOR_GAZEBO = re.compile(r"gazebo|(?<![a-z])(gz|ign|sim)(?![a-z])", re.IGNORECAS
 
 
 def _has_a_part_for_gazebo(description: Description) -> bool:
-    """Tell whether a condition of xacro decides on an include or element for Gazebo."""
+    """Tell whether a xacro condition contains an include or element for Gazebo."""
     if description.expansion is None:
         return False
     return any(
@@ -258,9 +257,9 @@ def _has_a_part_for_gazebo(description: Description) -> bool:
 def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     """An arm is not fixed to the world.
 
-    The root of a robot lies loose in Gazebo. An arm without wheels or legs falls over with its
-    first movement; a link called ``world`` and a fixed joint hold it. A robot whose root is
-    ``base_footprint``, or with a link or joint named wheel or caster, is mobile and left out.
+    Gazebo loads the root of a robot as a free body, so an arm without wheels or legs falls over
+    when it moves. Add a link named ``world`` and a fixed joint. A robot with root
+    ``base_footprint``, or with a wheel or caster by name, is mobile and not reported.
     """
     root = robot.tree.root
     if root is None or root.name == "world" or any(j.type == "floating" for j in robot.joints):
@@ -272,20 +271,20 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     arms = [joint for joint in robot.joints if joint.type in ("revolute", "continuous")]
     roots = {name for name, body in robot.tree.bodies.items() if body == root.name}
     starts = [joint for joint in robot.moving_joints if joint.parent in roots]
-    weight = sum(robot.link[name].mass for name in roots)
-    moved = sum(link.mass for link in robot.links) - weight
-    if len(starts) == 1 and len(arms) >= 4 and weight < 2 * moved:
+    root_mass = sum(robot.link[name].mass for name in roots)
+    moved = sum(link.mass for link in robot.links) - root_mass
+    if len(starts) == 1 and len(arms) >= 4 and root_mass < 2 * moved:
         yield Problem(
             robot,
-            f"robot '{robot.name}' stands loose on '{root.name}'; add a link 'world' and a fixed "
-            "joint to it",
+            f"root '{root.name}' of the arm '{robot.name}' is not fixed to the world; add a link "
+            "'world' and a fixed joint",
             at=root,
         )
 
 
 @root_not_anchored.fix(UNSAFE)
 def anchor_root(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add a link ``world`` and a fixed joint to it, if no other robot includes the arm."""
+    """Add a link ``world`` and a fixed joint, if no other robot includes the arm."""
     robot = context.robot
     root = robot.tree.root
     if root is None or "world" in robot.link or "world_joint" in robot.joint:

@@ -1,7 +1,6 @@
-"""Parameters of the plugins of gazebo_ros and gz sim, for finding those that are misspelt.
+"""Parameters of plugins of gazebo_ros and gz sim, to find misspelled ones.
 
-A plugin reads what it likes, and no list is whole; so a name that is not here is only told of when
-it is nearly one that is.
+The list is not complete, so an unknown parameter is only reported if it is similar to a known one.
 """
 
 from __future__ import annotations
@@ -75,4 +74,4 @@ LIBRARIES = (
     "gz_ros2_control",
     "ign_ros2_control",
 )
-"""How the libraries begin whose parameters these are."""
+"""Prefixes of the libraries with these parameters."""

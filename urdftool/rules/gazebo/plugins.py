@@ -1,4 +1,4 @@
-"""Plugins, and for which Gazebo they are."""
+"""Rules on plugins of Gazebo."""
 
 from __future__ import annotations
 
@@ -40,16 +40,17 @@ _GZ = ("gz-sim-", "libgz-sim-", "ignition-gazebo-", "libignition-gazebo-", "gz_r
     },
 )
 def plugin_without_filename(robot: Robot) -> Iterator[Problem]:
-    """A plugin lacks its name or its library.
+    """A plugin has no name or no library.
 
-    Gazebo loads what ``filename`` says and calls it ``name``; without either there is no plugin.
+    Gazebo loads the library ``filename`` and the plugin ``name`` in it; sdformat requires both
+    attributes.
     """
     for plugin in robot.plugins:
         missing = [word for word in ("filename", "name") if not plugin.element.get(word)]
         if missing:
             yield Problem(
                 plugin.element,
-                f"the plugin has no {' and no '.join(missing)}; it is not loaded",
+                f"plugin has no {' and no '.join(missing)}, so Gazebo rejects the model",
                 data={"has_filename": "filename" not in missing},
             )
 
@@ -62,10 +63,10 @@ def plugin_without_filename(robot: Robot) -> Iterator[Problem]:
     },
 )
 def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A plugin of Gazebo Classic is in a robot for new Gazebo.
+    """A robot for new Gazebo has a plugin of Gazebo Classic.
 
-    The two have nothing in common but the tag: the library is not there, and would not fit. Most
-    have a counterpart; those in sensors are not needed any more (``ros-plugin-inside-sensor``).
+    New Gazebo cannot load plugins of Gazebo Classic. Most have a counterpart; those in sensors are
+    not required (``ros-plugin-inside-sensor``).
     """
     if "gazebo-classic" in targets:
         return
@@ -80,7 +81,7 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
         right = f"; its counterpart is '{instead}'" if instead else "; it has no counterpart"
         yield Problem(
             plugin.element,
-            f"'{plugin.filename}' is for Gazebo Classic and is not loaded by new Gazebo{right}",
+            f"'{plugin.filename}' is for Gazebo Classic, and new Gazebo cannot load it{right}",
             at=plugin.element.attribute_place("filename"),
             data={"counterpart": instead} if instead else {},
         )
@@ -88,7 +89,7 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
 
 @classic_plugin_in_gz.fix(UNSAFE)
 def load_counterpart(problem: Problem, context: FixContext) -> Proposal | None:
-    """Load its counterpart, with the parameters that have one."""
+    """Load the counterpart, with the parameters that have an equivalent."""
     plugin = problem.element
     old = library_of(plugin)
     if old == "gazebo_ros2_control":
@@ -128,9 +129,9 @@ def load_counterpart(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def gz_plugin_in_classic(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A plugin of new Gazebo is in a robot for Gazebo Classic.
+    """A robot for Gazebo Classic has a plugin of new Gazebo.
 
-    gzserver does not find the library and goes on without it.
+    gzserver does not find the library and continues without the plugin.
     """
     if "gz" in targets:
         return
@@ -138,7 +139,7 @@ def gz_plugin_in_classic(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
         if plugin.filename.rpartition("/")[2].startswith(_GZ):
             yield Problem(
                 plugin.element,
-                f"'{plugin.filename}' is for new Gazebo and is not loaded by Gazebo Classic",
+                f"'{plugin.filename}' is for new Gazebo, and Gazebo Classic cannot load it",
                 at=plugin.element.attribute_place("filename"),
             )
 
@@ -147,14 +148,14 @@ def gz_plugin_in_classic(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
     WARNING,
     on=("gz",),
     effects={
-        "gz": "replaces a file name of the old form, with a warning",
+        "gz": "replaces an old file name, with a warning",
     },
 )
 def ignition_name(robot: Robot) -> Iterator[Problem]:
-    """A plugin bears the old name, Ignition.
+    """A plugin has an old name of Ignition Gazebo.
 
-    ``ignition-gazebo-…`` and ``ignition::gazebo::…`` are ``gz-sim-…`` and ``gz::sim::…`` since
-    2022. The old names are still understood, for now.
+    Since 2022, ``ignition-gazebo-…`` is ``gz-sim-…``, and ``ignition::gazebo::…`` is
+    ``gz::sim::…``. Gazebo still replaces the old names, with a warning.
     """
     for plugin in robot.plugins:
         library = plugin.filename.rpartition("/")[2]
@@ -163,7 +164,7 @@ def ignition_name(robot: Robot) -> Iterator[Problem]:
             new = new.replace("ign_ros2_control", "gz_ros2_control").removeprefix("lib")
             yield Problem(
                 plugin.element,
-                f"'{plugin.filename}' is an old name; write '{new}'"
+                f"'{plugin.filename}' is an old name of Ignition Gazebo; write '{new}'"
                 + (" and gz::sim:: in its name" if "ignition::" in plugin.name else ""),
                 at=plugin.element.attribute_place("filename"),
                 data={"write": new},
@@ -172,7 +173,7 @@ def ignition_name(robot: Robot) -> Iterator[Problem]:
 
 @ignition_name.fix(UNSAFE)
 def write_gz_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write its new name, which Gazebo Fortress, the last called Ignition, does not know."""
+    """Write the new name, which Gazebo Fortress, the last release named Ignition, does not load."""
     plugin = problem.element
     new = problem.data["write"]
     changes = [set_attribute(plugin, "filename", new)]
@@ -188,14 +189,14 @@ def write_gz_name(problem: Problem, context: FixContext) -> Proposal | None:
     ERROR,
     on=("gz",),
     effects={
-        "gz": "finds the library and starts nothing of it: could not instantiate",
+        "gz": "finds the library, but could not instantiate the plugin",
     },
 )
 def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
-    """The name of a plugin of gz sim is not the class in its library.
+    """The name of a gz sim plugin is not the class in its library.
 
-    New Gazebo takes ``name`` for the class to start. A name of one's own, as in Gazebo Classic,
-    finds the library and nothing in it.
+    New Gazebo uses ``name`` as the class to instantiate. With a custom name, as in Gazebo Classic,
+    it loads the library but does not start the plugin.
     """
     for plugin in robot.plugins:
         library = plugin.filename.rpartition("/")[2].removeprefix("lib").removesuffix(".so")
@@ -205,7 +206,7 @@ def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
         if right and plugin.name and name != right and name != right.removeprefix("gz::sim::"):
             yield Problem(
                 plugin.element,
-                f"the class in '{plugin.filename}' is '{right}', and not '{plugin.name}'",
+                f"the class in '{plugin.filename}' is '{right}', not '{plugin.name}'; write it",
                 at=plugin.element.attribute_place("name"),
                 data={"class": right},
             )
@@ -213,7 +214,7 @@ def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
 
 @plugin_class_mismatch.fix(SAFE)
 def write_class(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the class in the library, in the form of the library's name."""
+    """Write the class of the library, with the same prefix as the library's name."""
     right = problem.data["class"]
     if "ignition-gazebo" in (problem.element.get("filename") or ""):
         right = right.replace("gz::sim::", "ignition::gazebo::")
@@ -247,16 +248,15 @@ _LINKS = ["link_name", "linkName", "body_name", "bodyName", "child_link"]
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "pass the name on as it is",
+        "gz, gazebo-classic": "keep the name as written",
     },
 )
 def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
-    """A plugin names a joint or link that is not there.
+    """A plugin refers to a joint or link that does not exist.
 
-    A drive that does not find its wheels says so once in the log, among much else, and does nothing
-    when it is told to go. The joint state publisher of Gazebo Classic takes several names with
-    commas between them, of which those are reported that are missing. The systems of new Gazebo
-    take one name in each element, and the element several times.
+    A drive without its wheels logs one error and does not move the robot. The joint state publisher
+    of Gazebo Classic reads a comma-separated list, of which the missing names are reported. Systems
+    of new Gazebo read one name per element, and the element several times.
     """
     for plugin in robot.plugins:
         library = plugin.filename.rpartition("/")[2]
@@ -276,7 +276,7 @@ def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
             if len(names) > 1 and library.startswith(_GZ):
                 yield Problem(
                     plugin.element,
-                    f"<{child.tag}> of plugin '{plugin.name}' takes one {kind} and names several, "
+                    f"<{child.tag}> of plugin '{plugin.name}' takes one {kind}, but has several, "
                     f"'{text}'; write one <{child.tag}> for each",
                     at=child,
                     data={"kind": kind, "names": parts},
@@ -289,11 +289,10 @@ def _unknown(
     plugin: Plugin, at: Element, missing: list[str], kind: str, known: list[str], of_list: bool
 ) -> Problem:
     verb = "lists" if of_list else "is"
-    kinds = f"such {kind}s" if len(missing) > 1 else f"such {kind}"
-    there = "there are no" if len(missing) > 1 else "there is no"
+    kinds = f"no such {kind}s" if len(missing) > 1 else f"no such {kind}"
     return Problem(
         plugin.element,
-        f"<{at.tag}> of plugin '{plugin.name}' {verb} {quoted(missing)}, and {there} {kinds}"
+        f"<{at.tag}> of plugin '{plugin.name}' {verb} {quoted(missing)}, but the robot has {kinds}"
         + did_you_mean(missing[0], known),
         at=at,
         data={"kind": kind, "missing": missing, "suggestion": nearest(missing[0], known)},
@@ -302,7 +301,7 @@ def _unknown(
 
 @plugin_unknown_entity.fix(UNSAFE)
 def write_names(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested name; an element for each of several names."""
+    """Write the suggested name, or one element for each of several names."""
     element = element_at(problem)
     names: list[str] = problem.data.get("names", [])
     if element is not None and names:
@@ -318,17 +317,17 @@ def write_names(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     WARNING,
     effects={
-        "gazebo_ros": "of ROS 2 makes no second node of one name, and the plugin gets none",
+        "gazebo_ros": "of ROS 2 creates no second node with the same name, so the plugin gets none",
         "gz, gazebo-classic": "load both (sdformat 12.3)",
     },
 )
 def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """Two plugins of the model have one name.
+    """Two plugins of the model have the same name.
 
-    In ROS 2 the plugins of gazebo_ros call their node by the name of the plugin, and the second of
-    a name gets none: "Found multiple nodes with same name". A namespace for each makes it right.
-    sdformat 12.3 accepts two plugins of one name. For new Gazebo the name is the class, and two of
-    one class are right; there, and for ROS 1, it is not reported.
+    The plugins of gazebo_ros for ROS 2 use the plugin name as node name, and the second plugin gets
+    no node: "Found multiple nodes with same name". Write unique names, or a namespace for each. The
+    rule does not apply to new Gazebo, where the name is the class, and to ROS 1. sdformat 12.3
+    accepts equal names.
     """
     if "ros1" in targets and "ros2" not in targets:
         return
@@ -345,7 +344,7 @@ def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
             if key in seen:
                 yield Problem(
                     plugin.element,
-                    f"a second plugin is called '{plugin.name}'; give it a name of its own",
+                    f"another plugin also has the name '{plugin.name}'; make it unique",
                     at=plugin.element.attribute_place("name"),
                 )
             seen.add(key)
@@ -353,5 +352,5 @@ def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
 
 @duplicate_plugin_name.fix(UNSAFE)
 def number_plugin(problem: Problem, context: FixContext) -> Proposal | None:
-    """Append a number to the second name."""
+    """Append a number to the duplicate name."""
     return append_number(problem, {plugin.name for plugin in context.robot.plugins})

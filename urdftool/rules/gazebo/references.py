@@ -1,4 +1,4 @@
-"""What a ``<gazebo>`` block refers to."""
+"""Rules on the references of ``<gazebo>`` blocks."""
 
 from __future__ import annotations
 
@@ -39,13 +39,12 @@ APPLIES_TO = ("gazebo",)
     },
 )
 def dangling_reference(robot: Robot) -> Iterator[Problem]:
-    """A ``<gazebo reference>`` names neither a link nor a joint.
+    """A ``<gazebo reference>`` is neither a link nor a joint.
 
-    The block is thrown away without a word: the wheel has no grip, the camera does not exist, the
-    joint is lumped. A misspelt name, a prefix that was forgotten, or a link that is no longer
-    there. A ``<joint>`` of SDF that closes a loop needs links that are there as well; without them
-    Gazebo loads no robot at all. sdformat 12.3 does not find one that a fixed joint lumps into
-    another either.
+    Gazebo ignores the whole block without a message: friction is not set, a camera does not exist,
+    a joint is lumped. The name may be misspelled or lack a prefix, or the link was removed. An SDF
+    ``<joint>`` that closes a loop also requires existing links; without them Gazebo rejects the
+    model, and sdformat 12.3 does not find a link that it lumps.
     """
     yield from _loops(robot)
     names = {*robot.link, *robot.joint}
@@ -58,8 +57,8 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         if name in of_sdf:
             yield Problem(
                 block.element,
-                f"'{name}' is a link of SDF in a <gazebo> block, which no reference finds, so the "
-                "block does nothing; write its settings in that link",
+                f"reference '{name}' is an SDF link in a <gazebo> block, so Gazebo ignores this "
+                "block; write its settings in that link",
                 at=block.element.attribute_place("reference"),
                 data={"name": name},
             )
@@ -67,7 +66,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         known = [one for one in _meant_by(block, robot) if not _has_settings_of(block, one, robot)]
         yield Problem(
             block.element,
-            f"'{name}' is neither a link nor a joint, so the block does nothing"
+            f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
             + did_you_mean(name, known, _LIKE),
             at=block.element.attribute_place("reference"),
             data={"name": name, "suggestion": nearest(name, known, _LIKE)},
@@ -75,7 +74,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
 
 
 _LIKE = 0.8
-"""Least similarity of a name that is suggested: parts of one arm have similar names."""
+"""Minimum similarity of a suggested name; high, because parts of an arm have similar names."""
 
 
 @dangling_reference.fix(UNSAFE)
@@ -88,7 +87,7 @@ def write_reference(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _meant_by(block: GazeboExtension, robot: Robot) -> Collection[str]:
-    """Name what a block may refer to: joints for settings of joints, links for those of links."""
+    """Get the possible names of a reference: joints for settings of joints, links for others."""
     tags = {child.tag for child in block.element.children}
     of_joint = not tags.isdisjoint(JOINT_KEYWORDS)
     of_link = not tags.isdisjoint(LINK_KEYWORDS | {"sensor"})
@@ -98,7 +97,7 @@ def _meant_by(block: GazeboExtension, robot: Robot) -> Collection[str]:
 
 
 def _has_settings_of(block: GazeboExtension, name: str, robot: Robot) -> bool:
-    """Tell whether a link or joint has a setting of a block in a block of its own."""
+    """Tell whether a block of a link or joint already has a setting of this block."""
     tags = {child.tag for child in block.element.children}
     return any(
         child.tag in tags and child.tag in KEYWORDS
@@ -108,7 +107,7 @@ def _has_settings_of(block: GazeboExtension, name: str, robot: Robot) -> bool:
 
 
 def _names_of_sdf(robot: Robot, *tags: str) -> Iterator[str]:
-    """List the names of elements of SDF in blocks of a robot."""
+    """Yield the names of SDF elements with certain tags in the blocks of a robot."""
     for block in robot.gazebo:
         for element in block.element.walk():
             if element.tag in tags:
@@ -129,10 +128,10 @@ def _loops(robot: Robot) -> Iterator[Problem]:
                 continue
             what = f"<{end.tag}> of joint '{joint.get('name') or ''}' is '{name}', which is "
             if lumped:
-                what += f"lumped into '{body_of(robot, name)}', because its joint is fixed; name "
-                what += "that, or keep the joint by preserveFixedJoint"
+                what += f"lumped into '{body_of(robot, name)}', because its joint is fixed; write "
+                what += "that, or add preserveFixedJoint to the joint"
             else:
-                what += f"no link{did_you_mean(name, robot.link)}"
+                what += f"not a link{did_you_mean(name, robot.link)}"
             yield Problem(
                 _block_of(joint),
                 what,
@@ -155,13 +154,13 @@ def _block_of(joint: Element) -> Element:
     group="robot",
 )
 def misplaced_extension(robot: Robot) -> Iterator[Problem]:
-    """A word of Gazebo's stands at a link and belongs to a joint, or the other way round.
+    """A keyword for links is in a block of a joint, or the reverse.
 
-    Friction, contact, colour and gravity belong to links; springs, stops, feedback and
-    ``preserveFixedJoint`` to joints. At the other kind, or in a block without a reference, they
-    are dropped: a fixed joint preserved at its link is lumped all the same. So is a sensor that no
-    reference is on a link. Where the joint is fixed and lumped, Gazebo has no joint that the
-    word could be written at, and the remedy is to remove it.
+    Friction, contact, color and gravity are settings of links; springs, stops, feedback and
+    ``preserveFixedJoint`` are settings of joints. In a block of the other kind, or without a
+    reference, Gazebo drops them: ``preserveFixedJoint`` of a link does not preserve its joint. A
+    sensor without a reference to a link is dropped too. If the joint is fixed and lumped, the
+    keyword should be removed, because Gazebo has no such joint.
     """
     for block in robot.gazebo:
         name = block.reference or ""
@@ -169,20 +168,20 @@ def misplaced_extension(robot: Robot) -> Iterator[Problem]:
             continue
         if not name:
             wrong = LINK_KEYWORDS | JOINT_KEYWORDS | {"sensor"}
-            belongs = "in a block without a reference"
+            where = "in a block without a reference"
         elif name in robot.link:
-            wrong, belongs = JOINT_KEYWORDS, f"at link '{name}'"
+            wrong, where = JOINT_KEYWORDS, f"in a block of link '{name}'"
         elif name in robot.joint:
-            wrong, belongs = LINK_KEYWORDS, f"at joint '{name}'"
+            wrong, where = LINK_KEYWORDS, f"in a block of joint '{name}'"
         else:
             continue
         children = [child for child in block.element.children if child.tag in wrong]
         if children:
-            yield _misplaced(robot, block, children, belongs)
+            yield _misplaced(robot, block, children, where)
 
 
 def _misplaced(
-    robot: Robot, block: GazeboExtension, children: list[Element], belongs: str
+    robot: Robot, block: GazeboExtension, children: list[Element], where: str
 ) -> Problem:
     tags = quoted(dict.fromkeys(child.tag for child in children)).replace("'", "")
     name = block.reference or ""
@@ -192,17 +191,19 @@ def _misplaced(
     elif name in robot.link:
         joint = robot.tree.parent_joint(name)
         right = f"joint '{joint.name}'" if joint is not None else right
-    verb = "does" if len(children) == 1 else "do"
-    remedy, change = f"write it at {right}", "move"
+    verb = "has" if len(children) == 1 else "have"
+    remedy, change = f"write it for {right}", "move"
     if name in robot.link and is_lumped(robot, name) and not any(map(keeps_joint, children)):
         remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} is fixed"
         remedy, change = f"{remedy} and lumped", "remove a lumped one"
     elif name and _is_repeated(robot, block.element, children):
-        remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} has its own"
+        remedy = (
+            f"remove {'it' if len(children) == 1 else 'them'}, because {right} already has its own"
+        )
         change = "remove a repeated one"
     return Problem(
         block.element,
-        f"{tags} {verb} nothing {belongs}; {remedy}",
+        f"{tags} {verb} no effect {where}; {remedy}",
         at=children[0],
         alike=(*(child.tag for child in children), name in robot.link, name in robot.joint, change),
         data={"elements": list(dict.fromkeys(child.tag for child in children))},
@@ -210,7 +211,7 @@ def _misplaced(
 
 
 def _is_repeated(robot: Robot, block: Element, children: list[Element]) -> bool:
-    """Tell whether the joint or link that misplaced words are about has all of them already."""
+    """Tell whether the joint or link of misplaced keywords already has all of them."""
     name = block.get("reference") or ""
     if name in robot.joint:
         other = robot.joint[name].child
@@ -224,9 +225,9 @@ def _is_repeated(robot: Robot, block: Element, children: list[Element]) -> bool:
 
 @misplaced_extension.fix(UNSAFE)
 def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
-    """Move the words to the joint or link they are about.
+    """Move the keywords to their joint or link.
 
-    Where that is lumped or has them already, they are removed.
+    They are removed if the joint is lumped, or if its block already has them.
     """
     block, name = problem.element, problem.element.get("reference") or ""
     robot = context.robot
@@ -250,14 +251,14 @@ def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
     if _is_repeated(robot, block, moved):
         return remove_words(block, wrong)
     if len(moved) == len(block.children):
-        return unsafe(f"write it at '{right}'", set_attribute(block, "reference", right))
+        return unsafe(f"write it for '{right}'", set_attribute(block, "reference", right))
     lines = (
         f'<gazebo reference="{escape_attribute(right)}">',
         *(f"\t{line}" for child in moved for line in written_lines(child)),
         "</gazebo>",
     )
     return unsafe(
-        f"write it at '{right}'", *map(remove_element, moved), insert_after(block, *lines)
+        f"write it for '{right}'", *map(remove_element, moved), insert_after(block, *lines)
     )
 
 
@@ -268,25 +269,26 @@ def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def conflicting_references(robot: Robot) -> Iterator[Problem]:
-    """Two blocks of one link or joint say different things.
+    """Two blocks of a link or joint have different values of a setting.
 
-    Usually two included files each have a block for it. The one that is read last wins, and the
-    order of includes decides how the wheel grips.
+    This happens if two included files have a block for the same link. Gazebo uses the last value,
+    so the order of includes decides.
     """
     for name, blocks in robot.extensions.items():
-        said: dict[str, str] = {}
+        values: dict[str, str] = {}
         for block in blocks:
             for child in block.element.children:
                 if child.tag not in KEYWORDS or child.tag in ("collision", "visual"):
                     continue
                 value = (child.get("value") or child.text).strip()
-                other = said.setdefault(child.tag, value)
+                other = values.setdefault(child.tag, value)
                 if other != value:
-                    said[child.tag] = value
+                    values[child.tag] = value
                     of = f" of '{name}'" if name else ""
                     yield Problem(
                         block.element,
-                        f"{child.tag}{of} is {other} further up and {value} here; keep one",
+                        f"{child.tag}{of} is {other} in an earlier block but {value} here; "
+                        "keep one",
                         at=child,
                         data={"element": child.tag, "values": [other, value]},
                     )

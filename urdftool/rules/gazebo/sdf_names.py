@@ -1,6 +1,6 @@
-"""The elements of SDF that may stand in a ``<gazebo>`` block, from its versions 1.4 on.
+"""Names of SDF elements that may be in a ``<gazebo>`` block, since SDF 1.4.
 
-SDF names its elements so that those of one name have much the same children wherever they stand.
+In SDF, elements with the same name have similar children in all places.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Sensors."""
+"""Rules on sensors in ``<gazebo>`` blocks."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _WITH_FRAME = words(
 )
 
 _OPTICS = ("camera", "lidar", "ray")
-"""Elements of a sensor that may have a pose of their own."""
+"""Elements of a sensor that may have their own pose."""
 
 
 def _sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
@@ -65,18 +65,19 @@ def _sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
     },
 )
 def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
-    """A sensor is of a type that SDF does not have.
+    """A sensor has no type, or a type that is not in SDF.
 
-    The type is missing or invalid, says sdformat, and there is no sensor.
+    sdformat reports that the sensor type is missing or invalid, and Gazebo does not create the
+    sensor.
     """
     for _, sensor in _sensors(robot):
         if sensor.type not in TYPES:
-            what = f"'{sensor.type}' is no type of sensor" if sensor.type else "it has no type"
+            what = f"'{sensor.type}' is not a sensor type" if sensor.type else "no sensor type"
             near = did_you_mean(sensor.type, TYPES) if sensor.type else ""
             name = f"sensor '{sensor.name}': " if sensor.name else ""
             yield Problem(
                 sensor.element,
-                f"{name}{what}{near or '; write such as camera, imu, gpu_lidar'}",
+                f"{name}{what}{near or '; write, for example, camera, imu or gpu_lidar'}",
                 at=sensor.element.attribute_place("type"),
                 data={"suggestion": nearest(sensor.type, TYPES) if sensor.type else ""},
             )
@@ -93,14 +94,14 @@ def write_sensor_type(problem: Problem, context: FixContext) -> Proposal | None:
     ERROR,
     on=("gz",),
     effects={
-        "gz": "makes no sensor: type LIDAR is not supported, use a GPU LIDAR",
+        "gz": "creates no sensor: type LIDAR is not supported, use a GPU LIDAR",
     },
 )
 def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A laser scans with the processor, which new Gazebo cannot.
+    """A laser scanner has a CPU type, which new Gazebo does not support.
 
-    Types ``ray`` and ``lidar`` are Gazebo Classic's; the releases of new Gazebo up to 10 say to use
-    the one of the graphics card. Write ``type="gpu_lidar"`` and ``<lidar>`` for ``<ray>``.
+    Types ``ray`` and ``lidar`` are for Gazebo Classic. New Gazebo up to version 10 requires the GPU
+    type: write ``type="gpu_lidar"``, and ``<lidar>`` in place of ``<ray>``.
     """
     if "gazebo-classic" in targets:
         return
@@ -108,7 +109,8 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         if sensor.type in ("ray", "lidar"):
             yield Problem(
                 sensor.element,
-                f"sensor '{sensor.name}' is of type '{sensor.type}', which new Gazebo lacks; "
+                f"sensor '{sensor.name}' has type '{sensor.type}', which new Gazebo does not "
+                "support; "
                 "write gpu_lidar",
                 at=sensor.element.attribute_place("type"),
             )
@@ -116,7 +118,7 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 
 @cpu_ray_in_gz.fix(UNSAFE)
 def write_gpu_lidar(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the type for the graphics card, which Gazebo Classic does not know."""
+    """Write the GPU type, which Gazebo Classic does not support."""
     sensor = problem.element
     changes = [set_attribute(sensor, "type", "gpu_lidar")]
     if sensor.child("lidar") is None:
@@ -132,10 +134,10 @@ def write_gpu_lidar(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A sensor carries a ROS plugin of Gazebo Classic.
+    """A sensor has a ROS plugin of Gazebo Classic.
 
-    New Gazebo has no such plugins: its sensors publish by themselves. Give the sensor a ``<topic>``
-    and a ``<gz_frame_id>``, and bridge the topic with ros_gz_bridge.
+    New Gazebo cannot load it: its sensors publish data themselves. Add a ``<topic>`` and a
+    ``<gz_frame_id>`` to the sensor, and bridge the topic with ros_gz_bridge.
     """
     if "gazebo-classic" in targets:
         return
@@ -144,15 +146,16 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
             if plugin.filename.rpartition("/")[2].startswith("libgazebo_ros_"):
                 yield Problem(
                     sensor.element,
-                    f"sensor '{sensor.name}' has '{plugin.filename}', which new Gazebo lacks; "
-                    "write <topic> and bridge it with ros_gz_bridge",
+                    f"sensor '{sensor.name}' has '{plugin.filename}', which new Gazebo cannot "
+                    "load; "
+                    "write <topic>, and bridge it with ros_gz_bridge",
                     at=plugin.element.attribute_place("filename"),
                 )
 
 
 @ros_plugin_inside_sensor.fix(UNSAFE)
 def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the topic of the plugin in its place."""
+    """Replace the plugin by its topic."""
     sensor = problem.element
     plugins = [p for p in sensor.all("plugin") if "libgazebo_ros_" in (p.get("filename") or "")]
     if len(plugins) != 1:
@@ -176,18 +179,17 @@ def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
     WARNING,
     on=("gz",),
     effects={
-        "gz": "stamps the data with the scoped name of the sensor, which TF does not know",
+        "gz": "stamps the data with the scoped name of the sensor, which is not a TF frame",
     },
 )
 def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
-    """A sensor does not say in which frame it measures.
+    """A sensor has no ``<gz_frame_id>``.
 
-    New Gazebo makes up a frame of the names of model, link and sensor; there is none such in TF,
-    and RViz shows nothing. ``<gz_frame_id>`` names the right one (``ignition_frame_id`` in
-    Fortress): the link of the sensor where the sensor has no ``<pose>`` of its own, else a link
-    that is fixed at just that pose. Where there is none, one has to be added: the name of the
-    sensor's own link would place its data wrongly. More than ``together`` sensors of a kind are one
-    finding.
+    New Gazebo then uses a frame with the names of model, link and sensor, which does not exist in
+    TF, so RViz shows no data. Write the link of the sensor in ``<gz_frame_id>``
+    (``ignition_frame_id`` in Fortress). If the sensor has a ``<pose>``, write a link that is fixed
+    at that pose, or add one: with the link of the sensor its data would be displaced. More than
+    ``together`` sensors of a kind are one finding.
     """
     for placed in (True, False):
         found = [one for one in without_frame(robot) if (one.frame is not None) is placed]
@@ -199,20 +201,20 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
             name = f"sensor '{sensor.sensor.name}'{others}"
             if sensor.frame is None:
                 what = (
-                    f"{name} names no frame, and no link is at its <pose> in "
-                    f"'{sensor.link.name}'; add one there and name it in <gz_frame_id>"
+                    f"{name} has no <gz_frame_id>, and no link is at its <pose> in "
+                    f"'{sensor.link.name}'; add a link there, and write it in <gz_frame_id>"
                 )
             else:
                 where = ", and the link at the pose of each of the others" if many else ""
                 frame = f"<gz_frame_id>{sensor.frame.name}</gz_frame_id>"
-                what = f"{name} names no frame; write {frame}{where}"
+                what = f"{name} has no <gz_frame_id>; write {frame}{where}"
                 data["frame"] = sensor.frame.name
             yield Problem(sensor.sensor.element, what, data=data)
 
 
 @missing_gz_frame_id.fix(SAFE)
 def write_frame_id(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the link where the sensor is, for each of the sensors of the finding."""
+    """Write the link at the pose of each sensor of the finding."""
     if "frame" not in problem.data:
         return None
     found = [one for one in without_frame(context.robot) if one.frame is not None]
@@ -232,7 +234,7 @@ def write_frame_id(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _name_of_frame(one: Frameless) -> str | None:
-    """Write the name of a sensor's frame as the source does; None where it is made elsewhere."""
+    """Get the frame of a sensor as written in the source; None if another file computes it."""
     block, frame = one.sensor.element.parent, one.frame
     if frame is None or block is None:
         return None
@@ -244,12 +246,12 @@ def _name_of_frame(one: Frameless) -> str | None:
 
 
 class Frameless(NamedTuple):
-    """A sensor of new Gazebo that names no frame, and could.
+    """A sensor without a frame for new Gazebo.
 
     Attributes:
         sensor: The sensor.
-        link: The link that it is on.
-        frame: The link that is where the sensor is; None where there is none.
+        link: The link that contains it.
+        frame: The link at the pose of the sensor; None if there is none.
     """
 
     sensor: Sensor
@@ -258,7 +260,7 @@ class Frameless(NamedTuple):
 
 
 def without_frame(robot: Robot) -> Iterator[Frameless]:
-    """List the sensors of links that name no frame."""
+    """Yield the sensors of links that have no frame."""
     for block, sensor in _sensors(robot):
         if sensor.type in _WITH_FRAME and block.reference in robot.link:
             tags = {child.tag for child in sensor.element.walk()}
@@ -268,7 +270,7 @@ def without_frame(robot: Robot) -> Iterator[Frameless]:
 
 
 def _frame_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:
-    """Find the link that is where a sensor of a link is; None where there is none."""
+    """Find the link at the pose of a sensor; None if there is none."""
     pose = pose_in_link(sensor)
     if pose is None:
         return None
@@ -282,11 +284,11 @@ def _frame_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:
 
 
 def pose_in_link(sensor: Sensor) -> Pose | None:
-    """Read the pose of a sensor in its link; None where it is given in another way."""
+    """Read the pose of a sensor in its link; None if it is in a different form."""
     element = sensor.element
     inner = [child.child("pose") for child in element.children if child.tag in _OPTICS]
     if any(one is not None and any(numbers(one.text, 6) or (1.0,)) for one in inner):
-        return None  # the camera stands apart from its sensor
+        return None  # the camera has a pose in its sensor
     pose = element.child("pose")
     if pose is None:
         return IDENTITY
@@ -305,10 +307,10 @@ def pose_in_link(sensor: Sensor) -> Pose | None:
     },
 )
 def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
-    """Two sensors of one body have one name.
+    """Two sensors of one body have the same name.
 
-    Names of siblings must differ. Two cameras on two links are siblings when fixed joints join the
-    links into one body, which is not seen in the file.
+    Names of siblings must be unique. Sensors of two links are siblings if fixed joint lumping joins
+    the links into one body.
     """
     seen: dict[tuple[str, str], str] = {}
     for block, sensor in _sensors(robot):
@@ -321,8 +323,8 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
             where = "the same link" if other == block.reference else f"'{other}', fixed to it"
             yield Problem(
                 sensor.element,
-                f"a second sensor '{sensor.name}' on body '{body}' (the first is on {where}); "
-                "give it a name of its own",
+                f"another sensor on body '{body}' has the name '{sensor.name}' (on {where}); "
+                "make it unique",
                 at=sensor.element.attribute_place("name"),
                 data={"name": sensor.name, "body": body},
             )
@@ -330,7 +332,7 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
 
 @duplicate_sensor_name.fix(UNSAFE)
 def number_sensor(problem: Problem, context: FixContext) -> Proposal | None:
-    """Append a number to the second name."""
+    """Append a number to the duplicate name."""
     return append_number(problem, {sensor.name for _, sensor in _sensors(context.robot)})
 
 
@@ -342,14 +344,14 @@ _SENSOR_LINK = re.compile(r"camera|lidar|laser|(^|_)(scan|imu|gps)(_|$)", re.IGN
     on=GAZEBO,
     default=False,
     effects={
-        "gz, gazebo-classic": "simulate no data there",
+        "gz, gazebo-classic": "simulate no sensor data for the link",
     },
 )
 def missing_sensor_tag(robot: Robot) -> Iterator[Problem]:
-    """A link is called like a sensor, and there is none at it.
+    """A link has the name of a sensor, but no ``<sensor>``.
 
-    A frame alone measures nothing. The sensor may be at a link that is fixed to it; then it is not
-    told.
+    A link without a ``<sensor>`` measures nothing. It is not reported if a link that is fixed to it
+    has the sensor.
     """
     sensing = {body_of(robot, block.reference or "") for block, _ in _sensors(robot)}
     for link in robot.links:
@@ -381,7 +383,7 @@ _SYSTEM_OF = {
     "magnetometer": "magnetometer",
     "navsat": "navsat",
 }
-"""The system that makes the data of a type of sensor; ``gz-sim-WORD-system``."""
+"""Name of the system ``gz-sim-NAME-system`` that generates the data of a sensor type."""
 
 
 @rule(
@@ -389,16 +391,16 @@ _SYSTEM_OF = {
     on=("gz",),
     default=False,
     effects={
-        "gz": "passes the sensor on, and no system",
+        "gz": "keeps the sensor, without a system",
     },
 )
 def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
-    """A sensor makes data only in a world that has its system.
+    """A sensor requires a system of the world.
 
-    In new Gazebo a system of the world makes the data of all sensors of a kind: ``sensors`` renders
-    for cameras and laser scanners, ``imu``, ``navsat``, ``forcetorque`` and others are one each. A
-    world without it is silent about it. Which systems the world has is not written in a robot, so
-    this is a reminder; one finding names them.
+    In new Gazebo, systems of the world generate sensor data: ``sensors`` renders cameras and laser
+    scanners, and ``imu``, ``navsat`` and ``forcetorque`` are separate systems. Without the system
+    there is no data and no message. The robot does not contain the systems of the world, so this is
+    a reminder. One finding lists all systems.
     """
     loaded = [plugin.filename for block in robot.gazebo for plugin in block.plugins]
     found: dict[str, Sensor] = {}
@@ -411,6 +413,6 @@ def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
         first = next(iter(found.values()))
         yield Problem(
             first.element,
-            f"its data is made only in a world that loads {systems}",
+            f"sensor '{first.name}' has data only in a world that loads {systems}",
             data={"systems": [f"gz-sim-{system}-system" for system in sorted(found)]},
         )

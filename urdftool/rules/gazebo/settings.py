@@ -1,4 +1,4 @@
-"""Settings that are old, or that one Gazebo does not read."""
+"""Rules on deprecated settings, and on those that only one version of Gazebo reads."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ from .tags import material_lines
     WARNING,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": "warn, and take it for implicitSpringDamper",
+        "gz, gazebo-classic": "warn, and take it as implicitSpringDamper",
     },
 )
 def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
-    """``cfmDamping`` is the old name of ``implicitSpringDamper``.
+    """``cfmDamping`` is a deprecated name of ``implicitSpringDamper``.
 
-    It still works, with a warning at every start.
+    sdformat reads it with a warning.
     """
     for block in robot.gazebo:
         for child in block.element.all("cfmDamping"):
             has_both = block.element.child("implicitSpringDamper") is not None
-            remedy = "which is written as well; remove it" if has_both else "write that"
+            remedy = "which the block has too; remove it" if has_both else "write that"
             yield Problem(
                 block.element,
                 f"cfmDamping is now called implicitSpringDamper{',' if has_both else ';'} {remedy}",
@@ -52,7 +52,7 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
 
 @deprecated_cfm_damping.fix(SAFE)
 def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write ``implicitSpringDamper``, unless it is there."""
+    """Write ``implicitSpringDamper``, if the block does not have it."""
     element = element_at(problem)
     parent = element.parent if element is not None else None
     if element is None or parent is None or parent.child("implicitSpringDamper") is not None:
@@ -64,16 +64,16 @@ def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Propo
     WARNING,
     on=("gz",),
     effects={
-        "gz": "passes it on to SDF, where gz-physics does not read it for DART",
+        "gz": "keeps it in the SDF, where gz-physics does not read it for DART",
     },
 )
 def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A setting of Gazebo Classic does nothing in new Gazebo.
+    """A setting of Gazebo Classic has no effect in new Gazebo.
 
-    Contact stiffness and damping, contact counts, stops and feedback are ODE's; they are carried
-    into the SDF, and neither gz-sim nor its physics engines read them. Friction (mu1, mu2, fdir1)
-    is read. A robot that is for Gazebo Classic as well needs them and is not told; where nothing in
-    the description is new Gazebo's own, they may be for Gazebo Classic, and it is a remark.
+    Contact stiffness and damping, contact counts, stops and feedback are settings of ODE. sdformat
+    keeps them in the SDF, but gz-sim and its physics engines ignore them. Friction (mu1, mu2,
+    fdir1) has an effect. Robots for Gazebo Classic are not reported. If the description has no
+    plugin for new Gazebo, the finding is an info, because the settings may be for Gazebo Classic.
     """
     if "gazebo-classic" in targets:
         return
@@ -87,13 +87,13 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         words = quoted(found, 6).replace("'", "")
         count = sum(map(len, found.values()))
         times = f" ({count} times)" if count > 1 else ""
-        do = "do" if len(found) > 1 else "does"
+        have = "have" if len(found) > 1 else "has"
         them = "them" if count > 1 else "it"
         own = any(is_for_gz(plugin.element) for plugin in robot.plugins)
         remedy = f"remove {them}" if own else f"keep {them} only for Gazebo Classic"
         yield Problem(
             block_,
-            f"{words} {do} nothing in new Gazebo{times}; {remedy}",
+            f"{words} {have} no effect in new Gazebo{times}; {remedy}",
             at=first,
             severity=None if own else INFO,
             data={"elements": list(found), "count": count},
@@ -112,7 +112,7 @@ def remove_classic_settings(problem: Problem, context: FixContext) -> Proposal |
             changes.append(remove_element(block.element))
         else:
             changes += map(remove_element, gone)
-    return unsafe("take all of it away", *changes)
+    return unsafe("remove all of them", *changes)
 
 
 @rule(
@@ -124,11 +124,10 @@ def remove_classic_settings(problem: Problem, context: FixContext) -> Proposal |
     group="robot",
 )
 def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A material of Gazebo Classic's is not known to new Gazebo.
+    """A material of Gazebo Classic is not available in new Gazebo.
 
-    New Gazebo knows the names ``Gazebo/…`` and cannot read the scripts of Ogre, in which other
-    names are defined. It takes the colours of the URDF, or those in
-    ``<visual><material><diffuse>``.
+    New Gazebo has the names ``Gazebo/…``, but it cannot read Ogre scripts, which define all others.
+    It shows the color of the URDF, or the color in ``<visual><material><diffuse>``.
     """
     if "gazebo-classic" in targets:
         return
@@ -151,7 +150,7 @@ def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
         yield Problem(
             elements[0],
             f"material '{name}'{more} is an Ogre script, which new Gazebo cannot read; "
-            "leave it out where the URDF has a colour",
+            "remove it if the URDF has a color",
             alike=len(elements) > 1,
             data={"material": name, "count": len(elements)},
         )
@@ -159,7 +158,7 @@ def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
 
 @ogre_material_script.fix(SAFE)
 def remove_script(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the material wherever it is used, if the URDF has a color for each of the links."""
+    """Remove the material from all links, if the URDF has a color for each of them."""
     name = problem.data["material"]
     changes = []
     for block in context.robot.gazebo:
@@ -176,7 +175,7 @@ def remove_script(problem: Problem, context: FixContext) -> Proposal | None:
             if link is None or material_lines(link, context.robot) is None:
                 return None
             changes.append(remove_element(element))
-    return safe("leave it to the colour of the URDF", *changes) if changes else None
+    return safe("use the color of the URDF", *changes) if changes else None
 
 
 @rule(
@@ -184,14 +183,14 @@ def remove_script(problem: Problem, context: FixContext) -> Proposal | None:
     on=("gazebo-classic",),
     default=False,
     effects={
-        "gazebo-classic": "takes the defaults of SDF: no <kp> and <kd> are passed on",
+        "gazebo-classic": "takes the defaults of SDF: it gets no <kp> and <kd>",
     },
 )
 def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
     """A foot, finger or wheel has no contact parameters.
 
-    ODE's own stiffness is 1e12: what stands or grips trembles. ``kp`` of a million, ``kd`` of a
-    hundred and a ``minDepth`` of a millimetre calm it.
+    The default contact stiffness of ODE is 1e12, which makes contacts vibrate. Typical values are a
+    ``kp`` of 1e6 N/m, a ``kd`` of 100 N s/m and a ``minDepth`` of 1 mm.
     """
     for link in robot.links:
         role = contact_role(robot, link)
@@ -229,15 +228,15 @@ def write_contact_parameters(problem: Problem, context: FixContext) -> Proposal 
     on=("gz",),
     default=False,
     effects={
-        "gz": "passes on <ode> friction alone, and no <bullet> friction",
+        "gz": "gets only <ode> friction, and no <bullet> friction",
     },
 )
 def engine_ignores_ode_friction(robot: Robot) -> Iterator[Problem]:
-    """The friction is written for one engine, and another does not read it.
+    """The friction is set for one physics engine, and others ignore it.
 
-    ``mu1`` and ``mu2`` become ``<friction><ode>``, which DART, the engine of new Gazebo, reads too.
-    Its engine bullet-featherstone reads ``<friction><bullet>`` alone, and that of MuJoCo no surface
-    of SDF at all. For those who choose such an engine: write both in ``<collision><surface>``.
+    ``mu1`` and ``mu2`` become ``<friction><ode>``, which DART, the default engine of new Gazebo,
+    reads. The engine bullet-featherstone only reads ``<friction><bullet>``, and the MuJoCo engine
+    reads no surface of SDF. To use bullet-featherstone, write both in ``<collision><surface>``.
     """
     found = [
         block
@@ -250,7 +249,6 @@ def engine_ignores_ode_friction(robot: Robot) -> Iterator[Problem]:
         more = f" (and {len(names) - 1} more)" if len(names) > 1 else ""
         yield Problem(
             found[0].element,
-            f"the friction{f' of {names[0]}{more}' if names else ''} is not read by "
-            "bullet-featherstone; for that engine write <friction><bullet><friction> and "
-            "<friction2> as well",
+            f"bullet-featherstone ignores the friction{f' of {names[0]}{more}' if names else ''}; "
+            "for that engine write <friction><bullet><friction> and <friction2> too",
         )

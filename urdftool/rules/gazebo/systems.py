@@ -1,4 +1,4 @@
-"""Libraries of Gazebo: the classes in those of new Gazebo, and what took the place of the old."""
+"""Plugin libraries of Gazebo: classes of new Gazebo, and counterparts of Gazebo Classic."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ CLASSIC = (
     *("libgazebo_ros", "libhector_gazebo", "libhector_", "libroboticsgroup_", "libgazebo_"),
     "librotors_gazebo_",
 )
-"""How the libraries of Gazebo Classic begin."""
+"""Prefixes of libraries of Gazebo Classic."""
 
 _PARTS = {
     "ackermann-steering": "AckermannSteering",
@@ -51,7 +51,7 @@ SYSTEMS = {
     **{f"gz-sim-{part}-system": f"gz::sim::systems::{name}" for part, name in _PARTS.items()},
     "gz_ros2_control-system": "gz_ros2_control::GazeboSimROS2ControlPlugin",
 }
-"""The class by its library, for libraries that hold one class."""
+"""Class by library, for libraries with one class."""
 
 REPLACEMENTS = {
     **{old: file_of(systems[0]) for old, systems in SYSTEM_PLUGINS.items()},
@@ -60,4 +60,4 @@ REPLACEMENTS = {
     "gazebo_ros_force": "gz-sim-apply-link-wrench-system",
     "gazebo_ros_vacuum_gripper": "gz-sim-detachable-joint-system",
 }
-"""What to load in new Gazebo instead of a plugin of Gazebo Classic."""
+"""Counterpart in new Gazebo by plugin of Gazebo Classic."""

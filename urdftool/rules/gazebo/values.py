@@ -1,4 +1,4 @@
-"""The values in a ``<gazebo>`` block."""
+"""Rules on values in ``<gazebo>`` blocks."""
 
 from __future__ import annotations
 
@@ -41,18 +41,18 @@ _LEADING = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:inf|na
     ERROR,
     effects={
         "gz, gazebo-classic": (
-            "end at once with an uncaught 'stod' where there is no number at all; read as far "
-            "as they can otherwise (sdformat 12.3)"
+            "abort with an uncaught 'stod' exception if the text does not begin with a number; "
+            "read the leading number in other cases (sdformat 12.3)"
         ),
         "urdfdom, mujoco, pybullet, pinocchio, drake": "ignore <gazebo>",
     },
 )
 def bad_extension_number(robot: Robot) -> Iterator[Problem]:
-    """A value that Gazebo reads as a number is none.
+    """A value that Gazebo reads as a number is not a number.
 
-    sdformat converts mu1, kp and their like with a function that throws when the text does not
-    begin with a number, and nobody catches it: the whole simulator ends. Of ``10.0d`` it reads the
-    10 and passes over the rest; that is a warning.
+    sdformat converts mu1, kp and similar values with a function that throws if the text does not
+    begin with a number. The exception is not caught, so the simulator aborts. Of ``10.0d`` it reads
+    10 and ignores the rest; this case is a warning.
     """
     for block in robot.gazebo:
         for child in block.element.children:
@@ -67,13 +67,13 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
                 continue
             at = None if written is None else child.attribute_place("value")
             if number is None:
-                what = f"'{text}' is no number" if text else "it is empty"
-                message = f"{child.tag} wants a number, and {what}; Gazebo ends when it reads it"
+                what = f"'{text}', which is not a number" if text else "empty"
+                message = f"{child.tag} is {what}, so Gazebo aborts; write a number"
                 yield Problem(block.element, message, at=at or child)
             else:
                 yield Problem(
                     block.element,
-                    f"{child.tag} is '{text}', of which Gazebo reads {number[0]}; write that",
+                    f"{child.tag} is '{text}', of which Gazebo only reads {number[0]}; write that",
                     at=at or child,
                     severity=WARNING,
                     data={"write": number[0]},
@@ -84,8 +84,8 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
 def every_bad_extension_value(robot: Robot) -> Iterator[Problem]:
     """Report each value of an extension that the reader of the extension rejects.
 
-    Its data has the ``holder``: a ``keyword`` of a link or joint, with the ``kind`` of its value;
-    an SDF ``element``, of which ``is_loop`` tells whether it places a joint that closes a loop; or
+    ``Problem.data`` has the ``holder``: a ``keyword`` of a link or joint, with the ``kind`` of its
+    value; an SDF ``element``, with ``is_loop`` if it places a joint that closes a loop; or
     ``mujoco``, an attribute in that element.
     """
     for block in robot.gazebo:
@@ -120,7 +120,7 @@ def every_bad_extension_value(robot: Robot) -> Iterator[Problem]:
 
 
 def _sdf_elements(block: Element) -> Iterator[Element]:
-    """List the elements of a block that are not in plugins, in document order."""
+    """Yield the elements of a block that are not in plugins, in document order."""
     todo = [*reversed(block.children)]
     while todo:
         element = todo.pop()
@@ -130,7 +130,7 @@ def _sdf_elements(block: Element) -> Iterator[Element]:
 
 
 def _places_loop(block: Element, element: Element) -> bool:
-    """Tell whether an element is the pose or the axis of a joint of a block."""
+    """Tell whether an element is the pose or the axis of a joint in a block."""
     above = element.parent
     if element.tag == "xyz" and above is not None and above.tag == "axis":
         above = above.parent
@@ -141,7 +141,7 @@ def _places_loop(block: Element, element: Element) -> bool:
 
 @bad_extension_number.fix(SAFE)
 def write_leading_number(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the number that Gazebo reads of it."""
+    """Write the leading number, which Gazebo reads."""
     element = element_at(problem)
     number = problem.data.get("write", "")
     if not number or element is None:
@@ -159,23 +159,23 @@ def write_leading_number(problem: Problem, context: FixContext) -> Proposal | No
     group="robot",
 )
 def half_friction(robot: Robot) -> Iterator[Problem]:
-    """One of ``mu1`` and ``mu2`` is written.
+    """Only one of ``mu1`` and ``mu2`` is written.
 
-    They are the friction in two directions across the surface. The one that is not written is 1:
-    the link grips in one direction and slides in the other.
+    They are the friction coefficients in two directions of the surface. The default of the missing
+    one is 1, so the friction depends on the direction.
     """
     for name, blocks in robot.extensions.items():
         if not name or name not in robot.link or not robot.link[name].collisions:
             continue
         if any(child.tag in ("mu", "Mu1", "Mu2") for b in blocks for child in b.element.children):
-            continue  # a misspelt one
+            continue  # one is misspelled
         found = {word: block for block in blocks for word in _MU if block.element.child(word)}
         if len(found) == 1:
             word, block = next(iter(found.items()))
             other = "mu2" if word == "mu1" else "mu1"
             yield Problem(
                 block.element,
-                f"link '{name}' has {word} and no {other}, which is 1 then; write both",
+                f"link '{name}' has {word} but no {other}, which defaults to 1; write both",
                 at=block.element.child(word),
                 alike=word,
                 data={"written": word, "missing": other},
@@ -201,13 +201,13 @@ _HOLDS = re.compile(
 
 
 def _is_alike(block: GazeboExtension) -> bool:
-    """Whether a block writes one friction for both directions."""
+    """Tell whether a block has equal friction in both directions."""
     one, other = (number(block.value(word)) for word in _MU)
     return one is not None and one == other
 
 
 def _holds(robot: Robot, name: str | None) -> bool:
-    """Whether a link is made to grip: a finger, a wheel or a foot, by its name or its shape."""
+    """Tell whether a link grips, by its name or shape: a finger, a wheel or a foot."""
     link = robot.link.get(name or "")
     return link is not None and bool(_HOLDS.search(link.name) or contact_role(robot, link))
 
@@ -220,15 +220,14 @@ def _holds(robot: Robot, name: str | None) -> bool:
     group="robot",
 )
 def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Problem]:
-    """A friction or a stiffness is not of this world.
+    """A friction coefficient or contact stiffness is implausible.
 
-    Rubber on concrete has a coefficient of 1. Below zero there is none (an error), above
-    ``highest`` it is a slip in the number more often than meant, and a contact with a stiffness
-    ``kp`` of 0 does not hold anything. What is wrong with both frictions of a block is one finding.
-    Fingers, wheels and feet are given a high friction on purpose, the same in both directions, and
-    are not reported.
+    Rubber on concrete has a friction coefficient of 1. A negative coefficient is an error; one
+    above ``highest`` is usually a wrong number. A contact with a stiffness ``kp`` of 0 does not
+    support the link. Both coefficients of a block are one finding. Fingers, wheels and feet with
+    the same high coefficient in both directions are not reported.
     """
-    told: set[tuple[str, float]] = set()
+    reported: set[tuple[str, float]] = set()
     for block in robot.gazebo:
         found: dict[tuple[bool, bool], tuple[str, list[Element], list[str]]] = {}
         meant = _holds(robot, block.reference) and _is_alike(block)
@@ -236,18 +235,18 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
             if child.tag not in ("mu1", "mu2", "kp"):
                 continue
             value = number((child.get("value") or child.text).strip())
-            if value is None or (child.tag, value) in told:
+            if value is None or (child.tag, value) in reported:
                 continue
             if child.tag != "kp" and value > highest and meant:
                 continue
-            told.add((child.tag, value))
+            reported.add((child.tag, value))
             wrong = f"{child.tag} is {value:g}"
             if value < 0:
                 why = (
                     "it cannot be below 0" if child.tag == "kp" else "a friction cannot be below 0"
                 )
             elif child.tag == "kp" and value == 0:
-                wrong, why = "kp is 0, so that nothing carries the link", "Gazebo's own is 1e12"
+                wrong, why = "kp is 0, so contacts do not support the link", "the default is 1e12"
             elif child.tag != "kp" and value > highest:
                 why = "rubber on concrete has about 1"
             else:

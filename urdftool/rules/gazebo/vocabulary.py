@@ -1,4 +1,4 @@
-"""Words that Gazebo does not know."""
+"""Rules on unknown elements in ``<gazebo>`` blocks."""
 
 from __future__ import annotations
 
@@ -35,21 +35,19 @@ _RENAMED = {
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic": "copy it into the SDF as it is; the default holds",
+        "gz, gazebo-classic": "copy it unchanged into the SDF; the default applies",
     },
 )
 def unknown_extension(robot: Robot) -> Iterator[Problem]:
-    """Gazebo has no such word there.
+    """A ``<gazebo>`` block contains an unknown element.
 
-    What a ``<gazebo>`` block holds is either one of some thirty words, or SDF. All else is copied
-    into the simulated model and passed over: ``<mu>`` or ``<Mu1>`` leaves the friction at 1, an
-    ``<updateRate>`` in a sensor leaves its rate as it is. It is an error where the word meant is
-    plain.
-
-    In sensors, and in plugins whose parameters are known, only words that are nearly right are
-    told of: plugins read what they like.
+    Gazebo reads about thirty keywords and the elements of SDF; it copies others into the model and
+    ignores them. With ``<mu>`` or ``<Mu1>`` the friction stays 1, and ``<updateRate>`` in a sensor
+    does not set its rate. The finding is an error if the intended element is clear. In sensors, and
+    in plugins with known parameters, only misspelled elements are reported, because plugins may
+    have any parameters.
     """
-    strange: dict[str, list[tuple[str, GazeboExtension, Element]]] = {}
+    unknown: dict[str, list[tuple[str, GazeboExtension, Element]]] = {}
     for block in robot.gazebo:
         known, parent = _known(robot, block)
         for child in block.element.children:
@@ -59,20 +57,20 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
             elif tag == "plugin":
                 yield from _in_plugin(child)
             elif tag == "ros2_control":
-                continue  # a rule of its own says where it belongs
+                continue  # ros2-control-nested reports it
             elif parent and tag not in known and tag not in KEYWORDS and ":" not in tag:
                 problem = _misspelt(block, child, known, parent)
                 if problem is not None:
                     yield problem
                 else:
-                    strange.setdefault(tag, []).append((parent, block, child))
-    for tag, found in strange.items():
+                    unknown.setdefault(tag, []).append((parent, block, child))
+    for tag, found in unknown.items():
         parent, block, child = found[0]
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
             block.element,
-            f"<{tag}> means nothing to Gazebo at a {parent}, and nothing of it is read; "
-            f"take it away{more}",
+            f"<{tag}>{more} is not an element for a {parent} in Gazebo, which ignores it; "
+            "remove it",
             at=child,
             data={"count": len(found)},
         )
@@ -80,7 +78,7 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
 
 @unknown_extension.fix(UNSAFE)
 def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the element that Gazebo knows."""
+    """Write the element that Gazebo reads."""
     element, word = element_at(problem), problem.data.get("write", "")
     if element is None or not word.replace("_", "").isalnum():
         return None
@@ -90,7 +88,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
 
 
 def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
-    """What may stand in a block, and which element of SDF it is copied to."""
+    """Get the elements that a block may contain, and the SDF element that it is copied to."""
     name = block.reference
     if not name:
         return ROBOT_KEYWORDS | SDF_CHILDREN["model"], "model"
@@ -106,7 +104,7 @@ def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
 def _misspelt(
     block: GazeboExtension, child: Element, known: frozenset[str], parent: str
 ) -> Problem | None:
-    """Report an element in whose place another is meant; None where no other is known."""
+    """Report a misspelled element; None if no similar element is known."""
     tag = child.tag
     instead, right = _INSTEAD.get(tag, ""), _RENAMED.get(tag, "")
     if not instead and not right:
@@ -115,7 +113,7 @@ def _misspelt(
         return None
     return Problem(
         block.element,
-        f"<{tag}> means nothing to Gazebo at a {parent}; {instead or f'write <{right}>'}",
+        f"<{tag}> is not an element for a {parent} in Gazebo; {instead or f'write <{right}>'}",
         at=child,
         severity=ERROR,
         data={"write": right} if right else {},
@@ -123,7 +121,7 @@ def _misspelt(
 
 
 def _in_sdf(element: Element) -> Iterator[Problem]:
-    """What is nearly right in a sensor and all below it."""
+    """Report misspelled elements in a sensor and its descendants."""
     known = SDF_CHILDREN.get(element.tag)
     for child in element.children:
         if child.tag == "plugin":
@@ -162,7 +160,7 @@ def _in_plugin(plugin: Element) -> Iterator[Problem]:
 
 
 def _variant(tag: str, near: str) -> bool:
-    """Whether two words differ in a number, a plural, or by a word more, as kin do."""
+    """Tell whether two words differ by a number, a plural or an additional word."""
     a, b = fold(tag), fold(near)
     letters = "".join(c for c in a if not c.isdigit()), "".join(c for c in b if not c.isdigit())
     if letters[0] == letters[1] or a.startswith(b) or b.startswith(a):

@@ -1,4 +1,4 @@
-"""The wheels of a differential drive: which are driven, how far apart and how large they are."""
+"""Find the wheels of a differential drive, with their separation and radius."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ CASTER = re.compile(r"caster|castor|ball_wheel|ball_link$|ball_joint$", re.IGNOR
 
 
 class WheelPair(NamedTuple):
-    """Two wheels on one axle, where all joints are at zero.
+    """Two wheels on one axle, with all joints at 0.
 
     Attributes:
         left: The joint of the wheel on the side of the root's positive y axis.
-        right: The joint of the other.
+        right: The joint of the other wheel.
         separation: The distance of the two joints [m].
         radius: The radius of the left wheel [m].
     """
@@ -33,7 +33,7 @@ class WheelPair(NamedTuple):
 
 
 def driven_joints(robot: Robot) -> list[Joint]:
-    """Find the joints of the wheels that a drive names, or of the only two wheels."""
+    """Find the joints of wheels in the parameters of a drive, or of the only two wheels."""
     named = {
         wheel.joint.name: wheel.joint
         for drive in drives(robot)
@@ -54,10 +54,10 @@ def driven_joints(robot: Robot) -> list[Joint]:
 
 
 def wheel_pair(robot: Robot) -> WheelPair | None:
-    """Find the two wheels that a differential drive would turn.
+    """Find the two wheels of a differential drive.
 
-    None unless a robot has exactly two wheels beside casters, both turn about the positive y axis
-    of the root, at the same x and z, and are round.
+    None unless the robot has exactly two wheels in addition to casters, both turn about the
+    positive y axis of the root, at the same x and z, and are round.
     """
     joints = driven_joints(robot)
     if len(joints) != 2:
@@ -80,9 +80,9 @@ def wheel_pair(robot: Robot) -> WheelPair | None:
 
 
 def radius_about(box: Bounds, axis: Vector) -> float | None:
-    """Return half of the length of a box across an axis [m].
+    """Compute the radius of a box about an axis [m].
 
-    None where the box is not as wide as high, or the axis is not along one of its sides.
+    None if the box is not as wide as high, or the axis is not along one of its sides.
     """
     along = max(range(3), key=lambda i: abs(axis[i]))
     if abs(axis[along]) < 0.99 * norm(axis):

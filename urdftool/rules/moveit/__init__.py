@@ -1,4 +1,4 @@
-"""MoveIt's files beside a description."""
+"""Rules on MoveIt files next to a description."""
 
 FILES = ("semantic", "configuration", "adjacent")
 """Files with rules, in reading order."""

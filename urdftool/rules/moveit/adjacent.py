@@ -1,4 +1,4 @@
-"""Neighbours that touch and are not let touch."""
+"""Rules on adjacent links that collide in MoveIt."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from .semantic import semantics
     },
 )
 def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterator[Problem]:
-    """Two neighbours touch, and the SRDF does not say that they may.
+    """Two adjacent links overlap, and the SRDF does not disable their collision.
 
-    Links that a joint joins overlap there. MoveIt checks every pair that is not named in a
-    ``<disable_collisions>``, finds the robot in collision before it has moved, and plans nothing.
+    Links that share a joint often overlap there. MoveIt checks each pair without
+    ``<disable_collisions>``, reports the start state in collision, and plans nothing.
     """
     for document in semantics(robot, description):
         disabled = {
@@ -51,8 +51,9 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
             if frozenset((link.name, above.name)) not in disabled:
                 yield Problem(
                     joint,
-                    f"links '{above.name}' and '{link.name}' touch at joint '{joint.name}', and "
-                    f"the SRDF checks them for collisions; write <disable_collisions "
+                    f"links '{above.name}' and '{link.name}' overlap at joint '{joint.name}', "
+                    "but the "
+                    f"SRDF does not disable their collision; write <disable_collisions "
                     f'link1="{above.name}" link2="{link.name}" reason="Adjacent"/>',
                     at=document.root,
                     data={"links": [above.name, link.name]},
@@ -61,7 +62,7 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
 
 @adjacent_pair_not_disabled.fix(UNSAFE)
 def disable_collision(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the pair behind those that are there; MoveIt then no longer checks it."""
+    """Add the pair after the existing ones; MoveIt then no longer checks it."""
     root = problem.at
     if not isinstance(root, Element):
         return None
@@ -69,4 +70,4 @@ def disable_collision(problem: Problem, context: FixContext) -> Proposal | None:
     line = f'<disable_collisions link1="{above}" link2="{below}" reason="Adjacent"/>'
     pairs = list(root.all("disable_collisions"))
     change = insert_after(pairs[-1], line) if pairs else append_child(root, line)
-    return unsafe("let them touch", change)
+    return unsafe("disable their collision", change)

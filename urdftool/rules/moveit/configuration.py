@@ -1,4 +1,4 @@
-"""The YAML files of a MoveIt configuration, next to the SRDF."""
+"""Rules on YAML files of a MoveIt configuration, next to the SRDF."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _LIMITS = (
     ("has_jerk_limits", ("max_jerk",)),
     ("", ("max_position", "min_position")),
 )
-"""What MoveIt reads as doubles, each after the switch that it asks first."""
+"""Parameters that MoveIt reads as doubles, each with the parameter that enables it."""
 _MANAGER = "moveit_simple_controller_manager"
 _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 
@@ -34,19 +34,19 @@ _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
     ERROR,
     on=_ON,
     effects={
-        "moveit": "move_group of ROS 2 ends with an exception: expected [double] got [integer]",
+        "moveit": "move_group of ROS 2 stops with an exception: expected [double] got [integer]",
     },
 )
 def moveit_parameter_type(
     robot: Robot, description: Description, targets: frozenset[str]
 ) -> Iterator[Problem]:
-    """A number of a MoveIt configuration is an integer, where MoveIt 2 reads a double.
+    """A number in a MoveIt configuration is an integer, but MoveIt 2 requires a double.
 
-    A parameter of ROS 2 has one type. YAML takes ``2`` for an integer, and MoveIt's nodes stop when
-    they read it as a double. The setup assistant writes such numbers itself. ``5e-3`` is text to
-    YAML, for it lacks the point; write ``5.0e-3``. ROS 1 converts integers. Looked at are
+    ROS 2 does not convert parameter types. In YAML ``2`` is an integer, and MoveIt nodes stop if
+    they read it as a double. The setup assistant writes such numbers too. ``5e-3`` is text in YAML,
+    because it has no decimal point; write ``5.0e-3``. ROS 1 converts integers. Checked are
     ``joint_limits.yaml``, ``kinematics.yaml`` and ``pilz_cartesian_limits.yaml`` next to the
-    description and its SRDF. One finding names the numbers of a file.
+    description and its SRDF. One finding lists all numbers of a file.
     """
     if "ros1" in targets and "ros2" not in targets:
         return
@@ -55,7 +55,7 @@ def moveit_parameter_type(
         if wrong:
             of, node = wrong[0]
             names = [f"{one.key} of {other}" for other, one in wrong[1:]]
-            more = f"; the same is true of {some_of(names, 'numbers', 3)}" if names else ""
+            more = f"; the same applies to {some_of(names, 'numbers', 3)}" if names else ""
             yield Problem(
                 robot,
                 f"{node.key} of {of} is {node.said}, which YAML reads as "
@@ -81,7 +81,7 @@ _FILES = ("joint_limits.yaml", "kinematics.yaml", "pilz_cartesian_limits.yaml")
 
 
 def not_doubles(robot: Robot, description: Description, name: str) -> list[tuple[str, Node]]:
-    """The numbers in a file that MoveIt reads as doubles and YAML does not, each with its owner."""
+    """List the numbers in a file that MoveIt requires as doubles, each with its owner."""
     root = _read_beside(robot, description, name)
     if root is None:
         return []
@@ -91,13 +91,13 @@ def not_doubles(robot: Robot, description: Description, name: str) -> list[tuple
 
 def _limits_of(robot: Robot, root: Node) -> Iterator[tuple[str, Node]]:
     limits = root.find("joint_limits")
-    for name, said in ((limits.fields if limits is not None else None) or {}).items():
+    for name, entry in ((limits.fields if limits is not None else None) or {}).items():
         joint = robot.joint.get(name)
-        if joint is None or joint.is_fixed or said.fields is None:
+        if joint is None or joint.is_fixed or entry.fields is None:
             continue
         for switch, keys in _LIMITS:
-            if not switch or _is_true(said.fields.get(switch)):
-                yield from _named(f"joint '{name}'", said, keys)
+            if not switch or _is_true(entry.fields.get(switch)):
+                yield from _named(f"joint '{name}'", entry, keys)
 
 
 def _solvers_of(robot: Robot, root: Node) -> Iterator[tuple[str, Node]]:
@@ -122,7 +122,7 @@ def _named(of: str, node: Node, keys: tuple[str, ...]) -> Iterator[tuple[str, No
 
 
 def as_double(node: Node) -> str:
-    """A number as YAML reads a double; empty where it is not one."""
+    """Format a number as a YAML double; empty if it is not a finite number."""
     text = node.text or ""
     if node.kind == "int":
         return f"{text}.0" if re.fullmatch(r"[+-]?\d+", text) else ""
@@ -145,18 +145,18 @@ def _is_true(node: Node | None) -> bool:
     on=_ON,
     effects={
         "moveit": (
-            "logs an error and goes on without the controller; trajectories are planned and "
-            "cannot be executed"
+            "logs an error and continues without the controller; it plans trajectories but "
+            "cannot execute them"
         ),
     },
 )
 def moveit_controller_incomplete(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A controller in MoveIt's configuration lacks what MoveIt needs to use it.
+    """A controller in the MoveIt configuration has no action, type or joints.
 
-    Each name of ``controller_names`` needs a section with ``action_ns``, ``type`` and ``joints``.
-    MoveIt leaves out a controller without them. Planning works, and the execution fails with
+    Each name in ``controller_names`` requires a section with ``action_ns``, ``type`` and
+    ``joints``; MoveIt ignores a controller without them. Planning works, but execution fails with
     "Unable to identify any set of controllers that can actuate the specified joints". The setup
-    assistant forgets ``action_ns`` itself.
+    assistant omits ``action_ns``.
     """
     for manager in _managers(robot, description):
         fields = manager.fields or {}
@@ -167,25 +167,25 @@ def moveit_controller_incomplete(robot: Robot, description: Description) -> Iter
                 known = [key for key, value in fields.items() if value.fields is not None]
                 yield Problem(
                     robot,
-                    f"MoveIt's controller '{node.text}' has no section with its type and joints"
+                    f"MoveIt controller '{node.text}' has no section with its type and joints"
                     + did_you_mean(node.text or "", known),
                     at=node.place,
                 )
                 continue
             wrong = _what_is_wrong(controller)
             if wrong:
-                yield Problem(robot, f"MoveIt's controller '{node.text}' {wrong}", at=node.place)
+                yield Problem(robot, f"MoveIt controller '{node.text}' {wrong}", at=node.place)
 
 
 def action_of(controller: Node) -> str:
-    """The action that the controllers of ros2_control offer, by MoveIt's type."""
+    """Get the action of a ros2_control controller, by its MoveIt type."""
     kind = (controller.fields or {}).get("type")
     name = None if kind is None else kind.text
     return "follow_joint_trajectory" if name == "FollowJointTrajectory" else "gripper_cmd"
 
 
 def without_action(robot: Robot, description: Description) -> Iterator[tuple[Node, Node]]:
-    """The controllers that lack ``action_ns`` alone: the name in the list, and the section."""
+    """Yield controllers that lack only ``action_ns``: the name in the list, and the section."""
     for manager in _managers(robot, description):
         fields = manager.fields or {}
         names = fields.get("controller_names")
@@ -197,7 +197,7 @@ def without_action(robot: Robot, description: Description) -> Iterator[tuple[Nod
 
 @moveit_controller_incomplete.fix(UNSAFE)
 def add_action(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the action of the controller's type, on a line before the others."""
+    """Add the action of the controller's type, as the first line of its section."""
     for name, section in without_action(context.robot, context.description):
         if name.place.start != problem.place.start or name.file.path != problem.place.path:
             continue
@@ -206,8 +206,8 @@ def add_action(problem: Problem, context: FixContext) -> Proposal | None:
         if data[at : at + 1] == b"{":
             at, text = at + 1, text + b", "
         else:
-            text += b"\n" + data[data.rfind(b"\n", 0, at) + 1 : at]  # indented as it is
-        return unsafe("name the action of its type", Span(section.file, at, at, text))
+            text += b"\n" + data[data.rfind(b"\n", 0, at) + 1 : at]  # with the same indentation
+        return unsafe("write the action of its type", Span(section.file, at, at, text))
     return None
 
 
@@ -223,22 +223,22 @@ def _what_is_wrong(controller: Node) -> str:
     name = "" if kind is None else kind.text or ""
     if kind is not None and name not in _TYPES:
         remedy = did_you_mean(name, _TYPES) or "; write FollowJointTrajectory or GripperCommand"
-        return f"is of type '{name}', which MoveIt does not have{remedy}"
+        return f"has type '{name}', which is not in MoveIt{remedy}"
     missing = _missing(controller)
     remedy = f"; write action_ns: {action_of(controller)}" if missing == ["action_ns"] else ""
-    return f"lacks {' and '.join(missing)}{remedy}" if missing else ""
+    return f"has no {' and no '.join(missing)}{remedy}" if missing else ""
 
 
 @rule(
     ERROR,
     on=_ON,
-    effects={"moveit": "finds no controller for the joint that is meant, and executes nothing"},
+    effects={"moveit": "finds no controller for the intended joint, and executes nothing"},
 )
 def moveit_controller_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A controller in MoveIt's configuration names a joint that the robot does not have.
+    """A controller in the MoveIt configuration refers to a joint that does not exist.
 
-    MoveIt looks for controllers that together have all joints of a trajectory. The joint that was
-    meant is then in none of them.
+    MoveIt selects controllers that together have all joints of a trajectory. The intended joint is
+    in none of them, so MoveIt executes nothing.
     """
     for manager in _managers(robot, description):
         for name, controller in (manager.fields or {}).items():
@@ -247,14 +247,15 @@ def moveit_controller_unknown_joint(robot: Robot, description: Description) -> I
                 if node.text and node.text not in robot.joint:
                     yield Problem(
                         robot,
-                        f"MoveIt's controller '{name}' names joint '{node.text}', which the robot "
+                        f"MoveIt controller '{name}' refers to joint '{node.text}', which the "
+                        "robot "
                         f"does not have{did_you_mean(node.text, robot.joint)}",
                         at=node.place,
                     )
 
 
 def _managers(robot: Robot, description: Description) -> Iterator[Node]:
-    """The sections for MoveIt's simple controller manager, of ROS 2's form."""
+    """Yield the sections of MoveIt's simple controller manager, in the format of ROS 2."""
     for name in ("moveit_controllers.yaml", "moveit_simple_controllers.yaml", "controllers.yaml"):
         root = _read_beside(robot, description, name)
         manager = None if root is None else root.find(_MANAGER)
@@ -263,7 +264,7 @@ def _managers(robot: Robot, description: Description) -> Iterator[Node]:
 
 
 def _read_beside(robot: Robot, description: Description, name: str) -> Node | None:
-    """A YAML file next to the description and its SRDF; None where there is none."""
+    """Read a YAML file next to the description and its SRDF; None if there is none."""
     if not semantics(robot, description):
         return None
     path = Path(description.path).parent / name

@@ -1,4 +1,4 @@
-"""The SRDF beside a description, against its links and joints."""
+"""Rules on the SRDF of a description."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ON = ("moveit",)
 
 
 def semantics(robot: Robot, description: Description) -> list[Document]:
-    """The SRDF files beside a description that are for it, by the name of file or robot."""
+    """Get the SRDF files next to a description that match its file name or robot name."""
     return robot.memo.get("SRDF files", lambda: list(_read(robot, description)))
 
 
@@ -42,9 +42,8 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
     files = workspace.glob(path.parent, "*.srdf")
     named = [file for file in files if file.name.split(".")[0] == stem]
     if not named:
-        described = workspace.glob(
-            path.parent, "*.urdf*"
-        )  # each of these has the SRDF of its own name
+        # an SRDF with the name of a description belongs to that description
+        described = workspace.glob(path.parent, "*.urdf*")
         others = {other.name.split(".")[0] for other in described}
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
@@ -57,7 +56,7 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
 
 
 def references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
-    """Where a link or joint is named: the element, the attribute, and whether it is essential."""
+    """Yield the references to links or joints: element, attribute, and whether it is essential."""
     links = {
         "chain": ("base_link", "tip_link"),
         "end_effector": ("parent_link",),
@@ -85,24 +84,24 @@ def references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
     ERROR,
     on=_ON,
     effects={
-        "moveit": "logs it, and leaves that part out",
+        "moveit": "logs an error, and ignores that part",
     },
 )
 def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The SRDF names a link that the robot does not have.
+    """The SRDF refers to a link that does not exist in the robot.
 
-    A group, a chain or an end effector with such a link is empty or missing. Of a pair whose
-    collision is disabled nothing is left; that is a warning.
+    MoveIt ignores a group, a chain or an end effector with such a link. For a pair with disabled
+    collision it is a warning.
     """
-    told: set[str] = set()
+    reported: set[str] = set()
     for document in semantics(robot, description):
         for element, attribute, essential in references(document.root, "link"):
             name = element.get(attribute)
-            if name and name not in robot.link and (essential or name not in told):
-                told.add(name)
+            if name and name not in robot.link and (essential or name not in reported):
+                reported.add(name)
                 yield Problem(
                     element,
-                    f"<{element.tag}> names link '{name}', which the robot does not have"
+                    f"<{element.tag}> refers to link '{name}', which the robot does not have"
                     + did_you_mean(name, robot.link),
                     at=element.attribute_place(attribute),
                     severity=None if essential else WARNING,
@@ -114,13 +113,13 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
     ERROR,
     on=_ON,
     effects={
-        "moveit": "logs it, and leaves that part out",
+        "moveit": "logs an error, and ignores that part",
     },
 )
 def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The SRDF names a joint that the robot does not have.
+    """The SRDF refers to a joint that does not exist in the robot.
 
-    The group lacks it, and a named pose with it cannot be reached.
+    Its group does not contain the joint, and MoveIt cannot reach a named pose with it.
     """
     for document in semantics(robot, description):
         virtual = {joint.get("name") for joint in document.root.all("virtual_joint")}
@@ -129,7 +128,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
             if name and name not in robot.joint and name not in virtual:
                 yield Problem(
                     element,
-                    f"<{element.tag}> names joint '{name}', which the robot does not have"
+                    f"<{element.tag}> refers to joint '{name}', which the robot does not have"
                     + did_you_mean(name, robot.joint),
                     at=element.attribute_place(attribute),
                     data={"suggestion": nearest(name, robot.joint)},
@@ -151,29 +150,28 @@ def rename_reference(problem: Problem, context: FixContext) -> Proposal | None:
     WARNING,
     on=_ON,
     effects={
-        "moveit": "logs that the SRDF is for another robot, and goes on",
+        "moveit": "logs that the SRDF is for a different robot, and continues",
     },
 )
 def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The SRDF is for a robot of another name.
+    """The SRDF is for a robot with a different name.
 
-    MoveIt logs at every start that the semantic description is not for the same robot, and uses it
-    nevertheless. Either one of the names was not changed, or the file is that of another robot.
+    MoveIt reports at every start that the semantic description is not for the same robot, and uses
+    it anyway. Either one of the names was not updated, or the file belongs to a different robot.
     """
     for document in semantics(robot, description):
         name = document.root.get("name") or ""
         if name != robot.name:
             yield Problem(
                 document.root,
-                f"the SRDF is for robot '{name}' and the URDF is '{robot.name}'; "
-                "give both one name",
+                f"SRDF is for robot '{name}', but the robot is '{robot.name}'; write the same name",
                 at=document.root.attribute_place("name"),
             )
 
 
 @srdf_robot_name.fix(SAFE)
 def write_robot_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the name of the URDF's robot."""
+    """Write the name of the robot."""
     name = context.robot.name
     return safe(f"write '{name}'", set_attribute(problem.element, "name", name)) if name else None
 
@@ -186,9 +184,10 @@ def write_robot_name(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def chain_not_connected(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The tip of a chain does not hang on its base.
+    """The tip link of a chain is not a descendant of its base link.
 
-    A chain goes down the tree, from the base to the tip. Here the one is not above the other.
+    A chain must lead down the kinematic tree, from the base link to the tip link. MoveIt leaves the
+    group empty.
     """
     for document in semantics(robot, description):
         for element in document.root.walk():
@@ -198,7 +197,8 @@ def chain_not_connected(robot: Robot, description: Description) -> Iterator[Prob
             if base != tip and base not in set(robot.tree.ancestors(tip or "")):
                 yield Problem(
                     element,
-                    f"link '{tip}' does not hang on '{base}', so the two form no chain",
+                    f"tip link '{tip}' is not a descendant of base link '{base}', so they are "
+                    "not a chain",
                 )
 
 
@@ -210,9 +210,9 @@ def chain_not_connected(robot: Robot, description: Description) -> Iterator[Prob
     },
 )
 def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A named pose puts a joint outside its limits.
+    """A named pose has a joint position outside the joint limits.
 
-    MoveIt moves nowhere that the limits forbid.
+    MoveIt cannot plan to this pose.
     """
     for document in semantics(robot, description):
         for state in document.root.all("group_state"):
@@ -225,8 +225,9 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
                 if low <= high and not low - 1e-4 <= value <= high + 1e-4:
                     yield Problem(
                         element,
-                        f"'{joint.name}' is {value:g} in pose '{state.get('name') or ''}', and its "
-                        f"limits are {low:g} to {high:g}",
+                        f"joint '{joint.name}' is {value:g} in pose "
+                        f"'{state.get('name') or ''}', outside "
+                        f"its limits {low:g} to {high:g}",
                         at=element.attribute_place("value"),
                         data={"nearest": min(max(value, low), high)},
                     )
@@ -242,10 +243,10 @@ def clamp_to_limits(problem: Problem, context: FixContext) -> Proposal | None:
 
 @rule(INFO, on=_ON, effects={"moveit": "assumes a fixed joint to the world"})
 def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The SRDF does not say how the robot stands in the world.
+    """The SRDF has no ``<virtual_joint>``.
 
-    A ``<virtual_joint>`` of type ``fixed``, ``planar`` or ``floating`` joins the root to the frame
-    of the world; MoveIt assumes a fixed one.
+    A ``<virtual_joint>`` of type ``fixed``, ``planar`` or ``floating`` connects the root to the
+    world frame. MoveIt assumes a fixed one.
     """
     for document in semantics(robot, description):
         root = robot.tree.root
@@ -256,7 +257,7 @@ def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Pr
         ):
             yield Problem(
                 document.root,
-                "the SRDF has no <virtual_joint>; write one of type fixed, planar or floating for "
+                "SRDF has no <virtual_joint>; write one of type fixed, planar or floating for "
                 f"'{root.name}'",
             )
 
@@ -278,13 +279,14 @@ def add_fixed_virtual_joint(problem: Problem, context: FixContext) -> Proposal |
     ERROR,
     on=_ON,
     effects={
-        "moveit": "drops an end effector of an unknown group; logs a group that is its own parent",
+        "moveit": "drops an end effector of an unknown group; reports a group that is its own "
+        "parent",
     },
 )
 def end_effector_group(robot: Robot, description: Description) -> Iterator[Problem]:
-    """An end effector is of a group that there is not, or is its own parent.
+    """The group of an end effector does not exist, or contains its parent link.
 
-    The group of the hand and that of the arm are two; the hand hangs on a link that is not its own.
+    The end effector must have its own group, and its parent link must be outside this group.
     """
     for document in semantics(robot, description):
         groups = {group.get("name"): group for group in document.root.all("group")}
@@ -294,15 +296,16 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
                 known = [group for group in groups if group]
                 yield Problem(
                     element,
-                    f"end effector '{element.get('name') or ''}' is of group '{name or ''}', which "
-                    f"is not there{did_you_mean(name or '', known)}",
+                    f"end effector '{element.get('name') or ''}' has group '{name or ''}', which "
+                    f"does not exist{did_you_mean(name or '', known)}",
                     at=element.attribute_place("group"),
                 )
             elif any(link.get("name") == parent for link in groups[name].all("link")):
                 yield Problem(
                     element,
-                    f"end effector '{element.get('name') or ''}' hangs on '{parent}', which is a "
-                    "link of its own group",
+                    f"end effector '{element.get('name') or ''}' has parent link '{parent}', "
+                    "which is "
+                    "in its own group",
                     at=element.attribute_place("parent_link"),
                 )
 
@@ -315,10 +318,10 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
     },
 )
 def missing_acceleration_limits(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A joint has no limit of acceleration.
+    """A joint has no acceleration limit.
 
-    URDF cannot say it, so it stands in ``joint_limits.yaml`` beside the SRDF; without it MoveIt's
-    timing of trajectories fails. Nothing is said where that file is not there.
+    URDF has no acceleration limits; MoveIt reads them from ``joint_limits.yaml`` next to the SRDF.
+    Without them MoveIt cannot time trajectories. Nothing is reported if the file does not exist.
     """
     documents = semantics(robot, description)
     path = Path(description.path).parent / "joint_limits.yaml"
@@ -334,10 +337,10 @@ def missing_acceleration_limits(robot: Robot, description: Description) -> Itera
     if not isinstance(limits, dict):
         return
     for joint in robot.moving_joints:
-        said = limits.get(joint.name)
+        entry = limits.get(joint.name)
         if joint.mimic is not None or not joint.has_axis:
             continue
-        if not isinstance(said, dict) or not said.get("has_acceleration_limits"):
+        if not isinstance(entry, dict) or not entry.get("has_acceleration_limits"):
             yield Problem(
                 joint,
                 f"joint '{joint.name}' has no acceleration limit in {shown_path(path)}; "

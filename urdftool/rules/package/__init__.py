@@ -1,4 +1,4 @@
-"""The package around a description."""
+"""Rules on the ROS package of a description."""
 
 FILES = ("resolution", "manifest", "launching")
 """Files with rules, in reading order."""

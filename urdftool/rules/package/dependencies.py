@@ -1,4 +1,4 @@
-"""How packages depend on each other, by their manifests."""
+"""Find dependencies between packages in their manifests."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ _MOST_PACKAGES = 2000
 def way_between(
     start: str, goal: str, packages: Packages, *, conditional: bool = False
 ) -> tuple[str, ...]:
-    """Find how one package depends on another, over as few others as possible.
+    """Find the shortest chain of dependencies from one package to another.
 
     Args:
         start: The package that depends.
         goal: The package that it may depend on.
         packages: Finds packages; one that is not found depends on nothing.
-        conditional: Whether dependencies with a ``condition`` count as well.
+        conditional: Whether dependencies with a ``condition`` count too.
 
     Returns:
-        The packages from ``start`` to ``goal``; none where there is no way.
+        The packages from ``start`` to ``goal``; empty if there is no chain.
     """
     ways: dict[str, tuple[str, ...]] = {start: (start,)}
     todo = [start]

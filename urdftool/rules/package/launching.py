@@ -1,4 +1,4 @@
-"""How a package's launch files and build call xacro."""
+"""Rules on calls of xacro in launch files and builds."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from ..rule import INFO, ROS, SAFE, Problem, rule
 
 _OBSOLETE = re.compile(rb"(?<![\w./-])(?:--inorder|--legacy|xacro\.py)\b")
 _INSTEAD = {
-    "--inorder": "leave it out: in order is how xacro works since ROS Melodic",
-    "--legacy": "leave it out: there is no other way since ROS Melodic",
-    "xacro.py": "call xacro, the one program there is",
+    "--inorder": "remove it: it is the default since ROS Melodic",
+    "--legacy": "remove it: it does not exist since ROS Melodic",
+    "xacro.py": "call xacro",
 }
 _MOST_FILES = 60
 _MOST_BYTES = 200_000
@@ -28,15 +28,15 @@ _MOST_BYTES = 200_000
     INFO,
     on=ROS,
     effects={
-        "xacro": "accepts --inorder, and says that it can be dropped",
+        "xacro": "accepts --inorder, and reports that it can be dropped",
     },
 )
 def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A launch file or the build calls xacro as it was called long ago.
+    """A launch file or the build calls xacro with an obsolete option or name.
 
-    ``--inorder`` is the default since ROS Melodic, ``--legacy`` is gone, and ``xacro.py`` is not
-    installed any more: in ROS 2 such a call fails. Looked at are lines that name this description,
-    in the launch files, ``CMakeLists.txt`` and README of its package.
+    ``--inorder`` is the default since ROS Melodic, ``--legacy`` was removed, and ``xacro.py`` is
+    not installed in ROS 2, so the call fails. Checked are lines that contain the name of the
+    description, in the launch files, ``CMakeLists.txt`` and README of its package.
     """
     own = description.packages.own
     if own is None:
@@ -60,7 +60,7 @@ def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Prob
 
 
 def _callers(workspace: Workspace, package: Path) -> Iterator[Path]:
-    """The files of a package that may call xacro."""
+    """Yield the files of a package that may call xacro."""
     found = [*workspace.glob(package / "launch", "**/*"), *workspace.glob(package, "README*")]
     found += [package / "CMakeLists.txt"]
     for path in sorted(found)[:_MOST_FILES]:
@@ -70,13 +70,13 @@ def _callers(workspace: Workspace, package: Path) -> Iterator[Path]:
 
 @obsolete_cli_option.fix(SAFE)
 def drop_option(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the option with a blank beside it; write ``xacro`` for ``xacro.py``."""
+    """Remove the option and one space; write ``xacro`` for ``xacro.py``."""
     file, start, end = problem.place.file, problem.place.start, problem.place.end
     data = file.data
     if data[start:end] == b"xacro.py":
         return safe("call xacro", Span(file, start, end, b"xacro"))
     if data[start - 1 : start] in (b" ", b"\t"):
-        return safe("leave it out", Span(file, start - 1, end, b""))
+        return safe("remove it", Span(file, start - 1, end, b""))
     if data[end : end + 1] in (b" ", b"\t"):
-        return safe("leave it out", Span(file, start, end + 1, b""))
+        return safe("remove it", Span(file, start, end + 1, b""))
     return None

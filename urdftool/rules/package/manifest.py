@@ -1,4 +1,4 @@
-"""The package.xml and CMakeLists.txt of the package that a description belongs to."""
+"""Rules on the package.xml and CMakeLists.txt of a description's package."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _manifest(workspace: Workspace, folder: Path) -> str:
 
 @memoized
 def _text_of(workspace: Workspace, path: Path) -> str:
-    """The text of a file of the package; empty where it cannot be read."""
+    """Read a file of the package; empty if it cannot be read."""
     try:
         return workspace.read_text(path)
     except OSError:
@@ -58,12 +58,12 @@ def _text_of(workspace: Workspace, path: Path) -> str:
     },
 )
 def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A package that is used is not a dependency of this one.
+    """The description uses a package that its own package does not depend on.
 
-    ``package://NAME/`` and ``$(find NAME)`` want that package to be installed, and ``package.xml``
-    does not say so. It works where the package happens to be. Where that package depends on this
-    one, ``dependency-circle`` says so instead. Descriptions in a folder ``test`` or ``tests`` of
-    the package are left out: no robot needs them.
+    ``package://NAME/`` and ``$(find NAME)`` require an installed package, but ``package.xml`` does
+    not list it, so the robot only works where the package happens to be installed. If that package
+    depends on this one, ``dependency-circle`` is reported instead. Descriptions in a folder
+    ``test`` or ``tests`` of the package are not checked.
     """
     own = description.packages.own
     if own is None or _is_in_tests(description, own[1]):
@@ -73,7 +73,7 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
         if name not in declared and not way_between(name, own[0], description.packages):
             yield Problem(
                 subject,
-                f"package '{name}' is used and is not a dependency of '{own[0]}'; "
+                f"package '{name}' is used but is not a dependency of '{own[0]}'; "
                 f"write <exec_depend>{name}</exec_depend> into its package.xml",
                 at=at,
                 data={"package": name},
@@ -82,10 +82,10 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
 
 @undeclared_mesh_dependency.fix(SAFE)
 def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None:
-    """Declare the dependency, behind those that are there.
+    """Add the dependency after the existing ones.
 
-    A package that is not found is not declared, and neither is one that depends on this one: that
-    would close a circle.
+    A package that is not found is not added, and neither is one that depends on this one, because
+    that would create a circle.
     """
     name: str = problem.data["package"]
     manifest = _manifest_document(context)
@@ -114,7 +114,7 @@ def _run_tag(package: Element) -> str:
 
 
 def _depends(package: Element, name: str) -> Change:
-    """Add a dependency behind its like, or behind the elements that must stand before it."""
+    """Add a dependency after others of the same kind, or in the required order."""
     tag = _run_tag(package)
     line = f"<{tag}>{name}</{tag}>"
     others = [child for child in package.children if child.tag not in ("export", "test_depend")]
@@ -129,13 +129,13 @@ def _depends(package: Element, name: str) -> Change:
     effects={"colcon": "builds nothing: unable to order packages topologically"},
 )
 def dependency_circle(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A package that is used depends on this one.
+    """The description uses a package that depends on its own package.
 
-    colcon builds each package after those it depends on, whether for the build, the run or a test.
-    In a circle there is no such order, and colcon stops before it builds anything. As long as
-    ``package.xml`` does not name the package that is used, it builds, and the files are there only
-    where that package happens to be. Files that two packages use belong in the one that the other
-    depends on, or in a third. Descriptions in a folder ``test`` or ``tests`` are not looked at.
+    colcon builds each package after its dependencies. It cannot order packages in a circle, and
+    stops before it builds anything. As long as ``package.xml`` does not list the package, the build
+    works, but the files may be missing. Files that two packages use belong in the one that the
+    other depends on, or in a third package. Descriptions in a folder ``test`` or ``tests`` are not
+    checked.
     """
     own = description.packages.own
     if own is None or _is_in_tests(description, own[1]):
@@ -146,20 +146,19 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
         if not way:
             continue
         chain = ", which depends on ".join(f"'{step}'" for step in way[1:])
-        fact = f"package '{name}' is used and depends on {chain}"
+        fact = f"package '{name}' is used but depends on {chain}"
         if name in declared:
             yield Problem(
                 subject,
-                f"{fact}, and '{own[0]}' depends on it; colcon cannot order the packages. "
-                "Move the files that are used",
+                f"{fact}, and '{own[0]}' depends on it, so colcon cannot order them; "
+                "move the used files",
                 at=at,
                 severity=ERROR,
             )
         else:
             yield Problem(
                 subject,
-                f"{fact}; as a dependency of '{own[0]}' it would close a circle. "
-                "Move the files that are used",
+                f"{fact}, so it cannot be a dependency of '{own[0]}'; move the used files",
                 at=at,
             )
 
@@ -172,34 +171,34 @@ def _is_in_tests(description: Description, folder: Path) -> bool:
 
 
 def _declared(workspace: Workspace, folder: Path) -> set[str]:
-    """The dependencies in a package's manifest."""
+    """Get the dependencies in a package's manifest."""
     return set(_DEPEND.findall(_manifest(workspace, folder)))
 
 
 def _used_packages(
     robot: Robot, description: Description, own: tuple[str, Path]
 ) -> Iterator[tuple[str, Robot | Link, Place]]:
-    """Find the other packages that a description uses, each where it is named first."""
-    told = {own[0]}
+    """Yield the other packages that a description uses, each at its first use."""
+    found = {own[0]}
     for use in mesh_uses(robot, description):
         name = _package_of(use)
-        if name and name not in told and not is_in_own_package(use, description):
-            told.add(name)
+        if name and name not in found and not is_in_own_package(use, description):
+            found.add(name)
             if not _is_itself(name, own[1], description):
                 yield name, use.link, use.mesh.element.attribute_place("filename")
     first = description.files[0]
     for match in _FIND.finditer(first.data):
         name = match[1].decode("ascii")
         line = first.data[: match.start()].rpartition(b"<!--")[2]
-        if name in told or (b"-->" not in line and b"<!--" in first.data[: match.start()]):
+        if name in found or (b"-->" not in line and b"<!--" in first.data[: match.start()]):
             continue
-        told.add(name)
+        found.add(name)
         if not _is_itself(name, own[1], description):
             yield name, robot, Place(first, match.start(), match.end())
 
 
 def _is_itself(name: str, folder: Path, description: Description) -> bool:
-    """Tell whether a name means the description's own package, whose folder is called so."""
+    """Tell whether a name is the folder of the description's own package."""
     if name != folder.name:
         return False
     try:
@@ -221,16 +220,16 @@ _INSTALL = re.compile(r"\binstall\s*\(([^)]*)\)", re.IGNORECASE | re.DOTALL)
     ERROR,
     on=ROS,
     effects={
-        "rviz": "shows nothing of the meshes, and reports 'Could not load mesh resource'",
+        "rviz": "shows no meshes, and reports 'Could not load mesh resource'",
     },
 )
 def directory_not_installed(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A folder that the description uses is not installed.
+    """CMake does not install a folder that the description uses.
 
-    It is there in the source and works from there; the built and packaged robot lacks it. In CMake
-    it wants ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})``. A workspace of ROS 1
-    is mostly used from its sources: there it is a warning, and an info for a package that installs
-    nothing at all.
+    The robot works from the source folder, but not after the package is built and installed. Add
+    ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})`` to ``CMakeLists.txt``. For ROS
+    1, where workspaces are mostly used without installation, it is a warning, or an info if the
+    package installs nothing.
     """
     own = description.packages.own
     if own is None:
@@ -249,19 +248,19 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     severity = None
     if re.search(r"\bcatkin\b", text) and not re.search(r"\bament", text):
         severity = WARNING if installs else INFO
-    wanted: dict[str, Element] = {}
+    used: dict[str, Element] = {}
     for use in mesh_uses(robot, description):
         if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
             real_path = description.workspace.real_path
             relative = os.path.relpath(real_path(use.path), real_path(own[1]))
             top = relative.replace(os.sep, "/").partition("/")[0]
             if top != ".." and "/" in relative:
-                wanted.setdefault(top, use.mesh.element)
-    for folder, element in wanted.items():
+                used.setdefault(top, use.mesh.element)
+    for folder, element in used.items():
         if not any(place == folder or place.startswith(folder + "/") for place in places):
             yield Problem(
                 robot,
-                f"folder '{folder}' of package '{own[0]}' is used and not installed; "
+                f"folder '{folder}' of package '{own[0]}' is used but not installed; "
                 f"write install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}) "
                 "into CMakeLists.txt",
                 at=element.attribute_place("filename"),
@@ -281,7 +280,7 @@ _CATKIN, _SHARE = b"${CATKIN_PACKAGE_SHARE_DESTINATION}", b"share/${PROJECT_NAME
 
 @directory_not_installed.fix(UNSAFE)
 def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the folder to an install() of others, or add one."""
+    """Add the folder to an existing install(), or add one."""
     own = context.description.packages.own
     name: str = problem.data["folder"]
     file = file_at(context.workspace, own[1] / "CMakeLists.txt") if own is not None else None
@@ -312,15 +311,15 @@ def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
     INFO,
     on=("gazebo-classic", "gz"),
     effects={
-        "gz, gazebo-classic": "look for model://NAME/…, which only an exported path resolves",
+        "gz, gazebo-classic": "look for model://NAME/…, which requires an exported path",
     },
 )
 def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator[Problem]:
-    """Gazebo is not told where the package is.
+    """The package does not export a model path for Gazebo.
 
-    In Gazebo ``package://NAME/`` becomes ``model://NAME/``, and models are looked for where
-    ``GAZEBO_MODEL_PATH`` or ``GZ_SIM_RESOURCE_PATH`` say. A line in the ``<export>`` of
-    ``package.xml``, or one in the launch file, sets it.
+    Gazebo reads ``package://NAME/`` as ``model://NAME/``, and searches the paths in
+    ``GAZEBO_MODEL_PATH`` or ``GZ_SIM_RESOURCE_PATH``. The ``<export>`` of ``package.xml``, or a
+    launch file, must add the package to them.
     """
     own = description.packages.own
     if own is None or "model_path" in _manifest(description.workspace, own[1]):
@@ -331,7 +330,8 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
         if _package_of(use) == own[0]:
             yield Problem(
                 use.link,
-                f"package.xml of '{own[0]}' does not tell Gazebo where its meshes are; write "
+                f"package.xml of '{own[0]}' does not export the path of its meshes to Gazebo; "
+                "write "
                 '<export><gazebo_ros gazebo_model_path="${prefix}/.."/></export>',
                 at=use.mesh.element.attribute_place("filename"),
             )
@@ -339,7 +339,7 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
 
 
 def _launch_sets_path(workspace: Workspace, package: Path) -> bool:
-    """Whether a launch file or hook of the package sets the path where Gazebo looks."""
+    """Tell whether a launch file or hook of the package sets the model path of Gazebo."""
     for folder in ("launch", "hooks", "env-hooks"):
         for path in workspace.glob(package / folder, "*")[:50]:
             text = _text_of(workspace, path) if workspace.is_file(path) else ""
@@ -353,10 +353,10 @@ _MODEL_PATH = '<gazebo_ros gazebo_model_path="${prefix}/.."/>'
 
 @gazebo_path_not_exported.fix(BOTH)
 def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
-    """Export the path.
+    """Export the model path.
 
-    With catkin the export takes effect only in a package that depends on gazebo_ros; a description
-    must not require Gazebo unasked.
+    With catkin the export requires a dependency on gazebo_ros, so the fix is unsafe if the package
+    has none.
     """
     manifest = _manifest_document(context)
     if manifest is None:
@@ -379,14 +379,14 @@ def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     ERROR,
     effects={
-        "pybullet, drake": "reject the robot where the other package is not there",
+        "pybullet, drake": "reject the robot if the other package is not found",
     },
 )
 def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is looked for in another package, and is in this one.
+    """A mesh URI refers to a different package, but the mesh is in this one.
 
-    The description was copied and renamed, and its meshes still name the package it came from.
-    Where that is installed too, its meshes are shown.
+    This happens if a description is copied and renamed: its URIs still refer to the original
+    package. If that package is installed, its meshes are shown.
     """
     own = description.packages.own
     if own is None:
@@ -399,7 +399,7 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
         files = quoted(dict.fromkeys(use.uri[10:].partition("/")[2] for use in uses), 3)
         yield Problem(
             uses[0].link,
-            f"package '{name}' does not have {files}, and this one does; "
+            f"package '{name}' does not have {files}, but this package does; "
             f"write package://{own[0]}/…",
             at=uses[0].mesh.element.attribute_place("filename"),
             data={"package": name, "write": own[0]},
@@ -408,7 +408,7 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
 
 @wrong_package_in_uri.fix(UNSAFE)
 def write_own_package(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the own package in all URIs of the other; None where it lacks one of the files."""
+    """Write the own package in all URIs of the other, if it has all of the files."""
     own = context.description.packages.own
     if own is None:
         return None

@@ -1,4 +1,4 @@
-"""Packages that are named."""
+"""Rules on packages in mesh URIs."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ APPLIES_TO = ("mesh",)
 @rule(
     WARNING,
     effects={
-        "xacro (in $(find …))": "stops at it",
-        "rviz": "shows nothing of its meshes, and reports 'Could not load mesh resource'",
+        "xacro (in $(find …))": "stops with an error",
+        "rviz": "shows none of its meshes, and reports 'Could not load mesh resource'",
         "drake": "rejects the robot",
         "pybullet (no such folder)": "rejects the robot: it finds no folder of that name",
-        "pybullet (a folder)": "takes the folder of that name for the package",
+        "pybullet (a folder)": "takes the folder of that name as the package",
     },
 )
 def package_not_found(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A package that is named cannot be found.
+    """A package cannot be found.
 
-    ``$(find NAME)`` and ``package://NAME/`` mean a ROS package, and none of that name is near the
-    file, in the workspace around it, in the configuration, or in ``ROS_PACKAGE_PATH`` and
-    ``AMENT_PREFIX_PATH``. The robot may be right and the package only not here; what is in it was
-    not checked. ``--package NAME=DIR`` or ``--package-path DIR`` says where it is. If a folder of
-    that name is near the file and has the mesh, as in ``package://meshes/arm.stl``, its meshes are
-    read and checked; ROS does not find them.
+    ``$(find NAME)`` and ``package://NAME/`` refer to a ROS package, which is neither near the file,
+    in its workspace, in the configuration, nor in ``ROS_PACKAGE_PATH`` and ``AMENT_PREFIX_PATH``.
+    The robot may be correct if the package is only missing on this machine, but its meshes were not
+    checked. Pass ``--package NAME=DIR`` or ``--package-path DIR``. If a folder of that name near
+    the file has the mesh, as for ``package://meshes/arm.stl``, its meshes are read and checked, but
+    ROS does not find them.
     """
     lost: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
@@ -41,9 +41,9 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             lost.setdefault(use.missing_package, []).append(use)
     for name, uses in lost.items():
         count = len({use.uri for use in uses})
-        meshes = f"{count} meshes in it were" if count > 1 else "a mesh in it was"
+        meshes = f"{count} of its meshes were" if count > 1 else "its mesh was"
         near = description.packages.folder_with(name, _inner(uses[0].uri))
-        remedy = f"say where it is with --package {name}=DIR or --package-path DIR"
+        remedy = f"pass --package {name}=DIR or --package-path DIR"
         yield Problem(
             uses[0].link,
             f"package '{name}' is not found, so {meshes} not checked; "
@@ -56,7 +56,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
 
 
 def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
-    """Packages for which a folder of their name stands."""
+    """Report packages in whose place a folder of the same name is read."""
     found: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
         scheme, _, rest = use.uri.partition("://")
@@ -69,7 +69,7 @@ def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
         folder = description.packages.assumed[name]
         yield Problem(
             uses[0].link,
-            f"package '{name}' is not found, and {meshes} read from the folder "
+            f"package '{name}' is not found, so {meshes} read from the folder "
             f"'{shown_path(folder)}', as PyBullet does; write '{_right_uri(uses[0], description)}'",
             at=uses[0].mesh.element.attribute_place("filename"),
             effects=(*_in_rviz(uses), "drake", "pybullet (a folder)"),
@@ -77,12 +77,12 @@ def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
 
 
 def _in_rviz(uses: list[MeshUse]) -> tuple[str, ...]:
-    """Select RViz's effect; it does not look for meshes of shapes that urdfdom drops."""
+    """Select the effect in RViz, which does not load meshes of shapes that urdfdom drops."""
     return () if all(map(is_dropped, uses)) else ("rviz",)
 
 
 def _right_uri(use: MeshUse, description: Description) -> str:
-    """A URI that every reader finds, or the path where the file is in no package."""
+    """Make a URI that every reader finds, or a path if the file is not in a package."""
     file = description.packages.file
     own = description.packages.own
     path = use.path or file
@@ -92,7 +92,7 @@ def _right_uri(use: MeshUse, description: Description) -> str:
 
 
 def is_in_own_package(use: MeshUse, description: Description) -> bool:
-    """Whether a mesh that another package should have is in the description's own."""
+    """Tell whether a mesh of a different package exists in the description's own package."""
     own = description.packages.own
     scheme, _, rest = use.uri.partition("://")
     name, _, inside = rest.partition("/")
@@ -102,7 +102,7 @@ def is_in_own_package(use: MeshUse, description: Description) -> bool:
 
 
 def _inner(uri: str) -> str:
-    """What follows the package's name in a URI."""
+    """Get the path in a URI after the package name."""
     return uri.partition("://")[2].partition("/")[2]
 
 

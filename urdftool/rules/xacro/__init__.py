@@ -1,4 +1,4 @@
-"""The source of xacro files, and their expansion."""
+"""Rules on xacro files and their expansion."""
 
 FILES = ("expansion", "tags", "leftovers", "unreached", "expansion_warnings", "unused")
 """Files with rules, in reading order."""

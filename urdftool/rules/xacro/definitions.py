@@ -1,4 +1,4 @@
-"""What xacro files define."""
+"""Find the definitions in xacro files."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from ...source.location import SourceFile
 
 @dataclass
 class Definitions:
-    """All that the files of a description define, unexpanded.
+    """All definitions in the files of a description, unexpanded.
 
     Attributes:
-        documents: The files, parsed; those that are not well-formed are left out.
+        documents: The parsed files, without those that are not well-formed.
         macros: The ``<xacro:macro>`` elements by name.
         properties: The ``<xacro:property>`` elements by name.
         arguments: The ``<xacro:arg>`` elements by name.
@@ -30,7 +30,7 @@ class Definitions:
 
 
 def definitions(description: Description) -> Definitions:
-    """What a description's files define; read once, however many rules ask."""
+    """Get the definitions in a description's files, read once for all rules."""
     return description.memo.get("definitions", lambda: _definitions(description))
 
 
@@ -62,7 +62,7 @@ _NAME = re.compile(rb"<xacro:(macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']
 
 
 def names_in(description: Description, file: SourceFile) -> list[tuple[str, str]]:
-    """Kind and name of each macro and argument in a file, found without parsing it."""
+    """Find kind and name of each macro and argument in a file, without parsing it."""
     return description.memo.get(("names", file), lambda: _names(file))
 
 
@@ -74,7 +74,7 @@ def _names(file: SourceFile) -> list[tuple[str, str]]:
 
 
 def macro_names(description: Description) -> frozenset[str]:
-    """Names of the macros that a description's files define."""
+    """Get the names of the macros that a description's files define."""
     return frozenset(
         name
         for file in description.files

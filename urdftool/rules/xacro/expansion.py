@@ -1,7 +1,6 @@
-"""What stops the expansion.
+"""Rules on errors that stop the expansion.
 
-The expansion itself reports these, with the place at which it stopped; the functions are their
-pages.
+The expansion reports them, with the place at which it stops; the functions here are their pages.
 """
 
 from __future__ import annotations
@@ -26,10 +25,10 @@ _NOTHING: tuple[Problem, ...] = ()
     },
 )
 def missing_xmlns() -> tuple[Problem, ...]:
-    """A file uses ``xacro:`` tags and does not declare the prefix.
+    """A file uses ``xacro:`` tags but does not declare the prefix.
 
-    Every file needs ``xmlns:xacro="http://www.ros.org/wiki/xacro"`` on its ``<robot>``, the
-    included ones as well: each is parsed on its own. The parser calls it an unbound prefix.
+    Every file, also an included one, needs ``xmlns:xacro="http://www.ros.org/wiki/xacro"`` in its
+    ``<robot>``. The XML parser reports an unbound prefix.
     """
     return _NOTHING
 
@@ -39,7 +38,7 @@ _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
 @missing_xmlns.fix(SAFE, of_file=True)
 def declare_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
-    """Declare the prefix on the root."""
+    """Declare the prefix in the root element."""
     file = finding.location.file
     match = re.search(rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
     if match is None or b"xmlns:xacro" in file.data or b"<xacro:" not in file.data:
@@ -58,10 +57,10 @@ def _blank(match: re.Match[bytes]) -> bytes:
     },
 )
 def unknown_macro() -> tuple[Problem, ...]:
-    """A macro is called that is not defined.
+    """An unknown macro is called.
 
-    Its name is misspelled, its file is not included, or it is defined further down: xacro works
-    from the top to the bottom. Macros of a file included with ``ns`` have that name before theirs.
+    Its name is misspelled, its file is not included, or it is defined after the call: xacro
+    processes a file from top to bottom. Macros of a file included with ``ns`` have that prefix.
     """
     return _NOTHING
 
@@ -94,10 +93,10 @@ def call_suggested_macro(finding: Finding, context: FixContext) -> Proposal | No
     },
 )
 def undefined_name() -> tuple[Problem, ...]:
-    """An expression names something that is not defined.
+    """An expression contains an undefined name.
 
-    What stands in ``${…}`` may name properties defined further up, parameters of the macro, and
-    what xacro knows from Python and its ``math``. Arguments are not names: they are ``$(arg …)``.
+    ``${…}`` can contain properties defined above, parameters of the macro, and the Python functions
+    of xacro, such as ``math``. Arguments are written as ``$(arg …)``.
     """
     return _NOTHING
 
@@ -109,9 +108,9 @@ def undefined_name() -> tuple[Problem, ...]:
     },
 )
 def undeclared_arg() -> tuple[Problem, ...]:
-    """An argument is used that has no value.
+    """An argument has no value.
 
-    ``$(arg NAME)`` wants ``<xacro:arg name="NAME" default="…"/>`` before it, in this file or in
+    ``$(arg NAME)`` requires ``<xacro:arg name="NAME" default="…"/>`` before it, in this file or in
     one that includes it, or a value on the command line.
     """
     return _NOTHING
@@ -119,7 +118,7 @@ def undeclared_arg() -> tuple[Problem, ...]:
 
 @undeclared_arg.fix(UNSAFE, of_file=True)
 def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
-    """Write the suggested argument, or declare it with an empty default, first in the robot."""
+    """Write the suggested argument, or declare it with an empty default at the start."""
     name, place = finding.data["name"], finding.location
     if not re.fullmatch(r"[\w-]+", name) or place.calls or finding.data["given"]:
         return None
@@ -130,7 +129,7 @@ def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     if root is None:
         return None
     at = file.tag_end(root.start())
-    if root.start() <= place.start < at:  # its attributes are expanded before what is in it
+    if root.start() <= place.start < at:  # xacro expands the attributes before the children
         return None
     following = re.match(rb"\s*?(\r?\n[ \t]*)(?=\S)", file.data[at:])
     indent = following[1] if following else b""
@@ -145,17 +144,17 @@ def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     },
 )
 def include_not_found() -> tuple[Problem, ...]:
-    """An included file is not there.
+    """An included file does not exist.
 
-    The path is wrong or the file has another name. A relative path is relative to the file with
-    the include. With ``optional="true"`` xacro passes over it.
+    The path is wrong, or the file has a different name. A relative path is relative to the file
+    with the include. With ``optional="true"`` xacro ignores a missing file.
     """
     return _NOTHING
 
 
 @include_not_found.fix(BOTH, of_file=True)
 def write_suggested_file(finding: Finding, context: FixContext) -> Proposal | None:
-    """Write the suggested file; safe where only the case differs."""
+    """Write the suggested file; safe if only the case differs."""
     right = finding.data.get("suggestion", "")
     wrong = os.path.basename(finding.data.get("file", ""))
     if not right or not wrong:
@@ -170,10 +169,10 @@ def write_suggested_file(finding: Finding, context: FixContext) -> Proposal | No
     },
 )
 def macro_arguments_mismatch() -> tuple[Problem, ...]:
-    """A macro is called with other arguments than it takes.
+    """A macro call does not match the parameters of the macro.
 
-    One without a default is missing, one that it does not have is given, or there are too few or
-    too many elements inside the call for its ``*block`` parameters.
+    A parameter without a default is missing, an unknown one is given, or the number of elements in
+    the call differs from the number of ``*block`` parameters.
     """
     return _NOTHING
 
@@ -185,11 +184,11 @@ def macro_arguments_mismatch() -> tuple[Problem, ...]:
     },
 )
 def circular_property() -> tuple[Problem, ...]:
-    """Properties are defined by one another in a circle.
+    """Properties depend on each other in a circle.
 
-    A property is evaluated when it is first used, and its value must not need the property itself.
-    ``lazy_eval="false"`` evaluates it where it stands, so that ``x`` may be the old ``x`` plus
-    one.
+    xacro evaluates a property at its first use, and its value must not depend on the property
+    itself. ``lazy_eval="false"`` evaluates it at its definition, so that ``x`` can be the previous
+    ``x`` plus one.
     """
     return _NOTHING
 
@@ -201,11 +200,11 @@ def circular_property() -> tuple[Problem, ...]:
     },
 )
 def endless_expansion() -> tuple[Problem, ...]:
-    """The expansion has no end.
+    """The expansion does not end.
 
-    A macro calls itself, a file includes itself, or each call makes several more. xacro goes on
-    until Python's stack or the memory is used up; a recursion wants an ``<xacro:if>`` that ends
-    it.
+    A macro calls itself, a file includes itself, or each call creates several others. xacro
+    continues until it reaches the recursion limit of Python, or runs out of memory. A recursive
+    macro requires an ``<xacro:if>`` that ends it.
     """
     return _NOTHING
 
@@ -220,8 +219,8 @@ def non_boolean_conditional() -> tuple[Problem, ...]:
     """A condition is neither true nor false.
 
     ``<xacro:if>`` and ``<xacro:unless>`` take ``true``, ``false``, ``1`` and ``0``, or an
-    expression that gives one. A comparison is such an expression only inside ``${…}``: ``$(arg
-    kind) == arm`` is text.
+    expression with such a value. A comparison must be inside ``${…}``: ``$(arg kind) == arm`` is
+    text.
     """
     return _NOTHING
 
@@ -248,7 +247,7 @@ def write_boolean(finding: Finding, context: FixContext) -> Proposal | None:
 
 
 def _comparison(value: str, quote: str) -> str:
-    """A comparison of an argument with a word, as an expression; empty where it is none."""
+    """Write a comparison of an argument with a word as an expression; empty if it is none."""
     match = _COMPARED.fullmatch(value.strip())
     if match is None:
         return ""
@@ -257,20 +256,20 @@ def _comparison(value: str, quote: str) -> str:
 
 
 def _tag(file: SourceFile, at: int) -> int:
-    """Byte of the ``<`` of the tag that a place is in."""
+    """Find the byte of the ``<`` of the tag that contains a place."""
     return at if file.data[at : at + 1] == b"<" else file.data.rfind(b"<", 0, at)
 
 
 @rule(
     ERROR,
     effects={
-        "xacro": "stops",
+        "xacro": "stops with an error",
     },
 )
 def expansion_failed() -> tuple[Problem, ...]:
-    """The expansion stopped for another reason.
+    """The expansion stopped for a different reason.
 
-    An expression that Python refuses, a YAML file that is not YAML, a tag without an attribute it
-    needs, a substitution that there is not. The message is xacro's, with the place.
+    Examples are an expression that Python rejects, an invalid YAML file, a tag without a required
+    attribute, or an unknown substitution. The message is that of xacro, with the place.
     """
     return _NOTHING

@@ -1,4 +1,4 @@
-"""What xacro warns of while it expands."""
+"""Rules on warnings of the expansion."""
 
 from __future__ import annotations
 
@@ -23,40 +23,40 @@ _DEPRECATED = re.compile(r"Using (\w+)\(\) directly is deprecated. Use ([\w.]+)\
 def _warned(
     description: Description, pattern: re.Pattern[str]
 ) -> Iterator[tuple[re.Match[str], Element, Place]]:
-    """What a pattern finds in the warnings: once for each place."""
+    """Yield the matches of a pattern in the warnings, once for each place."""
     if description.expansion is None:
         return
     root = description.document.root
-    told: set[tuple[str, str, int]] = set()
+    seen: set[tuple[str, str, int]] = set()
     for warned in description.expansion.warnings:
         match = pattern.search(warned.message)
         place = warned.place or root.place
         key = (match[0] if match else "", place.path, place.start)
-        if match is None or key in told:
+        if match is None or key in seen:
             continue
-        told.add(key)
+        seen.add(key)
         yield match, root, place
 
 
 @rule(WARNING, effects={"xacro": "warns, and uses the new value from there on"})
 def shadowed_builtin(description: Description) -> Iterator[Problem]:
-    """A property or parameter has the name of something that xacro has itself.
+    """A property or parameter has the name of a built-in of xacro.
 
-    ``pi``, ``e``, ``min``, ``len``, ``radians`` and the rest of Python's ``math`` are there in
-    every expression. One that is defined again is another thing from there on, also where
-    ``${pi/2}`` means the number. ``pi`` defined as 3.14159 is pi, and no more than an info.
+    ``pi``, ``e``, ``min``, ``len``, ``radians`` and the names of Python's ``math`` are available in
+    every expression. A new definition replaces the built-in, also where ``${pi/2}`` means the
+    number. If the value is the same, such as 3.14159 for ``pi``, the finding is an info.
     """
-    told: set[tuple[str, str, int]] = set()
+    seen: set[tuple[str, str, int]] = set()
     for match, root, place in _warned(description, _GLOBAL):
         at = _parameter(description, match[1], place) or place
         key = (match[1], at.path, at.start)
-        if key in told:
+        if key in seen:
             continue
-        told.add(key)
+        seen.add(key)
         if _is_the_constant(match[1], at):
             yield Problem(
                 root,
-                f"'{match[1]}' is a name that xacro has itself, with this value; remove it",
+                f"'{match[1]}' is a built-in name of xacro with this value; remove it",
                 at=at,
                 severity=INFO,
                 data={"name": match[1]},
@@ -64,14 +64,14 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
         else:
             yield Problem(
                 root,
-                f"'{match[1]}' is a name that xacro has itself; choose another",
+                f"'{match[1]}' is a built-in name of xacro; rename it",
                 at=at,
                 data={"name": match[1]},
             )
 
 
 def _is_the_constant(name: str, place: Place) -> bool:
-    """Whether a property defines pi, e or tau as what it is, to four digits."""
+    """Tell whether a property defines pi, e or tau with its correct value, to four digits."""
     value = getattr(math, name, None)
     span = place.file.attribute_spans(place.start).get("value")
     if not isinstance(value, float) or span is None:
@@ -85,7 +85,7 @@ def _is_the_constant(name: str, place: Place) -> bool:
 
 
 def _parameter(description: Description, name: str, call: Place) -> Place | None:
-    """The ``params`` with a name, of the macro that is called at a place; None for a property."""
+    """Find the parameter of the macro that is called at a place; None for a property."""
     written = call.file.data[call.start : call.start + 200].decode(call.file.encoding, "replace")
     tag = re.match(r"<xacro:([\w.:-]+)", written)
     if tag is None or tag[1] in ("property", "arg"):
@@ -100,7 +100,7 @@ def _parameter(description: Description, name: str, call: Place) -> Place | None
 
 @shadowed_builtin.fix(UNSAFE)
 def rename_property(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove a property that equals the built-in value; rename another."""
+    """Remove a property that equals the built-in value; rename a different one."""
     name = problem.data["name"]
     found = definitions(context.description)
     properties = found.properties.get(name, [])
@@ -111,24 +111,24 @@ def rename_property(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     (element,), value = properties, number(properties[0].get("value"))
     if value is not None and math.isclose(value, _constant(name), rel_tol=1e-3):
-        return unsafe(f"take it away, as xacro has '{name}'", remove_element(element))
+        return unsafe(f"remove it, because xacro has '{name}'", remove_element(element))
     new = f"{name}_value"
     if any(new.encode() in file.data for file in context.description.files):
         return None
     spans = [
         span for file in context.description.files for span in _uses_in_expressions(file, name, new)
     ]
-    return unsafe(f"call it '{new}'", set_attribute(element, "name", new), *spans)
+    return unsafe(f"rename it to '{new}'", set_attribute(element, "name", new), *spans)
 
 
 def _constant(name: str) -> float:
-    """Get a constant that every expression knows; infinity for other names."""
+    """Get the value of a built-in constant; infinity for other names."""
     found = getattr(math, name, math.inf)
     return found if isinstance(found, float) else math.inf
 
 
 def _uses_in_expressions(file: SourceFile, name: str, new: str) -> Iterator[Span]:
-    """Find the uses of a property in expressions of a file, outside comments."""
+    """Yield the edits of a property's name in expressions of a file, outside comments."""
     text = re.sub(rb"<!--.*?-->", lambda m: b" " * len(m[0]), file.data, flags=re.DOTALL)
     word = re.compile(rb"(?<![\w.'\"])" + name.encode() + rb"(?![\w('\"])")
     for expression in re.finditer(rb"\$\{[^}]*\}", text):
@@ -143,9 +143,9 @@ def _uses_in_expressions(file: SourceFile, name: str, new: str) -> Iterator[Span
     },
 )
 def unknown_xacro_attribute(description: Description) -> Iterator[Problem]:
-    """A tag of xacro has an attribute that it does not know.
+    """A xacro tag has an unknown attribute.
 
-    It is passed over: a misspelt ``defualt`` leaves a property without a value.
+    xacro ignores it: a misspelled ``defualt`` leaves a property without a value.
     """
     for match, root, place in _warned(description, _ATTRIBUTE):
         names = match[2].split(", ")
@@ -153,18 +153,20 @@ def unknown_xacro_attribute(description: Description) -> Iterator[Problem]:
         spans = place.file.attribute_spans(place.start)
         if names[0] in spans:
             at = Place(place.file, *spans[names[0]], place.calls)
-        yield Problem(root, f"<{match[1]}> has no attribute '{match[2]}'", at=at)
+        yield Problem(
+            root, f"<{match[1]}> has no attribute '{match[2]}', so xacro ignores it", at=at
+        )
 
 
 @rule(WARNING, effects={"xacro": "warns at every expansion"})
 def deprecated_global_function(description: Description) -> Iterator[Problem]:
-    """A function is called by its old name.
+    """A function has a deprecated name.
 
-    ``load_yaml``, ``sorted`` and ``range`` have moved into ``xacro`` and ``python``; the old names
-    still work, with a warning.
+    ``load_yaml``, ``sorted`` and ``range`` are now in the namespaces ``xacro`` and ``python``. The
+    old names still work, with a warning.
     """
     for match, root, place in _warned(description, _DEPRECATED):
-        message = f"{match[1]}() is now called {match[2]}(); write that"
+        message = f"{match[1]}() is deprecated; write {match[2]}()"
         data = {"name": match[1], "write": match[2]}
         yield Problem(root, message, at=place, data=data)
 

@@ -1,4 +1,4 @@
-"""Expressions that are still there after the expansion."""
+"""Rules on expressions that remain after the expansion."""
 
 from __future__ import annotations
 
@@ -28,36 +28,39 @@ _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
     ERROR,
     effects={
         "urdfdom (robot)": (
-            "takes it as a name; where a number is required, the link loses its shapes"
+            "takes it as a name; if a number is required, the link loses its shapes"
         ),
         "gz, gazebo-classic (block)": (
-            "ignore a reference with it; a friction with it ends the process (sdformat 12.3)"
+            "ignore a reference with it; a friction with it aborts the process (sdformat 12.3)"
         ),
-        "gz, gazebo-classic (plugin)": "pass it to the plugin as it is written",
+        "gz, gazebo-classic (plugin)": "pass it to the plugin unchanged",
     },
 )
 def unexpanded_expression(description: Description) -> Iterator[Problem]:
-    """An expression of xacro is still there in the robot.
+    """The robot contains an unexpanded xacro expression.
 
-    A brace that lost its ``$`` (``{prefix}``), the escape ``$${…}``, or ``${…}`` in a file that is
-    not expanded. The text itself becomes the name, the number or the reference: names do not
-    match, and nobody says so. A plain URDF that is full of them is xacro whose ``xmlns:xacro`` is
-    missing; that is one finding.
+    Either ``$`` is missing before a brace (``{prefix}``), or ``$${…}`` is an escape, or the file
+    with ``${…}`` is not expanded. The text itself becomes the name, the number or the reference, so
+    names do not match, without a message. A URDF with many of them is a xacro file without
+    ``xmlns:xacro``; this is one finding.
     """
     root = description.document.root
     found = [item for element in root.walk() for item in _leftovers(element)]
     if description.expansion is None:
         if found:
             element, text, place = found[0]
-            # such a file is put through xacro by its launch file, more often than not
+            # the launch file of such a file mostly calls xacro
             meant = ".xacro" in description.path
             others = "place" if len(found) == 2 else "places"
             more = f" (and in {len(found) - 1} other {others})" if len(found) > 1 else ""
             braced = _BRACED.search(text)
             if braced and "${" not in text and "$(" not in text:
-                remedy = f"write what '{braced[0]}' stands for"
+                remedy = f"write the value of '{braced[0]}'"
             else:
-                remedy = "if this is xacro, declare its namespace on <robot> and name the file "
+                remedy = (
+                    "if it is a xacro file, declare the xacro namespace in <robot> and "
+                    "rename it to "
+                )
                 remedy += ".urdf.xacro"
             yield Problem(
                 element,
@@ -79,14 +82,14 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
         if braced is None or "${" in text or "$(" in text:
             yield Problem(
                 element,
-                f"'{_short(text)}' is not expanded; a doubled '$' escapes it",
+                f"'{_short(text)}' is not expanded, because '$$' escapes it; write one '$'",
                 at=place,
                 effects=_readers_of(element),
             )
         elif place is not None or braced[1] in names:
             yield Problem(
                 element,
-                f"'{_short(text)}' is not expanded: it lacks its '$'; "
+                f"'{_short(text)}' is not expanded, because '$' is missing; "
                 f"write '${{{braced[1]}}}' for '{braced[0]}'",
                 at=place,
                 data={"name": braced[1]},
@@ -95,7 +98,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
 
 
 def _readers_of(element: Element) -> tuple[str, ...]:
-    """Select the effects by which readers look at an element."""
+    """Select the effects of readers that read an element."""
     above: Element | None = element
     tags = []
     while above is not None and above.parent is not None:
@@ -109,7 +112,7 @@ def _readers_of(element: Element) -> tuple[str, ...]:
 
 
 def _leftovers(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
-    """The values in an element that hold an expression: the element, the text, its attribute."""
+    """Yield values with an expression: the element, the text, and the place of its attribute."""
     for name, text in element.attributes.items():
         if is_unexpanded(text):
             yield element, text, element.attribute_place(name)
@@ -124,7 +127,7 @@ def _short(text: str) -> str:
 
 @unexpanded_expression.fix(UNSAFE)
 def add_dollar(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the ``$``, where the name is known."""
+    """Add the ``$``, if the name is defined."""
     name = problem.data.get("name", "")
     if not name:
         return None
@@ -142,7 +145,7 @@ def add_dollar(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 def _is_in_scope(name: str, element: Element, context: FixContext) -> bool:
-    """Whether a name is a parameter of the macro an element is written in, or a property."""
+    """Tell whether a name is a property, or a parameter of the macro around an element."""
     known = definitions(context.description)
     if name in known.properties:
         return True

@@ -1,4 +1,4 @@
-"""The namespace and the tags of xacro."""
+"""Rules on the namespace and the tags of xacro."""
 
 from __future__ import annotations
 
@@ -25,34 +25,33 @@ _URDF = words(
 @rule(
     INFO,
     effects={
-        "xacro": "looks at the prefix only, and writes the same robot",
+        "xacro": "compares only the prefix, and writes the same robot",
     },
     default=False,
     group="robot",
 )
 def nonstandard_xmlns(document: Document) -> Iterator[Problem]:
-    """The xacro namespace is spelled in a way of its own.
+    """The xacro namespace has a nonstandard spelling.
 
     The name is ``http://www.ros.org/wiki/xacro``; ``http://ros.org/…`` and
-    ``http://wiki.ros.org/…`` are seen as well. xacro itself compares the prefix ``xacro:`` and no
-    more, and expands a file of either spelling; its warning of inconsistent namespaces comes for
-    other prefixes only. Tools that follow the standard of XML take the tags of two spellings for
-    different ones. No reader of robots does, so the rule is off by default.
+    ``http://wiki.ros.org/…`` are also in use. xacro only compares the prefix ``xacro:`` and expands
+    both spellings. XML tools treat tags of two spellings as different. No reader of robots does, so
+    the rule is off by default.
     """
     root = document.root
     name = root.get("xmlns:xacro")
     if name is not None and name != XMLNS:
         yield Problem(
             root,
-            f"the xacro namespace is spelled '{name}'; write {XMLNS}",
+            f"xacro namespace is '{name}'; write {XMLNS}",
             at=root.attribute_place("xmlns:xacro"),
-            group=f"{{count}} files spell the xacro namespace differently from {XMLNS}",
+            group=f"{{count}} files have a xacro namespace other than {XMLNS}",
         )
 
 
 @nonstandard_xmlns.fix(SAFE)
 def write_xmlns(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the usual spelling."""
+    """Write the standard spelling."""
     return safe(f"write {XMLNS}", set_attribute(problem.element, "xmlns:xacro", XMLNS))
 
 
@@ -64,11 +63,11 @@ def write_xmlns(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def unprefixed_xacro_tag(document: Document, description: Description) -> Iterator[Problem]:
-    """A tag of xacro, or a call of a macro, lacks its ``xacro:``.
+    """A xacro tag or a macro call has no prefix ``xacro:``.
 
-    Old xacro took ``<include>``, ``<property>`` and ``<wheel …/>`` without the prefix; today's
-    copies them to the output as they are, and readers of URDF pass over what they do not know.
-    Nothing is said, and the robot has no wheels.
+    Old versions of xacro expanded ``<include>``, ``<property>`` and ``<wheel …/>`` without the
+    prefix. Current versions copy them to the output, where readers of URDF ignore them without a
+    message, so parts of the robot are missing.
     """
     if "xmlns:xacro" not in document.root.attributes:
         return
@@ -82,8 +81,8 @@ def _unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Problem]:
     if tag in _OTHERS:
         return
     if tag in _TAGS or (tag in macros and tag not in _URDF):
-        what = "is copied and not expanded" if tag in _TAGS else "does not call the macro"
-        yield Problem(element, f"<{tag}> without its prefix {what}; write <xacro:{tag}>")
+        what = "is not expanded" if tag in _TAGS else "does not call the macro"
+        yield Problem(element, f"<{tag}> without the prefix xacro: {what}; write <xacro:{tag}>")
     for child in element.children:
         yield from _unprefixed(child, macros)
 

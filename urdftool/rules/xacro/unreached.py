@@ -1,6 +1,6 @@
-"""What would stop the expansion, if it came there: in macros nobody calls and branches not taken.
+"""Rules on errors in macros that are not called, and in branches that are not taken.
 
-Where the expansion does come there it stops, and says so itself.
+The expansion reports errors that it reaches.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from ..fix import FixContext, Proposal, attribute_at, safe, substitute, substitu
 from ..rule import ERROR, SAFE, Problem, rule
 from ..words import did_you_mean
 
-_LATER = {"xacro": "stops as soon as it comes there"}
 _COMMANDS = ("find", "env", "optenv", "dirname", "arg", "cwd", "eval")
 _BAD = re.compile(
     r"(?<!\$)\$\(\s*(?!(?:find|env|optenv|dirname|arg|cwd|eval)(?![\w-]))([\w-]+)[^)]*\)"
@@ -31,7 +30,7 @@ _FOR_LAUNCH = {
 def _matches(
     document: Document, description: Description, pattern: re.Pattern[str], quick: bytes
 ) -> Iterator[tuple[Element, re.Match[str], Place | Element]]:
-    """What a pattern finds in the values and texts of a file that was expanded."""
+    """Yield the matches of a pattern in the attributes and texts of an expanded file."""
     if description.expansion is None or not re.search(quick, document.file.data):
         return
     for element in document.root.walk():
@@ -47,14 +46,14 @@ def _matches(
 @rule(
     ERROR,
     effects={
-        "xacro": "stops as soon as it comes there: unknown substitution command",
+        "xacro": "stops if it expands this: unknown substitution command",
     },
 )
 def bad_substitution_command(document: Document, description: Description) -> Iterator[Problem]:
-    """A substitution is none that xacro has.
+    """A substitution command is not in xacro.
 
     xacro has ``$(find …)``, ``$(arg …)``, ``$(env …)``, ``$(optenv …)``, ``$(dirname)``, ``$(cwd)``
-    and ``$(eval …)``. Others, such as ``$(find-pkg-share …)`` and ``$(var …)``, are those of launch
+    and ``$(eval …)``. Others, such as ``$(find-pkg-share …)`` and ``$(var …)``, are for launch
     files.
     """
     quick = rb"\$\(\s*(?!(?:find|env|optenv|dirname|arg|cwd|eval)[\s)])\w"
@@ -68,7 +67,7 @@ def bad_substitution_command(document: Document, description: Description) -> It
 
 @bad_substitution_command.fix(SAFE)
 def write_command(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the substitution of xacro that does what the one of launch files does."""
+    """Write the equivalent substitution of xacro."""
     old, name = problem.data["command"], problem.data["write"]
     found = attribute_at(problem)
     if not name:
@@ -82,16 +81,16 @@ def write_command(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     ERROR,
     effects={
-        "xacro": "stops as soon as it comes there",
+        "xacro": "stops if it expands this",
     },
 )
 def unclosed_expression(document: Document, description: Description) -> Iterator[Problem]:
     """An expression is not closed.
 
-    ``${`` wants its ``}`` and ``$(`` its ``)`` in the same value. What xacro says of it is that the
-    expression is invalid.
+    ``${`` requires ``}``, and ``$(`` requires ``)``, in the same value. xacro reports an invalid
+    expression.
     """
     quick = rb"\$(?:\{[^}\"'<]*|\([^)\"'<]*)[\"'<]"
     for element, match, at in _matches(document, description, _OPEN, quick):
         close = "}" if match[0].startswith("${") else ")"
-        yield Problem(element, f"'{match[0][:40]}' is not closed; write its '{close}'", at=at)
+        yield Problem(element, f"'{match[0][:40]}' is not closed; write '{close}'", at=at)

@@ -1,4 +1,4 @@
-"""Definitions that do nothing, or are not what they seem."""
+"""Rules on definitions without effect, or with an ambiguous one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CONDITIONS = ("xacro:if", "xacro:unless")
 
 
 def _is_conditional(element: Element) -> bool:
-    """Whether an element is inside a condition or macro: not always there, or many times."""
+    """Tell whether an element is inside a condition or a macro."""
     parent = element.parent
     while parent is not None:
         if parent.tag in (*_CONDITIONS, "xacro:macro"):
@@ -26,7 +26,7 @@ def _is_conditional(element: Element) -> bool:
 
 
 def _includes_may_vary(description: Description) -> bool:
-    """Whether other arguments would include other files."""
+    """Tell whether other arguments could include other files."""
     return any(
         element.tag == "xacro:include"
         and (_is_conditional(element) or "$(arg" in (element.get("filename") or ""))
@@ -36,7 +36,7 @@ def _includes_may_vary(description: Description) -> bool:
 
 
 def _text(description: Description) -> str:
-    """All files, without their comments."""
+    """Get the text of all files, without comments."""
     text = "\n".join(file.data.decode(file.encoding, "replace") for file in description.files)
     return re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
 
@@ -44,14 +44,14 @@ def _text(description: Description) -> str:
 @rule(
     WARNING,
     effects={
-        "xacro": "accepts the argument and does nothing with it",
+        "xacro": "accepts the argument, without any effect",
     },
 )
 def unused_arg(description: Description) -> Iterator[Problem]:
-    """An argument is declared and never read.
+    """An argument is declared but never used.
 
-    Whoever gives ``name:=value`` is not told that nothing comes of it. The ``$(arg NAME)`` that
-    should read it is misspelt or was taken away.
+    ``name:=value`` on the command line has no effect, without a message. The ``$(arg NAME)`` that
+    should use it is misspelled, or was removed.
     """
     if description.expansion is None:
         return
@@ -70,13 +70,13 @@ def unused_arg(description: Description) -> Iterator[Problem]:
             continue
         yield Problem(
             element,
-            f"the argument '{name}' is declared and never read; read it with $(arg {name})",
+            f"argument '{name}' is never used; write $(arg {name}), or remove it",
             at=element.attribute_place("name"),
         )
 
 
 def _is_read(name: str, text: str) -> bool:
-    """Whether an argument is read somewhere."""
+    """Tell whether an argument is used."""
     word = re.escape(name)
     pattern = rf"\$\(arg\s+{word}\s*\)|arg\(\s*['\"]{word}['\"]|\$\(eval[^)]*\b{word}\b"
     return re.search(pattern, text) is not None
@@ -90,9 +90,9 @@ def _is_read(name: str, text: str) -> bool:
     },
 )
 def unused_property(description: Description) -> Iterator[Problem]:
-    """A property is defined and never used.
+    """A property is defined but never used.
 
-    Left over, or misspelt where it is used.
+    It is left over, or its use is misspelled.
     """
     if description.expansion is None or _includes_may_vary(description):
         return
@@ -105,7 +105,7 @@ def unused_property(description: Description) -> Iterator[Problem]:
         if not re.search(rf"\b{re.escape(name)}\b", expressions):
             yield Problem(
                 element,
-                f"the property '{name}' is used nowhere",
+                f"property '{name}' is never used; remove it",
                 at=element.attribute_place("name"),
             )
 
@@ -118,9 +118,9 @@ def unused_property(description: Description) -> Iterator[Problem]:
     },
 )
 def unused_macro(description: Description) -> Iterator[Problem]:
-    """A macro is defined beside the robot and never called.
+    """A macro in the file of the robot is never called.
 
-    Macros of included files are not looked at: nobody needs all of a library.
+    Macros of included files are not checked, because a robot rarely needs a whole library.
     """
     if description.expansion is None or _includes_may_vary(description):
         return
@@ -134,7 +134,7 @@ def unused_macro(description: Description) -> Iterator[Problem]:
         if not re.search(rf"<xacro:{re.escape(name)}[\s/>]|macro\s*=\s*[\"'][^\"']*{name}", text):
             yield Problem(
                 element,
-                f"the macro '{name}' is called nowhere",
+                f"macro '{name}' is never called; remove it",
                 at=element.attribute_place("name"),
             )
 
@@ -144,7 +144,7 @@ def unused_macro(description: Description) -> Iterator[Problem]:
 @unused_macro.fix(UNSAFE)
 def remove_definition(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the definition."""
-    return unsafe("take it out", remove_element(problem.element))
+    return unsafe("remove it", remove_element(problem.element))
 
 
 @rule(
@@ -154,11 +154,11 @@ def remove_definition(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def macro_redefined(description: Description) -> Iterator[Problem]:
-    """Two macros have one name.
+    """Two macros have the same name.
 
-    The second takes the place of the first for every call that follows. When two packages both have
-    a ``cylinder_inertia``, with other parameters or other formulas, the robot depends on the order
-    of its includes. One in a condition, or in a file that is included with ``ns``, is not told of.
+    The second definition replaces the first for all calls that follow. If two packages define
+    ``cylinder_inertia`` with different parameters or formulas, the robot depends on the order of
+    includes. Definitions in a condition, or in a file included with ``ns``, are not reported.
     """
     names = [
         name
@@ -186,14 +186,14 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
                 where += f" of {other.path}"
             yield Problem(
                 element,
-                f"the macro '{name}' is defined for a second time (first in {where}), "
-                "and otherwise; give it a name of its own",
+                f"macro '{name}' has a second, different definition (first in {where}); "
+                "rename one of them",
                 at=element.attribute_place("name"),
             )
 
 
 def _same(a: Element, b: Element) -> bool:
-    """Whether two elements say the same."""
+    """Tell whether two elements are equal."""
     return (
         a.tag == b.tag
         and a.attributes == b.attributes
@@ -207,13 +207,14 @@ def _same(a: Element, b: Element) -> bool:
     INFO,
     default=False,
     effects={
-        "xacro": "writes the name as it is, at each call",
+        "xacro": "writes the same name at each call",
     },
 )
 def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
-    """A macro with a prefix makes a link or joint without it.
+    """A macro with a prefix parameter creates a link or joint without it.
 
-    Called twice, it makes two of that name, and the robot is rejected.
+    If the macro is called twice, two links or joints have the same name, and readers reject the
+    robot.
     """
     for macros in definitions(description).macros.values():
         for macro in macros:
@@ -227,7 +228,8 @@ def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
                 if element.tag in ("link", "joint") and name and "${" not in name:
                     yield Problem(
                         element,
-                        f"<{element.tag} name=\"{name}\"> in macro '{macro.get('name')}' lacks its "
+                        f"<{element.tag} name=\"{name}\"> in macro '{macro.get('name')}' does "
+                        "not use "
                         f"'{parameters[0]}'; write ${{{parameters[0]}}}{name}",
                         at=element.attribute_place("name"),
                         data={"write": f"${{{parameters[0]}}}{name}"},
@@ -236,7 +238,7 @@ def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
 
 @hard_coded_name_in_macro.fix(UNSAFE)
 def add_macro_prefix(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the prefix, also where the macro refers to the name."""
+    """Add the prefix to the name and its references in the macro."""
     macro: Element | None = problem.element
     while macro is not None and macro.tag != "xacro:macro":
         macro = macro.parent
@@ -247,4 +249,4 @@ def add_macro_prefix(problem: Problem, context: FixContext) -> Proposal | None:
     changes = [
         set_attribute(e, at, new) if at else set_text(e, new) for e, at in named(macro, name)
     ]
-    return unsafe(f"write {new}, here and where the macro names it", *changes)
+    return unsafe(f"write {new} in the macro, for the name and its references", *changes)

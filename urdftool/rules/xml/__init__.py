@@ -1,4 +1,4 @@
-"""The document as text: its elements, attributes and numbers."""
+"""Rules on XML elements, attributes and numbers."""
 
 FILES = ("document", "vocabulary", "shape", "numbers", "magnitude", "reference", "version")
 """Files with rules, in reading order."""

@@ -1,4 +1,4 @@
-"""The document as a whole."""
+"""Rules on the XML document as a whole."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
 @rule(
     ERROR,
     effects={
-        "xacro": "rejects the file, as every parser of Python's does",
+        "xacro": "rejects the file, as all XML parsers of Python do",
         f"{_READERS} ('--' in a comment)": "accept it",
         f"{_READERS} (a wrong declaration)": "ignore the declaration",
         f"{_READERS} (an element that is not closed)": "reject the file",
@@ -27,9 +27,9 @@ _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
 def not_well_formed() -> tuple[Problem, ...]:
     """The file is not well-formed XML.
 
-    A tag that is not closed, ``--`` in a comment, an unknown entity. The C++ readers use lax
-    parsers and take some of these, so that it "works in RViz", and fails in xacro and every Python
-    tool.
+    Examples are an element that is not closed, ``--`` in a comment, or an unknown entity. C++
+    readers have tolerant parsers and accept some of them, so the file may load in RViz but fail in
+    xacro and Python tools.
     """
     return ()
 
@@ -53,7 +53,7 @@ def separate_hyphens(finding: Finding, context: FixContext) -> Proposal | None:
 @rule(
     ERROR,
     effects={
-        "xacro": "rejects the file, as every parser of Python's does",
+        "xacro": "rejects the file, as all XML parsers of Python do",
         f"{_READERS} (blanks)": "accept it",
         "urdfdom (a comment)": "3 (ROS 1, ROS 2 up to Iron) accepts it; 4 and later reject it",
         "gz, gazebo-classic, mujoco, pybullet, drake (a comment)": "reject the file",
@@ -61,21 +61,21 @@ def separate_hyphens(finding: Finding, context: FixContext) -> Proposal | None:
     },
 )
 def content_before_declaration() -> tuple[Problem, ...]:
-    """Something stands before the ``<?xml …?>`` declaration.
+    """Content is before the ``<?xml …?>`` declaration.
 
-    Usually a license comment, or an empty line. The declaration must be the very first bytes of the
-    file. Readers in C++ accept blanks before it; xacro and Python do not. With a comment before it,
-    a robot that loaded with ROS 1 stops loading with ROS 2.
+    Usually it is a license comment or an empty line. The declaration must be at the start of the
+    file. C++ readers accept spaces before it; xacro and Python do not. With a comment before it, a
+    robot may load in ROS 1 but not in ROS 2.
     """
     return ()
 
 
 _BELONGS = {
-    "sdf": "it is SDF; 'gz sdf --check' is the tool for it",
-    "mujoco": "it is MJCF; MuJoCo's own compiler checks it",
+    "sdf": "it is SDF; check it with 'gz sdf --check'",
+    "mujoco": "it is MJCF; check it with the MuJoCo compiler",
     "launch": "it is a launch file",
-    "package": "it is the manifest of a package",
-    "gazebo": "put it inside a <robot>",
+    "package": "it is a package manifest",
+    "gazebo": "write it inside a <robot>",
 }
 
 
@@ -89,7 +89,7 @@ def move_declaration(finding: Finding, context: FixContext) -> Proposal | None:
     begin = 3 if file.data.startswith(b"\xef\xbb\xbf") else 0
     before = file.data[begin : match.start()]
     if not before.strip():
-        return safe("take away what stands before it", Span(file, begin, match.start(), b""))
+        return safe("remove the content before it", Span(file, begin, match.start(), b""))
     rest = re.match(rb"[ \t]*\r?\n", file.data[match.end() :])
     end = match.end() + (rest.end() if rest else 0)
     line_end = b"\r\n" if b"\r\n" in file.data else b"\n"
@@ -111,14 +111,14 @@ def move_declaration(finding: Finding, context: FixContext) -> Proposal | None:
 def wrong_root() -> tuple[Problem, ...]:
     """The root element is not ``<robot>``.
 
-    Readers look for ``<robot>`` and find nothing, so nothing else of the file is checked. SDF, MJCF
-    and launch files often end up with the wrong ending.
+    Readers require ``<robot>``, so nothing else in the file is checked. Usually an SDF, MJCF or
+    launch file has the wrong file extension.
     """
     return ()
 
 
 def fault_of_root(root: Element) -> str:
-    """What is wrong with a root that is not ``<robot>``, and what the file seems to be."""
+    """Describe a root that is not ``<robot>``, and the probable format of the file."""
     belongs = _BELONGS.get(root.tag, 'a robot description starts with <robot name="…">')
     return f"the root element is <{root.tag}>; {belongs}"
 
@@ -138,9 +138,9 @@ _NAMELESS = {
 def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
 
-    Everything refers to links and joints by name. urdfdom refuses the robot; others take the empty
-    name, and two such links are then one. A ``<robot>`` without elements is a placeholder that
-    another file includes: it needs no name.
+    Other elements refer to links and joints by name. urdfdom rejects the robot; other readers use
+    the empty name, which two links may share. A ``<robot>`` without elements, for a file that
+    others include, needs no name.
     """
     root = description.document.root
     named = ("link", "joint", "transmission")
@@ -163,7 +163,7 @@ def missing_name(description: Description) -> Iterator[Problem]:
 
 @missing_name.full
 def every_missing_name(robot: Robot) -> Iterator[Problem]:
-    """Report each link and joint of the robot that has no name, or an empty one."""
+    """Report each link and joint of the robot without a name."""
     parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
     for part in parts:
         if not part.name:
@@ -177,9 +177,9 @@ def _nameless(element: Element) -> str:
 
 @missing_name.fix(UNSAFE)
 def name_after_file(problem: Problem, context: FixContext) -> Proposal | None:
-    """Name the robot after its file."""
+    """Use the file name as the name of the robot."""
     element = problem.element
     stem = re.sub(r"\W+", "_", context.description.files[0].path.rpartition("/")[2].split(".")[0])
     if element.tag != "robot" or not stem.strip("_") or element.attributes.get("name", "").strip():
         return None
-    return unsafe(f'call the robot "{stem}", as its file', set_attribute(element, "name", stem))
+    return unsafe(f'write name="{stem}", as its file', set_attribute(element, "name", stem))

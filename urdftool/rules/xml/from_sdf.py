@@ -1,4 +1,4 @@
-"""Propose URDF for elements in the form of SDF."""
+"""Propose URDF for SDF elements."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ _AS_ATTRIBUTE = {
     "inertia": {name: name for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")},
 }
 
-"""Elements of SDF that are attributes in URDF, by the element around them."""
+"""Child elements of SDF that are attributes in URDF, by parent element."""
 
 
 def propose_urdf_spelling(element: Element, parent: Element) -> Proposal | None:
-    """Write what is in the form of SDF, or of another dialect, as URDF has it."""
+    """Propose the URDF form of an element of SDF or of a similar dialect."""
     tag, inside = element.tag, parent.tag
     text = " ".join(element.text.split())
     name = _AS_ATTRIBUTE.get(inside, {}).get(tag)
@@ -72,7 +72,7 @@ def propose_urdf_spelling(element: Element, parent: Element) -> Proposal | None:
 def move_out_of_geometry(element: Element, geometry: Element) -> Proposal | None:
     """Move a ``<material>`` or ``<origin>`` from a ``<geometry>`` to the visual or collision.
 
-    It is safe where only a color is added.
+    The fix is safe if it only adds a color.
     """
     shape = geometry.parent
     if shape is None or element.tag not in VOCABULARY[shape.tag].children:
@@ -93,7 +93,7 @@ def _as_origin(element: Element, parent: Element, text: str) -> Proposal | None:
     if values is None:
         return None
     if not any(values):
-        return safe("take it away: it moves nothing", remove_element(element))
+        return safe("remove it: it is the identity", remove_element(element))
     if parent.tag not in ("visual", "collision", "inertial") or parent.child("origin") is not None:
         return None
     words = text.split()
@@ -102,7 +102,7 @@ def _as_origin(element: Element, parent: Element, text: str) -> Proposal | None:
 
 
 def _surface(element: Element, collision: Element) -> Proposal | None:
-    """Move a ``<surface>`` to the block that Gazebo reads."""
+    """Move a ``<surface>`` to the ``<gazebo>`` block that Gazebo reads."""
     link = collision.parent
     if link is None or link.tag != "link" or link.parent is None or not element.children:
         return None

@@ -1,4 +1,4 @@
-"""Numbers that no robot has."""
+"""Rules on implausibly large numbers."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from ..words import words
 from .vocabulary_table import VOCABULARY
 
 _MEASURED = words("origin mass inertia box cylinder capsule sphere mesh color axis mimic")
-"""Elements whose numbers are measured; those of a limit may be as large as their author wants."""
+"""Elements with measured numbers; a limit may have any value."""
 
 _LONGEST = 30
-"""Number of characters up to which a number without an exponent is below 1e30."""
+"""Maximum number of characters of a number below 1e30 without exponent."""
 
 
 @rule(ERROR)
 def immense_number(robot: Robot, *, largest: float = 1e30) -> Iterator[Problem]:
-    """A mass, a size, a pose, an axis or a color holds a number above 1e30.
+    """A mass, size, pose, axis or color is above 1e30.
 
-    The exponent is a typing error. ``export`` and ``simulate`` refuse such a robot, as products of
-    such numbers become infinite: the square of 1e30 is above the largest number of 32 bits,
-    3.4e38, and a file of a few of them ends in values that are not numbers. A limit may be as
-    large: a joint with it has none.
+    The exponent is a typing error. ``export`` and ``simulate`` reject such a robot, because
+    products of such numbers overflow: the square of 1e30 is above the largest 32-bit number,
+    3.4e38, and results are not finite. Joint limits are not checked, because a large limit means no
+    limit. ``largest`` is the largest number that is not reported.
     """
     for part in (*robot.links, *robot.joints, *robot.materials):
         for element in part.element.walk():
@@ -39,8 +39,8 @@ def immense_number(robot: Robot, *, largest: float = 1e30) -> Iterator[Problem]:
                     yield Problem(
                         part,
                         f'{name}="{text}" of <{element.tag}> in {part.element.tag} '
-                        f"'{part.element.get('name') or ''}' is above {largest:g}; write one that "
-                        "a robot can have",
+                        f"'{part.element.get('name') or ''}' is above {largest:g}; write a "
+                        "plausible number",
                         at=element.attribute_place(name),
                     )
 

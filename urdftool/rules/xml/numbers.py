@@ -1,4 +1,4 @@
-"""Numbers as text."""
+"""Rules on numbers in attributes."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ _OF_URDFDOM = {
     "urdfdom, pinocchio (in an inertial)": (
         "drop the inertial, the visuals and the collisions of the link"
     ),
-    "gz, gazebo-classic (in an inertial)": "delete the link and all below it",
+    "gz, gazebo-classic (in an inertial)": "delete the link and its descendants",
     "urdfdom, gz, gazebo-classic, pinocchio (in a color)": "load the robot without the color",
 }
 _OF_MUJOCO = {
-    "mujoco (in a visual)": "ignores it, as all visuals, unless discardvisual is false",
+    "mujoco (in a visual)": "ignores it, like all visuals, unless discardvisual is false",
 }
 _OF_PYBULLET = {
     "pybullet (too few numbers, an axis)": "rejects the robot",
@@ -70,9 +70,9 @@ _WRONG_ARITY = {
 def wrong_arity(robot: Robot) -> Iterator[Problem]:
     """A vector has too few or too many numbers.
 
-    A position, rotation, axis, size and scale take three numbers, a colour four. urdfdom gives up
-    on what holds the vector: a joint takes the whole robot with it, a link silently loses all it
-    shows and touches with while the robot is reported as parsed.
+    A position, rotation, axis, size and scale have three numbers, a color has four. urdfdom
+    discards the element that contains the vector: it rejects the robot for a joint, but for a link
+    it only drops visuals and collisions, and reports the robot as loaded.
     """
     for tag, vectors in _VECTORS.items():
         if not vectors:
@@ -117,7 +117,7 @@ _VECTOR_OF = {
 
 
 def _where(element: Element) -> tuple[str, ...]:
-    """Name the conditions of effects that hold of a number in an element."""
+    """Get the conditions of effects that apply to a number in an element."""
     above: Element | None = element
     while above is not None and above.tag not in _PLACES:
         above = above.parent
@@ -132,13 +132,13 @@ def _counted(count: int) -> str:
 
 _NOT_A_NUMBER = {
     **_OF_URDFDOM,
-    "mujoco, pybullet, drake (a blank behind it)": "read it as meant",
+    "mujoco, pybullet, drake (a blank behind it)": "read it as intended",
     "mujoco (not in a visual, unreadable)": "rejects the file",
     "mujoco (in a visual, unreadable)": _OF_MUJOCO["mujoco (in a visual)"],
-    "pybullet (unreadable)": "reads as far as it can: 0,1 is 0 and -1rad is -1",
+    "pybullet (unreadable)": "reads the leading number: 0,1 is 0 and -1rad is -1",
     "pybullet (nothing written)": "takes 0",
     "drake (no use to Drake)": "rejects the file",
-    "drake (begins with a number)": "reads as far as it can: 0,1 is 0 and -1rad is -1",
+    "drake (begins with a number)": "reads the leading number: 0,1 is 0 and -1rad is -1",
     "drake (three dampings)": "reads one for each of the three motions of a planar joint",
 }
 
@@ -147,7 +147,7 @@ _NOT_A_NUMBER = {
 def complete_vector(problem: Problem, context: FixContext) -> Proposal | None:
     """Make a color without opacity opaque; write one scale for all three axes.
 
-    urdfdom drops a mesh with one scale, and has it afterwards.
+    The scale is unsafe because urdfdom drops a mesh with one number, and loads it after the fix.
     """
     found = attribute_at(problem)
     if found is None:
@@ -159,7 +159,9 @@ def complete_vector(problem: Problem, context: FixContext) -> Proposal | None:
             "write 1 as the fourth number", set_attribute(element, name, " ".join([*words, "1"]))
         )
     if name == "scale" and len(words) == 1:
-        return unsafe("write it three times", set_attribute(element, name, " ".join(words * 3)))
+        return unsafe(
+            "write the scale three times", set_attribute(element, name, " ".join(words * 3))
+        )
     return None
 
 
@@ -168,11 +170,11 @@ def complete_vector(problem: Problem, context: FixContext) -> Proposal | None:
     effects=_NOT_A_NUMBER,
 )
 def not_a_number(robot: Robot) -> Iterator[Problem]:
-    """A number is not one, or not all of it is.
+    """An attribute is not a valid number.
 
-    URDF's numbers are plain decimals: a point and no comma, no unit, no blank behind, not ``nan``
-    or ``inf``. urdfdom gives up on what holds the number; PyBullet reads as far as it can and goes
-    on with that. So one blank behind a mass makes the link weightless, and Gazebo deletes it.
+    URDF requires decimal numbers with a point: no comma, no unit, no trailing space, not ``nan`` or
+    ``inf``. urdfdom discards the element that contains the number; PyBullet reads the leading
+    number. With a trailing space in a mass, the link has no mass, and Gazebo deletes it.
     """
     known = census(robot).known
     for tag, names in _SCALARS.items():
@@ -197,10 +199,10 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
 
 @not_a_number.full
 def every_unreadable_number(robot: Robot) -> Iterator[Problem]:
-    """Report each attribute without as many finite numbers as it takes, on its link or joint.
+    """Report each attribute without the required finite numbers, with its link or joint.
 
-    A blank behind a number is left out: it can be read. The pose of the robot itself is reported on
-    the robot; only Gazebo reads it.
+    Numbers with a trailing space are not reported, because they can be read. The pose of the robot
+    is reported with the robot; only Gazebo reads it.
     """
     parts = (*robot.links, *robot.joints, *robot.materials)
     walked = [(part.element, element) for part in parts for element in part.element.walk()]
@@ -226,7 +228,7 @@ def _unusable(element: Element, name: str, text: str, count: int) -> str:
 
 
 def _fault(text: str) -> str:
-    """What is wrong with a number's text, with what would be right; empty if nothing is."""
+    """Describe the defect of a number's text, with its remedy; empty for a valid number."""
     try:
         value = float(text)
     except ValueError:
@@ -234,14 +236,14 @@ def _fault(text: str) -> str:
     if value - value != 0.0:
         return f"'{text}', which is not finite; write a number"
     if text[-1].isspace():
-        return f"a blank behind it: '{text}'; write '{text.strip()}'"
+        return f"a trailing space: '{text}'; write '{text.strip()}'"
     if "_" in text or not text.isascii():
         return f"'{text}', which is not a number"
     return ""
 
 
 def has_readable_numbers(element: Element) -> bool:
-    """Tell whether urdfdom can read every number of an element of URDF."""
+    """Tell whether urdfdom can read every number of a URDF element."""
     for name, count in VOCABULARY[element.tag].numbers.items():
         text = element.attributes.get(name)
         if text is None:
@@ -253,7 +255,7 @@ def has_readable_numbers(element: Element) -> bool:
 
 
 def _kind(text: str) -> str:
-    """Name the condition of effects that holds of a number's text."""
+    """Get the condition of effects that applies to a number's text."""
     if not text.strip():
         return "nothing written"
     try:
@@ -271,13 +273,13 @@ _UNIT = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*[^\W\d_]+[²³]?")
 def _unreadable_text(text: str) -> str:
     stripped = text.strip()
     if not stripped:
-        return "nothing written; write a number"
+        return "no number; write one"
     if stripped.count(",") > 1:
-        return f"'{text}'; put blanks between numbers, not commas"
+        return f"'{text}'; separate the numbers by spaces, not commas"
     if "," in stripped and _is_number(stripped.replace(",", ".")):
         return f"'{text}' with a comma; write '{stripped.replace(',', '.')}'"
     if (match := _UNIT.fullmatch(stripped)) and _is_number(match[1]):
-        return f"'{text}'; write the number alone, without a unit"
+        return f"'{text}'; write the number without a unit"
     return f"'{text}', which is not a number"
 
 
@@ -292,7 +294,7 @@ def _is_number(text: str) -> bool:
 def _unreadable(element: Element, name: str, fault: str, word: str) -> Problem:
     in_drake = _in_drake(element, name, word)
     if "three dampings" in in_drake:
-        fault = f"three numbers, '{word}', which only Drake reads; others take one"
+        fault = f"three numbers, '{word}', which only Drake reads; other readers require one"
     conditions = (*_where(element), _kind(word), *in_drake)
     return Problem(
         element,
@@ -307,7 +309,7 @@ def _of_number(element: Element, name: str, fault: str) -> str:
 
 
 def _is_damping_of_planar(element: Element, name: str) -> bool:
-    """Tell whether a number is one that Drake reads three of."""
+    """Tell whether an attribute is one of which Drake reads three numbers."""
     joint = element.parent
     return name == "damping" and joint is not None and joint.get("type") == "planar"
 
@@ -317,11 +319,11 @@ _SHAPES = ("box", "cylinder", "capsule", "sphere")
 
 
 def _in_drake(element: Element, name: str, word: str) -> tuple[str, ...]:
-    """Name what Drake makes of the first unreadable number of an attribute.
+    """Get the conditions of Drake's effects for the first invalid number of an attribute.
 
-    It reads as far as it can. That is too little of a vector whose last number is another one, of
-    several numbers for one, of text that begins with no number, and for a box, cylinder or
-    capsule where 0 is left. Of a planar joint it reads three numbers of damping.
+    Drake reads the leading number. It rejects a vector whose invalid number is not the last,
+    several numbers in place of one, text without a leading number, and 0 for a box, cylinder or
+    capsule. For the damping of a planar joint it requires three numbers.
     """
     if _kind(word) == "a blank behind it":
         return ()
@@ -351,7 +353,7 @@ _UNREADABLE = re.compile(rb"[^\s][\t\r\n]|[\t\r\n](?: |$)")
 _TABBED_VECTOR = {
     **_OF_URDFDOM,
     **_OF_PYBULLET,
-    "mujoco, drake": "read it as meant",
+    "mujoco, drake": "read it as intended",
 }
 
 
@@ -360,9 +362,10 @@ _ONE = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 @not_a_number.fix(UNSAFE)
 def write_number(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove blanks around it; write a point for a comma.
+    """Remove spaces around it, and write a point for a comma.
 
-    urdfdom drops the inertial or the shape with such a number, and has it afterwards.
+    The fix is unsafe because urdfdom drops the inertial or the shape with such a number, and loads
+    it after the fix.
     """
     found = attribute_at(problem)
     if found is None:
@@ -390,9 +393,9 @@ def write_number(problem: Problem, context: FixContext) -> Proposal | None:
 def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator[Problem]:
     """Numbers of a vector are separated by a tab or a line break.
 
-    urdfdom splits at blanks alone and then cannot read what is left; the joint and with it the
-    robot is rejected, or the link silently loses its shapes. Other XML parsers turn the tab into a
-    blank, so xacro and Python see nothing wrong, and a robot that went through xacro is mended.
+    urdfdom splits only at spaces and cannot read the parts: it rejects the robot for a joint, and
+    drops the shapes of a link without a message. Other XML parsers convert the tab to a space, so
+    xacro and Python tools read the vector, and the output of xacro is correct.
     """
     if description.expansion is not None or not _TABBED.search(robot.element.file.data):
         return
@@ -409,7 +412,7 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
                     yield Problem(
                         element,
                         f"{name} of <{tag}> in {owner(element)} has a tab or line break between "
-                        "its numbers; write single blanks",
+                        "its numbers; write single spaces",
                         at=element.attribute_place(name),
                         effects=effects_read(
                             holding(_TABBED_VECTOR, *_where(element), amount), element, name
@@ -419,13 +422,13 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
 
 @tab_or_newline_in_vector.fix(UNSAFE)
 def write_blanks(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write single blanks between the numbers.
+    """Write single spaces between the numbers.
 
-    urdfdom and PyBullet split at blanks alone: what they drop or take for zero until then, they
-    read afterwards.
+    The fix is unsafe because urdfdom and PyBullet, which split only at spaces, read different
+    values after it.
     """
     found = attribute_at(problem)
     if found is None:
         return None
     element, name = found
-    return unsafe("write single blanks", substitute(element, name, r"\s+", " "))
+    return unsafe("write single spaces", substitute(element, name, r"\s+", " "))

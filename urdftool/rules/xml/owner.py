@@ -1,4 +1,4 @@
-"""Whose an element is, in words."""
+"""Describe the link, joint or material that contains an element."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ...source.document import Element
 
 
 def owner(element: Element) -> str:
-    """The nearest named thing an element is in or is: ``link 'arm'``, ``material 'red'``."""
+    """Describe the nearest named element around an element: ``link 'arm'``, ``material 'red'``."""
     around: Element | None = element
     while around is not None:
         name = around.attributes.get("name", "")

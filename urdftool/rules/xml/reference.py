@@ -1,4 +1,4 @@
-"""Names and what refers to them, as text."""
+"""Rules on names and references."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from ..rule import BOTH, ERROR, Problem, rule
     },
 )
 def padded_reference(robot: Robot) -> Iterator[Problem]:
-    """A name or a reference to one has a blank before or behind it.
+    """A name or a reference has a space at its start or end.
 
-    Readers compare names letter by letter, so ``"base "`` is not ``base``: the joint does not find
-    its link, and the robot is rejected for a fault that nobody sees.
+    Readers compare names exactly, so ``"base "`` is not ``base``: a joint does not find its link,
+    and readers reject the robot.
     """
     references: list[tuple[Element, str]] = []
     for joint in robot.joints:
@@ -49,7 +49,7 @@ def padded_reference(robot: Robot) -> Iterator[Problem]:
 def _padded(element: Element, attribute: str, text: str) -> Problem:
     return Problem(
         element,
-        f"{attribute} of <{element.tag}> is '{text}', with a blank at its end or start; "
+        f"{attribute} of <{element.tag}> is '{text}', with a space at its start or end; "
         f"write '{text.strip()}'",
         at=element.attribute_place(attribute),
     )
@@ -57,11 +57,11 @@ def _padded(element: Element, attribute: str, text: str) -> Problem:
 
 @padded_reference.fix(BOTH)
 def remove_blank(problem: Problem, context: FixContext) -> Proposal | None:
-    """Remove the blank.
+    """Remove the space.
 
-    Every reader rejects a robot whose joint does not find its parent or child. A mimic joint that
-    does not find its leader, and a block of Gazebo that does not find its link, are ignored, and
-    are there afterwards.
+    The fix is safe for the parent and child of a joint, because every reader rejects the robot
+    without it. It is unsafe for a mimic joint or a ``<gazebo>`` block, which readers ignore before
+    the fix.
     """
     found = attribute_at(problem)
     if found is None:
@@ -71,4 +71,4 @@ def remove_blank(problem: Problem, context: FixContext) -> Proposal | None:
     joins = element.tag in ("parent", "child")
     joins = joins or (element.tag == "link" and (element.get(name) or "").strip() in ends)
     make = safe if joins else unsafe
-    return make("take the blank away", substitute(element, name, r"^\s+|\s+$", ""))
+    return make("remove the space", substitute(element, name, r"^\s+|\s+$", ""))

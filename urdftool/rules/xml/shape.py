@@ -1,4 +1,4 @@
-"""Elements that are there too often, or hold nothing."""
+"""Rules on repeated and empty elements."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ from .vocabulary_table import VOCABULARY, census, misspelt_children
     },
 )
 def repeated_element(robot: Robot) -> Iterator[Problem]:
-    """An element of which there can be one is written twice.
+    """An element that may only be written once is repeated.
 
-    urdfdom and with it ROS and Gazebo take the first and drop the others, whatever they say; MuJoCo
-    refuses the file. Of two masses or two limits only one can have been meant.
+    urdfdom, and therefore ROS and Gazebo, take the first and ignore the others; MuJoCo rejects the
+    file. Remove the wrong one.
     """
     known = census(robot).known
     for tag in ("link", "inertial", "visual", "collision", "material", "joint"):
@@ -49,15 +49,15 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
                 if child.tag in seen:
                     yield Problem(
                         child,
-                        f"a second <{child.tag}> in the <{tag}> of {owner(child)}; "
-                        "only the first is read",
+                        f"second <{child.tag}> in the <{tag}> of {owner(child)}: "
+                        "readers take only the first; remove one",
                     )
                 elif child.tag in single:
                     seen.add(child.tag)
 
 
 def shapes_in(geometry: Element) -> list[Element]:
-    """List the shapes of a ``<geometry>``, without elements of URDF that belong elsewhere."""
+    """List the shapes of a ``<geometry>``, without misplaced elements of URDF."""
     return [
         child
         for child in geometry.children
@@ -68,7 +68,7 @@ def shapes_in(geometry: Element) -> list[Element]:
 
 @repeated_element.fix(BOTH)
 def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
-    """Keep the first, which is the one that is read."""
+    """Keep the first element, which readers take."""
     element = problem.element
     parent = element.parent
     if parent is None:
@@ -77,8 +77,8 @@ def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
     if one is None or one is element:
         return None
     if are_equal_elements(one, element) or element.tag == "material":
-        return safe(f"keep the first <{element.tag}>, which is read", remove_element(element))
-    return unsafe(f"keep the first <{element.tag}>, which is read", remove_element(element))
+        return safe(f"keep the first <{element.tag}>, which readers take", remove_element(element))
+    return unsafe(f"keep the first <{element.tag}>, which readers take", remove_element(element))
 
 
 @rule(
@@ -92,12 +92,11 @@ def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
-    """A ``<geometry>`` holds more than one shape.
+    """A ``<geometry>`` contains more than one shape.
 
-    Every reader takes one and drops the rest silently, and not all take the same one: urdfdom the
-    first, MuJoCo and Drake a box wherever it stands. So half of the body is not drawn or has no
-    contact. Each shape needs a ``<visual>`` or ``<collision>`` of its own; a link may have as many
-    as it likes.
+    Each reader takes one shape and ignores the others without a message, and readers differ:
+    urdfdom takes the first, MuJoCo and Drake prefer a box. So parts of the link are not drawn, or
+    make no contact. Write a separate ``<visual>`` or ``<collision>`` for each shape.
     """
     for geometry in census(robot).known["geometry"]:
         shapes = shapes_in(geometry)
@@ -106,15 +105,15 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
             around = geometry.parent.tag if geometry.parent is not None else "visual"
             yield Problem(
                 second,
-                f"a {around} of {owner(second)} has a <{second.tag}> next to its <{first.tag}>, "
-                "and readers take only one of them; "
-                f"give each shape a <{around}> of its own",
+                f"{around} of {owner(second)} has a <{second.tag}> next to its <{first.tag}>, "
+                "but readers take only one; "
+                f"write a separate <{around}> for each",
             )
 
 
 @several_shapes_in_geometry.fix(UNSAFE)
 def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
-    """Give each shape a visual or collision of its own."""
+    """Write a separate visual or collision for each shape."""
     shape = problem.element
     geometry = shape.parent
     part = geometry.parent if geometry is not None else None
@@ -134,7 +133,7 @@ def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
             f"</{part.tag}>",
         )
         changes += [remove_element(other), Change("after", part, blocks=(lines,))]
-    return unsafe(f"give each shape a <{part.tag}> of its own", *changes)
+    return unsafe(f"write a separate <{part.tag}> for each shape", *changes)
 
 
 @rule(
@@ -143,15 +142,15 @@ def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
         "urdfdom, gz, gazebo-classic, pinocchio": (
             "load the link without its visuals and collisions, with an error in the log"
         ),
-        "check_urdf": "reports success nevertheless",
+        "check_urdf": "reports success anyway",
         "mujoco, pybullet, drake": "reject the file",
     },
 )
 def empty_geometry(robot: Robot) -> Iterator[Problem]:
     """A visual or collision has no shape.
 
-    urdfdom gives up on the link at that point: what else is drawn and touches of it is lost too,
-    though the robot is reported as parsed. The link falls through the floor.
+    urdfdom loads the link without visual and collision geometry, and reports the robot as loaded;
+    the link falls through the ground. MuJoCo, PyBullet and Drake reject the file.
     """
     for link, shape in robot.shapes:
         if shape.geometry is not None:
@@ -165,7 +164,7 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
 
 @empty_geometry.full
 def every_empty_geometry(robot: Robot) -> Iterator[Problem]:
-    """Report each visual and collision without a shape, also where ``<geometry>`` is misspelt."""
+    """Report each visual and collision without a shape, also if ``<geometry>`` is misspelled."""
     for link, shape in robot.shapes:
         if shape.geometry is None:
             yield Problem(link, _without_shape(link, shape), at=shape)
@@ -174,12 +173,12 @@ def every_empty_geometry(robot: Robot) -> Iterator[Problem]:
 def _without_shape(link: Link, shape: Visual | Collision) -> str:
     kind, element = shape.element.tag, shape.element.child("geometry")
     what = "no <geometry>" if element is None else "an empty <geometry>"
-    return f"a {kind} of link '{link.name}' has {what}; give it a shape or take the {kind} out"
+    return f"{kind} of link '{link.name}' has {what}; write a shape, or remove the {kind}"
 
 
 @empty_geometry.fix(UNSAFE)
 def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the shape of its one counterpart; without one, remove the visual or collision."""
+    """Write the shape of the only counterpart; without one, remove the visual or collision."""
     element = element_at(problem)
     while element is not None and element.tag not in ("visual", "collision"):
         element = element.parent
@@ -200,5 +199,5 @@ def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
             change = Change("after", origin, blocks=(lines,))
         else:
             change = Change("first", element, blocks=(lines,))
-        return unsafe(f"give it the shape of the {other}", change)
-    return unsafe(f"take the empty <{element.tag}> out", remove_element(element))
+        return unsafe(f"write the shape of the {other}", change)
+    return unsafe(f"remove the empty <{element.tag}>", remove_element(element))

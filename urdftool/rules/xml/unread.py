@@ -1,4 +1,4 @@
-"""Which readers skip a number of a joint."""
+"""Find the readers that ignore a number of a joint."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _UNREAD_ATTRIBUTES = {
 
 
 def readers_without(element: Element, name: str) -> frozenset[str]:
-    """Name the readers that skip an attribute, among urdfdom, mujoco, pybullet and drake.
+    """Get the readers that ignore an attribute, among urdfdom, mujoco, pybullet and drake.
 
-    They depend on the type of the joint: nobody but MuJoCo reads the axis of a fixed joint, and a
+    They depend on the type of the joint: only MuJoCo reads the axis of a fixed joint, and a
     continuous joint has no range in MuJoCo.
 
     Args:
         element: An element of URDF.
-        name: One of its attributes that holds a number.
+        name: One of its attributes that contains a number.
     """
     tag = element.tag
     unread = _UNREAD.get(tag, frozenset()) | _UNREAD_ATTRIBUTES.get((tag, name), frozenset())
@@ -50,9 +50,9 @@ def effects_read(keys: Collection[str], element: Element, name: str) -> list[str
     """Select the effects of readers that read a number.
 
     Args:
-        keys: Keys of effects; the first reader of each stands for those that share its code.
+        keys: Keys of effects; the first reader of each represents those with the same code.
         element: An element of URDF.
-        name: One of its attributes that holds a number.
+        name: One of its attributes that contains a number.
     """
     unread = readers_without(element, name)
     return [key for key in keys if key.partition(" (")[0].partition(", ")[0] not in unread]

@@ -1,4 +1,4 @@
-"""The URDF version, and what needs a newer one."""
+"""Rules on the URDF version, and on features of later versions."""
 
 from __future__ import annotations
 
@@ -35,28 +35,25 @@ _LATER = ("acceleration", "deceleration", "jerk")
     ERROR,
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": (
-            "reject the robot: urdfdom 3 and 4 know version 1.0 only, urdfdom 6 knows 1.0, 1.1 "
+            "reject the robot: urdfdom 3 and 4 read version 1.0 only, urdfdom 6 reads 1.0, 1.1 "
             "and 1.2"
         ),
         "mujoco, pybullet, drake": "ignore the version",
     },
 )
 def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
-    """The robot says that it is of a URDF version that readers do not know.
+    """Readers do not support the URDF version of the robot.
 
-    urdfdom refuses a robot of a version it does not know, and the urdfdom of every released ROS
-    knows 1.0 alone. Without the attribute it is 1.0.
+    urdfdom rejects a robot with an unsupported version, and the urdfdom of every released ROS
+    supports only 1.0. The default is 1.0.
     """
     version = robot.version
     if version is None or version.strip() in ("1.0", "1") or is_unexpanded(version):
         return
     known = version.strip() in ("1.1", "1.2")
-    what = "is read by urdfdom 5.1 or 6 alone" if known else "does not exist"
+    what = "requires urdfdom 5.1 or 6" if known else "does not exist"
     uses_newer = known and next(_newer(robot, 1.0), None) is not None
-    if uses_newer:
-        remedy = "do without what is new in it, and write 1.0"
-    else:
-        remedy = "write 1.0, or leave it out"
+    remedy = "remove its new features, and write 1.0" if uses_newer else "write 1.0, or remove it"
     yield Problem(
         robot,
         f"URDF version '{version}' {what}; {remedy}",
@@ -75,14 +72,14 @@ _OF_LATER = {
     "pybullet, drake (a capsule in a visual)": "read it",
     "pybullet, drake (a capsule in a collision)": "read it",
     "mujoco (a capsule in a collision)": "reads it",
-    "urdfdom, gz, gazebo-classic (a quaternion)": "ignore it: the rotation is none",
+    "urdfdom, gz, gazebo-classic (a quaternion)": "ignore it: the rotation is the identity",
     "urdfdom, gz, gazebo-classic, mujoco, pybullet (a later limit)": "ignore it",
 }
 
 
 @unsupported_urdf_version.fix(UNSAFE)
 def write_version(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write 1.0, where nothing newer is used."""
+    """Write 1.0, if the robot has no features of later versions."""
     if problem.data["uses_newer"]:
         return None
     return unsafe('write version="1.0"', set_attribute(problem.element, "version", "1.0"))
@@ -93,11 +90,11 @@ def write_version(problem: Problem, context: FixContext) -> Proposal | None:
     effects=_OF_LATER,
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
-    """Something is used that URDF 1.0 does not have, and the robot is of version 1.0.
+    """The robot has a feature of a later URDF version.
 
-    A capsule and ``quat_xyzw`` came with 1.1, limits of acceleration and jerk with 1.2. Under 1.0
-    readers drop the link's shapes for a capsule, and ignore the others: the part is not turned.
-    A capsule of a robot that is written for another reader, such as Drake, is a remark.
+    Capsules and ``quat_xyzw`` require URDF 1.1, limits of acceleration and jerk 1.2. In a robot of
+    version 1.0, readers drop the shapes of a link with a capsule, and ignore the other features. A
+    capsule is an info in a robot for a different reader, such as Drake.
     """
     version = (robot.version or "1.0").strip()
     yield from _newer(robot, {"1.1": 1.1, "1.2": 1.2}.get(version, 1.0))
@@ -109,7 +106,7 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
         for element in known["capsule"]:
             yield Problem(
                 element,
-                f"{owner(element)} has a <capsule>, which URDF 1.0 does not have; "
+                f"{owner(element)} has a <capsule>, which is not in URDF 1.0; "
                 "for ROS and Gazebo, write a <cylinder> and two <sphere>s",
                 severity=INFO if is_for_another_reader(robot.element) else None,
                 effects=holding(_OF_LATER, _case_of(element)),
@@ -118,8 +115,7 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
             if "quat_xyzw" in element.attributes and "rpy" not in element.attributes:
                 yield Problem(
                     element,
-                    f"quat_xyzw in {owner(element)} is passed over by readers of URDF 1.0; "
-                    "write rpy",
+                    f"readers of URDF 1.0 ignore quat_xyzw in {owner(element)}; write rpy",
                     at=element.attribute_place("quat_xyzw"),
                     effects=holding(_OF_LATER, "a quaternion"),
                 )
@@ -129,8 +125,8 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
                 if name in element.attributes:
                     yield Problem(
                         element,
-                        f"{name} of {owner(element)} is passed over by readers of URDF "
-                        f"{version}; it came with 1.2",
+                        f"readers of URDF {version} ignore {name} of {owner(element)}, "
+                        "which requires 1.2",
                         at=element.attribute_place(name),
                         severity=INFO,
                         effects=holding(_OF_LATER, "a later limit"),
@@ -166,19 +162,19 @@ def write_rpy(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     ERROR,
     effects={
-        "urdfdom": "6 rejects the robot where it says version 1.1 or later; 3 and 4 take rpy",
+        "urdfdom": "6 rejects the robot if its version is 1.1 or later; 3 and 4 take rpy",
     },
 )
 def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
-    """An ``<origin>`` has a rotation twice: as ``rpy`` and as ``quat_xyzw``.
+    """An ``<origin>`` has two rotations: ``rpy`` and ``quat_xyzw``.
 
-    Readers that know both refuse it, the others take ``rpy``.
+    Readers that support both reject them, other readers take ``rpy``.
     """
     for element in census(robot).known["origin"]:
         if "rpy" in element.attributes and "quat_xyzw" in element.attributes:
             yield Problem(
                 element,
-                f"an <origin> of {owner(element)} has both rpy and quat_xyzw; write rpy alone",
+                f"<origin> of {owner(element)} has both rpy and quat_xyzw; write only rpy",
                 at=element.attribute_place("quat_xyzw"),
             )
 
@@ -201,11 +197,11 @@ def keep_rpy(problem: Problem, context: FixContext) -> Proposal | None:
     effects={"ros2 run … -p robot_description:=…": "couldn't parse parameter override rule"},
 )
 def colon_space_in_comment(document: Document, description: Description) -> Iterator[Problem]:
-    """A comment holds a colon with a blank behind it.
+    """A comment contains a colon with a space after it.
 
-    ROS 2 reads a parameter on its command line as YAML, and there that is a key and a value: the
-    node does not start, with an error that does not mention the comment. A launch file that wraps
-    the description in ``ParameterValue(…, value_type=str)`` is safe.
+    ROS 2 reads a parameter on the command line as YAML, where this is a key and a value: the node
+    does not start, and the error does not mention the comment. A launch file with
+    ``ParameterValue(…, value_type=str)`` avoids this.
     """
     if document.file is not description.files[0]:
         return
@@ -214,7 +210,7 @@ def colon_space_in_comment(document: Document, description: Description) -> Iter
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
             document.root,
-            f"a comment{more} holds ': ', which ROS 2 may take for YAML; write ' - '",
+            f"comment{more} contains ': ', which ROS 2 may read as YAML; write ' - '",
             at=Place(document.file, found[0].start, found[0].end),
         )
 

@@ -1,4 +1,4 @@
-"""Elements and attributes that URDF does not have."""
+"""Rules on unknown elements and attributes."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from .owner import owner
 from .vocabulary_table import DIALECT_ATTRIBUTES, VOCABULARY, attributes_of, census, meant
 
 _ELSEWHERE = {
-    ("robot", "inertial"): "it belongs into a <link>",
-    ("robot", "visual"): "it belongs into a <link>",
-    ("robot", "collision"): "it belongs into a <link>",
-    ("robot", "origin"): "a robot is placed by the joint of its root link, or where it is spawned",
+    ("robot", "inertial"): "write it inside a <link>",
+    ("robot", "visual"): "write it inside a <link>",
+    ("robot", "collision"): "write it inside a <link>",
+    ("robot", "origin"): "write it in the joint of the root link, or set the pose when spawning",
     ("robot", "plugin"): "write it inside a <gazebo>",
-    ("robot", "model"): "it is SDF; links and joints stand directly in <robot>",
-    ("link", "pose"): "it is SDF; a link sits where the <origin> of the joint above it says",
-    ("link", "origin"): "a link sits where the <origin> of the joint above it says",
+    ("robot", "model"): "it is SDF; in URDF links and joints are children of <robot>",
+    ("link", "pose"): "it is SDF; in URDF the <origin> of the parent joint places the link",
+    ("link", "origin"): "the <origin> of the parent joint places the link",
     ("link", "mass"): "write it inside <inertial>",
     ("link", "inertia"): "write it inside <inertial>",
     ("link", "geometry"): "write it inside <visual>, <collision> or both",
@@ -67,7 +67,7 @@ _ELSEWHERE = {
     ("material", "ambient"): "it is SDF; URDF has <color rgba=…>",
     ("material", "diffuse"): "it is SDF; URDF has <color rgba=…>",
     ("material", "specular"): "it is SDF; URDF has <color rgba=…>",
-    ("material", "script"): 'Gazebo\'s materials go inside <gazebo reference="the link">',
+    ("material", "script"): 'write materials of Gazebo inside <gazebo reference="the link">',
     ("joint", "pose"): "it is SDF; URDF has <origin>",
     ("joint", "joint_properties"): 'URDF has <dynamics damping="…" friction="…"/>',
     ("joint", "joint_limits"): 'URDF has <limit lower="…" upper="…" effort="…" velocity="…"/>',
@@ -76,17 +76,17 @@ _ELSEWHERE = {
     ("joint", "physics"): 'write it inside <gazebo reference="the joint">',
     ("joint", "actuator"): "write it inside a <transmission>",
     ("axis", "xyz"): 'it is SDF; URDF has <axis xyz="x y z"/>',
-    ("axis", "limit"): "it is SDF; in URDF <limit> stands beside <axis>",
-    ("axis", "dynamics"): "it is SDF; in URDF <dynamics> stands beside <axis>",
+    ("axis", "limit"): "it is SDF; in URDF <limit> is next to <axis>",
+    ("axis", "dynamics"): "it is SDF; in URDF <dynamics> is next to <axis>",
     ("limit", "lower"): "it is SDF; in URDF it is an attribute",
     ("limit", "upper"): "it is SDF; in URDF it is an attribute",
     ("limit", "effort"): "it is SDF; in URDF it is an attribute",
     ("limit", "velocity"): "it is SDF; in URDF it is an attribute",
 }
-"""Where the thing meant goes, by parent and tag."""
+"""Remedy for a misplaced element, by parent and tag."""
 
 _NOT_LOST = frozenset((("collision", "material"),))
-"""Elements whose loss changes nothing."""
+"""Elements that readers ignore without a loss."""
 
 _OTHER_NAMES = {
     ("origin", "pos"): "xyz",
@@ -113,10 +113,10 @@ _OTHER_NAMES = {
     ("limit", "min"): "lower",
     ("limit", "max"): "upper",
 }
-"""What another name of an attribute stands for, by element and name."""
+"""Attribute that a wrong name stands for, by element and name."""
 
 _INSTEAD = {
-    ("axis", "rpy"): "a direction has no rotation; write the turned direction in xyz",
+    ("axis", "rpy"): "an axis has no rotation; write the rotated axis in xyz",
     ("origin", "x"): 'write xyz="x y z"',
     ("box", "x"): 'write size="x y z"',
     ("box", "length"): 'write size="x y z"',
@@ -125,23 +125,23 @@ _INSTEAD = {
     ("color", "rgb"): "write rgba, with a fourth number for opacity",
     ("material", "rgba"): 'write <color rgba="…"/> inside it',
     ("material", "color"): 'write <color rgba="…"/> inside it',
-    ("limit", "k_velocity"): "it belongs to <safety_controller>",
-    ("limit", "k_position"): "it belongs to <safety_controller>",
-    ("limit", "soft_lower_limit"): "it belongs to <safety_controller>",
-    ("limit", "soft_upper_limit"): "it belongs to <safety_controller>",
-    ("limit", "damping"): "it belongs to <dynamics>",
-    ("limit", "friction"): "it belongs to <dynamics>",
+    ("limit", "k_velocity"): "write it in <safety_controller>",
+    ("limit", "k_position"): "write it in <safety_controller>",
+    ("limit", "soft_lower_limit"): "write it in <safety_controller>",
+    ("limit", "soft_upper_limit"): "write it in <safety_controller>",
+    ("limit", "damping"): "write it in <dynamics>",
+    ("limit", "friction"): "write it in <dynamics>",
     ("joint", "parent"): 'write <parent link="…"/> inside it',
     ("joint", "child"): 'write <child link="…"/> inside it',
-    ("inertia", "mass"): 'write <mass value="…"/> beside it',
+    ("inertia", "mass"): 'write <mass value="…"/> next to it',
 }
-"""What to write instead of an attribute, by element and name."""
+"""Remedy for a wrong attribute, by element and name."""
 
 _XACRO = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
-"""Tags that are xacro's where they lack their prefix."""
+"""Tags of xacro, here without their prefix."""
 
 _REMARKS = frozenset(("name", "id", "comment", "note", "description"))
-"""Attributes that say something to people; nothing is lost with them."""
+"""Attributes that document an element; readers lose nothing."""
 
 _REDUNDANT = ("iyx", "izx", "izy")
 
@@ -152,10 +152,10 @@ _WITH_DEFAULT = {
     "mesh": ("scale",),
     "mimic": ("multiplier", "offset"),
 }
-"""Attributes that may be left out, by element."""
+"""Optional attributes, by element."""
 
 _FURTHER = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
-"""Attributes that few robots have, by element."""
+"""Rarely used attributes, by element."""
 
 
 @rule(
@@ -168,18 +168,18 @@ _FURTHER = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)
     group="robot",
 )
 def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
-    """URDF has no such element there.
+    """An element is not in URDF at this place.
 
-    Readers look up the children they know by name and pass over all others without a word. A
-    misspelt ``<colision>`` or an ``<inertia>`` outside ``<inertial>`` is simply gone: the link
-    falls through the floor, or weighs nothing. Tags of SDF in a URDF have the same fate. An element
-    that resembles none of URDF may belong to another program, and is a remark.
+    Readers ignore unknown elements without a message. With a misspelled ``<colision>`` the link
+    falls through the ground; with an ``<inertia>`` outside ``<inertial>`` it has no mass. SDF
+    elements in a URDF are ignored too. An element that is not similar to any of URDF may be for a
+    different program; it is an info.
     """
-    strangers = census(robot).strangers
-    in_xacro = bool(strangers) and description.expansion is not None
+    unknown = census(robot).unknown
+    in_xacro = bool(unknown) and description.expansion is not None
     of_xacro = _XACRO | macro_names(description) if in_xacro else frozenset()
-    mere: dict[tuple[str, str], list[Element]] = {}
-    for element in strangers:
+    other: dict[tuple[str, str], list[Element]] = {}
+    for element in unknown:
         parent = element.parent
         if parent is None or parent.tag == "dynamics" or element.tag in of_xacro:
             continue
@@ -188,23 +188,23 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         word = meant(element.tag, VOCABULARY[parent.tag].children)
         instead = _ELSEWHERE.get((parent.tag, element.tag))
         if (parent.tag, element.tag) in _NOT_LOST or (word is None and not instead):
-            mere.setdefault((parent.tag, element.tag), []).append(element)
+            other.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
             what = f"<{element.tag}> does not belong in {_the(parent)}; {instead}"
             yield Problem(element, what, alike=(parent.tag, element.tag))
         elif word is not None and word != element.tag.lower():
             what = f"{_the(parent)} has no <{element.tag}>; write <{word}>"
             yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
-    for kind, elements in mere.items():
+    for kind, elements in other.items():
         what = f"<{kind[1]}> does not belong in {_the(elements[0].parent)}{_more(elements)}"
-        why = _ELSEWHERE.get(kind, "URDF readers pass over it")
+        why = _ELSEWHERE.get(kind, "URDF readers ignore it")
         yield Problem(
             elements[0], f"{what}; {why}", severity=INFO, alike=(*kind, len(elements) > 1)
         )
 
 
 def _is_misplaced(element: Element, geometry: Element) -> bool:
-    """Whether a stranger in a ``<geometry>`` is not taken for its shape by any reader."""
+    """Tell whether an unknown element in a ``<geometry>`` is not read as a shape."""
     return element.tag in VOCABULARY and element is not geometry.children[0]
 
 
@@ -213,14 +213,14 @@ _OF_ATTRIBUTE = {
         "ignore it, without a message"
     ),
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio (one with a default is meant)": (
-        "take the default of the attribute that was meant"
+        "take the default of the intended attribute"
     ),
 }
 
 
 @unknown_element.fix(BOTH)
 def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the known word that is nearest, or what URDF has for an element of SDF."""
+    """Write the element with the most similar name, or the URDF form of an SDF element."""
     element = problem.element
     parent = element.parent
     if parent is None:
@@ -242,16 +242,16 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     group="robot",
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
-    """URDF has no such attribute on that element.
+    """An attribute is not in URDF for this element.
 
-    Readers ignore it without a message and take the default of the attribute that was meant. A
-    misspelt ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a
-    length. The rotation of an ``<axis>`` by 0 is not reported: nothing is lost with it. An
-    attribute of another program is a remark where the element has all those of URDF that it
-    requires, such as the further parameters of a ``<dynamics>`` or a ``<limit>``.
+    Readers ignore it without a message, and take the default of the intended attribute: a
+    misspelled ``uper`` makes the upper limit 0, and a cylinder with ``height`` has no length. A
+    zero rotation of an ``<axis>`` is not reported, because it has no effect. An attribute for a
+    different program is an info if the element has all required attributes, such as an additional
+    parameter of a ``<dynamics>`` or a ``<limit>``.
     """
     nothing: frozenset[str] = frozenset()
-    mere: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
+    other: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
     for tag, elements in census(robot).known.items():
         known = {*attributes_of(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
         for element in elements:
@@ -263,15 +263,15 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
                 is_info = severity is INFO
                 names = tuple(n for n in strange if _is_remark(element, n) == is_info)
                 if names:
-                    mere.setdefault((tag, names, severity), []).append(element)
-    for (_, names, severity), elements in mere.items():
+                    other.setdefault((tag, names, severity), []).append(element)
+    for (_, names, severity), elements in other.items():
         first = elements[0]
         which = ", ".join(f"'{name}'" for name in names)
         words, them = ("attributes", "them") if len(names) > 1 else ("attribute", "it")
         yield Problem(
             first,
-            f"{_the(first)}{_more(elements)} has the {words} {which}, which URDF does not know; "
-            f"readers pass over {them}",
+            f"{_the(first)}{_more(elements)} has the unknown {words} {which}; "
+            f"URDF readers ignore {them}",
             at=first.attribute_place(names[0]),
             severity=severity,
             effects=holding(_OF_ATTRIBUTE),
@@ -280,7 +280,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
 
 
 def _is_remark(element: Element, name: str) -> bool:
-    """Whether nothing is lost with an attribute that URDF does not know."""
+    """Tell whether readers lose nothing if they ignore an attribute."""
     if name in _REMARKS:
         return True
     tag = element.tag
@@ -297,13 +297,13 @@ def _strange_attributes(element: Element, known: set[str]) -> Iterator[str]:
 
 
 def _is_zero_turn(element: Element, name: str) -> bool:
-    """Whether an attribute is the rotation of an axis by 0, which changes nothing if it is read."""
+    """Tell whether an attribute is a zero rotation of an axis, which has no effect."""
     text = element.attributes[name]
     return (element.tag, name) == ("axis", "rpy") and set(text) <= set("+-0. ")
 
 
 def _is_mere(element: Element, name: str) -> bool:
-    """Whether nobody can say what was meant by an attribute."""
+    """Tell whether the intended attribute is unknown."""
     kind = (element.tag, name)
     return kind not in _INSTEAD and kind not in _OTHER_NAMES and _word(element, name) is None
 
@@ -338,13 +338,13 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
 
 @unknown_attribute.fix(BOTH)
 def write_known_attribute(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the known attribute that is nearest."""
+    """Write the attribute with the most similar name."""
     found = attribute_at(problem)
     if found is None:
         return None
     element, name = found
     if (element.tag, name) == ("axis", "rpy"):
-        return safe("take it away: a direction has no rotation", remove_attribute(element, name))
+        return safe("remove it: an axis has no rotation", remove_attribute(element, name))
     free = [word for word in attributes_of(element.tag) if word not in element.attributes]
     direct = {"pos", "position", "rot", "rotation", "orientation", "mass", "min", "max", "height"}
     direct |= {"dimensions", "uri", "file", "url", "name", "value"}
@@ -367,12 +367,12 @@ def write_known_attribute(problem: Problem, context: FixContext) -> Proposal | N
     },
 )
 def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
-    """An element, an attribute or a joint type differs from URDF's by upper and lower case alone.
+    """An element, attribute or joint type differs from that of URDF only in case.
 
-    URDF's words are in lower case and readers compare them letter by letter. A joint of type
-    ``Revolute`` gets the whole robot rejected; an ``<Inertial>`` is passed over in silence.
+    URDF is in lower case, and readers compare names exactly. They reject the robot for a joint of
+    type ``Revolute``, and ignore ``<Inertial>`` without a message.
     """
-    for element in census(robot).strangers:
+    for element in census(robot).unknown:
         parent = element.parent
         lower = element.tag.lower()
         if parent is None or parent.tag == "geometry" or lower == element.tag:
@@ -393,7 +393,7 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
         if joint.type != joint.type.lower() and joint.type.lower() in _TYPES:
             yield Problem(
                 joint,
-                f"joint '{joint.name}' is of type '{joint.type}'; write {joint.type.lower()}",
+                f"joint '{joint.name}' has type '{joint.type}'; write {joint.type.lower()}",
                 at=joint.element.attribute_place("type"),
             )
 
@@ -406,7 +406,7 @@ def _more(elements: list[Element]) -> str:
 
 
 def _the(element: Element | None) -> str:
-    """An element in words: ``link 'arm'``, or ``<inertial> of link 'arm'``."""
+    """Describe an element: ``link 'arm'``, or ``<inertial> of link 'arm'``."""
     if element is None:
         return "the document"
     if element.tag in ("link", "joint"):
@@ -418,8 +418,8 @@ def _the(element: Element | None) -> str:
 def write_lower_case(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the keyword in lower case.
 
-    Every reader rejects a joint type, a parent or a child in another case. Of all other words they
-    ignore what is written, and read it afterwards.
+    The fix is safe for a joint type, a parent or a child, because every reader rejects the robot
+    without it. It is unsafe for other keywords, which readers ignore before the fix.
     """
     found = attribute_at(problem)
     if found is not None:

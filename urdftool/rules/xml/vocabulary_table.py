@@ -1,4 +1,4 @@
-"""What URDF has: its elements, their attributes and children, and which attributes are numbers."""
+"""Elements of URDF, with their attributes and children, and the types of attributes."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class Kind(NamedTuple):
     """An element of URDF.
 
     Attributes:
-        children: Tags of the elements it may hold.
-        numbers: How many numbers each numeric attribute takes.
+        children: Tags of the elements that it may contain.
+        numbers: Count of numbers in each numeric attribute.
         words: The other attributes.
-        many: Children of which there may be several; of the others readers take the first.
+        many: Children that may be repeated; of others readers take the first.
     """
 
     children: tuple[str, ...] = ()
@@ -112,7 +112,7 @@ DIALECTS: dict[str, frozenset[str]] = {
     "geometry": frozenset(("plane", "cdf", "ellipsoid", "cone", "torus", "convex")),
     "joint": frozenset(("hardwareInterface",)),
 }
-"""Elements that URDF does not have and some reader does; what is in them is theirs."""
+"""Elements that are not in URDF but in a reader's dialect; their contents are not checked."""
 
 DIALECT_ATTRIBUTES: dict[str, frozenset[str]] = {
     "robot": frozenset(("xmlns",)),
@@ -121,29 +121,29 @@ DIALECT_ATTRIBUTES: dict[str, frozenset[str]] = {
     "joint": frozenset(("dont_collapse",)),
     "limit": frozenset(("twist",)),
 }
-"""The same for attributes."""
+"""Attributes that are not in URDF but in a reader's dialect, by element."""
 
 
 class Census(NamedTuple):
-    """The elements of a robot, sorted.
+    """The elements of a robot by kind.
 
     Attributes:
         known: Elements of URDF by tag.
-        strangers: Elements where URDF has none of that name; what is in them is not looked at.
+        unknown: Elements that are not in URDF at their place; their contents are not checked.
     """
 
     known: dict[str, list[Element]]
-    strangers: list[Element]
+    unknown: list[Element]
 
 
 def census(robot: Robot) -> Census:
-    """The elements of a robot as written."""
+    """Sort the elements of a robot as written."""
     return robot.memo.get("census", lambda: _census(robot.element))
 
 
 def _census(root: Element) -> Census:
     known: dict[str, list[Element]] = {tag: [] for tag in VOCABULARY}
-    strangers = []
+    unknown = []
     todo = [root]
     nothing: frozenset[str] = frozenset()
     while todo:
@@ -159,17 +159,17 @@ def _census(root: Element) -> Census:
             if child.tag in children:
                 continue
             if ":" not in child.tag and (child.tag not in dialect or _is_of_sdf(child)):
-                strangers.append(child)
-    return Census(known, strangers)
+                unknown.append(child)
+    return Census(known, unknown)
 
 
 def _is_of_sdf(element: Element) -> bool:
-    """Tell whether an element is SDF's one of a name that PyBullet reads in URDF."""
+    """Tell whether an element is SDF, although PyBullet has one with the same name."""
     return element.tag == "specular" and "rgb" not in element.attributes
 
 
 def is_for_another_reader(root: Element) -> bool:
-    """Tell whether a robot uses what Drake or MuJoCo reads, and readers of plain URDF do not."""
+    """Tell whether a robot has elements of Drake or MuJoCo, which other readers ignore."""
     if "xmlns:drake" in root.attributes or root.child("mujoco") is not None:
         return True
     shapes = DIALECTS["geometry"]
@@ -181,16 +181,16 @@ def is_for_another_reader(root: Element) -> bool:
 
 
 def attributes_of(tag: str) -> tuple[str, ...]:
-    """The attributes an element of URDF may have."""
+    """Get the attributes of a URDF element."""
     kind = VOCABULARY[tag]
     return (*kind.words, *kind.numbers)
 
 
 def meant(word: str, words: Iterable[str]) -> str | None:
-    """Which of some words a misspelt one stands for; None where none or several are near.
+    """Find the word that a misspelled one stands for; None if none or several are similar.
 
-    Near is one slip in a word of up to four letters and two in a longer one: a letter too many,
-    missing, wrong, or two swapped. Upper and lower case count the same.
+    Similar is one edit in a word of up to four letters and two in a longer one: an added, missing,
+    wrong letter or two swapped. Case is ignored.
     """
     lower = word.lower()
     found = [(_slips(lower, candidate.lower()), candidate) for candidate in words]
@@ -201,7 +201,7 @@ def meant(word: str, words: Iterable[str]) -> str | None:
 
 
 def _slips(a: str, b: str) -> int:
-    """How many slips apart two words are (optimal string alignment); 9 where it is many."""
+    """Compute the edit distance of two words (optimal string alignment); 9 if it is large."""
     if abs(len(a) - len(b)) > 2:
         return 9
     before: list[int] = []
@@ -218,7 +218,7 @@ def _slips(a: str, b: str) -> int:
 
 
 def misspelt_attributes(element: Element) -> dict[str, str]:
-    """The attributes of an element that URDF does not have, with those they stand for."""
+    """Find misspelled attributes of an element, with the correct names."""
     known = attributes_of(element.tag)
     free = [name for name in known if name not in element.attributes]
     strange = [name for name in element.attributes if name not in known]
@@ -226,7 +226,7 @@ def misspelt_attributes(element: Element) -> dict[str, str]:
 
 
 def misspelt_children(element: Element) -> dict[str, str]:
-    """The tags in an element that URDF does not have there, with those they stand for."""
+    """Find misspelled tags in an element, with the correct names."""
     known = VOCABULARY[element.tag].children
     strange = {child.tag for child in element.children if child.tag not in known}
     strange -= DIALECTS.get(element.tag, frozenset())
