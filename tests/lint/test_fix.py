@@ -339,7 +339,7 @@ def test_the_report_for_people_says_how_to_apply_it(write, urdftool):
     )
     path = write("r.urdf", ROBOT.format(axis="0 0 1", dynamics="<dynamics/>"))
     words = ("--select", "empty-dynamics", "--no-cache")
-    assert "= fix: take the empty <dynamics> out (--fix)\n" in urdftool("lint", path, *words).out
+    assert "= fix: remove the empty <dynamics> (--fix)\n" in urdftool("lint", path, *words).out
     assert "Fix: safe (--fix)" in urdftool("lint", "--explain", "empty-dynamics").out
     assert "[fix: safe or unsafe]" in urdftool("lint", "--list-rules").out
 

@@ -101,7 +101,7 @@ def _broken_for(monkeypatch, wrong):
                 "break it",
                 replace_element(dynamics.element, ("<dynamics damping='x' friction='y'/>",)),
             )
-        return safe("take it out", remove_element(dynamics.element))
+        return safe("remove it", remove_element(dynamics.element))
 
     monkeypatch.setattr(get_rule("empty-dynamics"), "make_fix", fixer)
 

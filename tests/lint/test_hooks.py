@@ -126,7 +126,7 @@ def test_the_hooks_of_the_page_run_in_a_repository_that_had_none(write):
     robot.write_text(robot.read_text().replace("<limit effort", "<limit efort"))
     done = run("git", *person, "commit", "-qam", "second")
     assert done.returncode == 1
-    assert "has no attribute 'efort'; write effort" in done.stderr
+    assert "has the unknown attribute 'efort'; write effort" in done.stderr
 
 
 def test_the_workflow_of_the_page_is_one():

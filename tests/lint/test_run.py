@@ -188,7 +188,7 @@ def test_list_and_explain(urdftool):
     listed = urdftool("lint", "--list-rules").out
     assert "zero-axis" in listed
     page = urdftool("lint", "--explain", "zero-axis").out
-    assert "A moving joint's axis is the zero vector." in page
+    assert "The axis of a moving joint is the zero vector." in page
     assert "Threshold: shortest" in page
 
 

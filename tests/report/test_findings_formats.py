@@ -43,7 +43,7 @@ def test_sarif_has_rules_places_and_the_macro_chain(lint, xacro_file):
     (rule,) = run["tool"]["driver"]["rules"]
     assert rule["id"] == "zero-axis"
     assert rule["defaultConfiguration"]["level"] == "error"
-    assert "A moving joint's axis is the zero vector." in rule["help"]["text"]
+    assert "The axis of a moving joint is the zero vector." in rule["help"]["text"]
     (result,) = run["results"]
     assert (result["ruleId"], result["ruleIndex"], result["level"]) == ("zero-axis", 0, "error")
     (location,) = result["locations"]

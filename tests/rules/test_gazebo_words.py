@@ -63,7 +63,7 @@ def test_misspelt_parameter_of_a_known_plugin(tmp_path):
         "<plugin name='d' filename='libgazebo_ros_diff_drive.so'><alwasyOn>1</alwasyOn></plugin>"
     )
     assert _found(tmp_path, plugin) == [
-        ("warning", "plugin 'd' has no <alwasyOn>; write <alwaysOn>")
+        ("warning", "plugin 'd' has the unknown parameter <alwasyOn>; write <alwaysOn>")
     ]
 
 

@@ -40,7 +40,7 @@ def test_what_slows_a_leader_slows_its_followers(tmp_path):
     )
     for other in ("", mimic.format("nobody")):
         (text,) = _messages(tmp_path, robot + finger.format(other), "missing-dynamics", "mujoco")
-        assert text.startswith("'follow' has")
+        assert text.startswith("joint 'follow' has")
 
 
 def test_of_two_soft_limits_the_one_beyond_is_named(tmp_path):
@@ -121,13 +121,15 @@ def test_both_frictions_of_a_block_are_one_finding(tmp_path):
         return _messages(tmp_path, _joint("continuous") + block, rule, "gazebo-classic")
 
     assert said("<mu1>100</mu1><mu2>50</mu2>") == [
-        "mu1 is 100 and mu2 is 50; rubber on concrete has about 1"
+        "mu1 of 'arm' is 100 and mu2 is 50; rubber on concrete has about 1"
     ]
-    assert said("<mu1>1</mu1><mu2>50</mu2>") == ["mu2 is 50; rubber on concrete has about 1"]
+    assert said("<mu1>1</mu1><mu2>50</mu2>") == [
+        "mu2 of 'arm' is 50; rubber on concrete has about 1"
+    ]
     assert said("<mu1>-1</mu1><mu2>50</mu2><kp>0</kp>") == [
-        "mu1 is -1; a friction cannot be below 0",
-        "mu2 is 50; rubber on concrete has about 1",
-        "kp is 0, so contacts do not support the link; the default is 1e12",
+        "mu1 of 'arm' is -1; a friction cannot be below 0",
+        "mu2 of 'arm' is 50; rubber on concrete has about 1",
+        "kp of 'arm' is 0, so contacts do not support the link; the default is 1e12",
     ]
 
 
@@ -137,9 +139,9 @@ def test_an_old_name_beside_the_new_one_is_to_be_removed(tmp_path):
         rule = "deprecated-cfm-damping"
         return _messages(tmp_path, _joint("continuous") + block, rule, "gazebo-classic")
 
-    assert said("") == ["cfmDamping is now called implicitSpringDamper; write that"]
+    assert said("") == ["cfmDamping is deprecated; write implicitSpringDamper"]
     assert said("<implicitSpringDamper>1</implicitSpringDamper>") == [
-        "cfmDamping is now called implicitSpringDamper, which the block has too; remove it"
+        "cfmDamping is deprecated, and the block has implicitSpringDamper; remove it"
     ]
 
 

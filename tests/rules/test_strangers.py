@@ -29,7 +29,9 @@ def test_attributes_nobody_reads_are_one_finding_of_all_their_elements(tmp_path)
 def test_a_misspelt_attribute_is_told_at_each_place_for_each_is_mended(tmp_path):
     found = messages(tmp_path, '<dynamics dampng="0.1"/>', "unknown-attribute")
     assert [line for line, _ in found] == [5, 8, 11]
-    assert found[0][1] == "<dynamics> of joint 'j0' has no attribute 'dampng'; write damping"
+    assert (
+        found[0][1] == "<dynamics> of joint 'j0' has the unknown attribute 'dampng'; write damping"
+    )
 
 
 def test_a_remark_is_told_apart_from_what_is_lost(tmp_path):

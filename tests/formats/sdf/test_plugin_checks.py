@@ -27,7 +27,7 @@ def test_a_plugin_that_cannot_work_is_a_warning_with_its_place(urdftool, write):
     assert done.code == 0
     assert "r.urdf:7:7: warning: <left_joint> of plugin" in done.err
     assert "[plugin-unknown-entity]" in done.err
-    assert "has no <wheel_seperation>; write <wheel_separation> [unknown-extension]" in done.err
+    assert "has the unknown parameter <wheel_seperation>; write <wheel_separation>" in done.err
 
 
 def test_strict_refuses_it(urdftool, write, tmp_path):

@@ -60,7 +60,7 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                     keys.append("gazebo_ros_control (loaded)")
             yield Problem(
                 transmission.element,
-                f"{called(transmission)} drives joint '{joint.name}', which is fixed",
+                f"{called(transmission)} drives joint '{joint.name}', which is fixed; remove it",
                 at=joint.element.attribute_place("name"),
                 severity=None if len(keys) > 1 else WARNING,
                 effects=keys,

@@ -108,8 +108,7 @@ def _against(left: Wheel, right: Wheel, to_the_left: float, driver: str) -> Prob
     return Problem(
         wrong.joint,
         f"axes of '{left.joint.name}' and '{right.joint.name}' point in opposite directions, so "
-        f"{driver} turns the robot in place of moving ahead; reverse the axis of "
-        f"'{wrong.joint.name}'",
+        f"{driver} turns the robot on the spot; reverse the axis of '{wrong.joint.name}'",
         at=wrong.joint.axis or wrong.joint,
     )
 

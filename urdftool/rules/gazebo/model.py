@@ -45,7 +45,7 @@ def robot_level_static(robot: Robot) -> Iterator[Problem]:
             if robot.moving_joints:
                 yield Problem(
                     block.element,
-                    f"the model is static, so none of its {len(robot.moving_joints)} joints moves; "
+                    "the model is static, so no joint moves; "
                     "fix the base to a link 'world' instead",
                     at=child,
                 )
@@ -174,7 +174,7 @@ def missing_control_plugin(
     if pair is not None:
         joints = [pair.left, pair.right]
     names = quoted(joint.name for joint in joints)
-    verb = "move" if len(joints) > 1 else "moves"
+    which, verb = ("joints", "move") if len(joints) > 1 else ("joint", "moves")
     if pair is None:
         remedy = "one, such as ros2_control or a joint state publisher"
     else:
@@ -188,7 +188,7 @@ def missing_control_plugin(
     data: dict[str, object] = {"joints": [joint.name for joint in joints]}
     if pair is not None:
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
-    message = f"{names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
+    message = f"{which} {names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
     yield Problem(robot, message, data=data)
 
 

@@ -206,7 +206,8 @@ def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
         if right and plugin.name and name != right and name != right.removeprefix("gz::sim::"):
             yield Problem(
                 plugin.element,
-                f"the class in '{plugin.filename}' is '{right}', not '{plugin.name}'; write it",
+                f"the class in '{plugin.filename}' is '{right}', not '{plugin.name}'; write it "
+                "as the name",
                 at=plugin.element.attribute_place("name"),
                 data={"class": right},
             )

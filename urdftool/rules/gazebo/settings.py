@@ -42,10 +42,14 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
     for block in robot.gazebo:
         for child in block.element.all("cfmDamping"):
             has_both = block.element.child("implicitSpringDamper") is not None
-            remedy = "which the block has too; remove it" if has_both else "write that"
+            remedy = (
+                ", and the block has implicitSpringDamper; remove it"
+                if has_both
+                else "; write implicitSpringDamper"
+            )
             yield Problem(
                 block.element,
-                f"cfmDamping is now called implicitSpringDamper{',' if has_both else ';'} {remedy}",
+                f"cfmDamping is deprecated{remedy}",
                 at=child,
             )
 

@@ -240,18 +240,20 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
             if child.tag != "kp" and value > highest and meant:
                 continue
             reported.add((child.tag, value))
-            wrong = f"{child.tag} is {value:g}"
+            effect = ""
             if value < 0:
                 why = (
                     "it cannot be below 0" if child.tag == "kp" else "a friction cannot be below 0"
                 )
             elif child.tag == "kp" and value == 0:
-                wrong, why = "kp is 0, so contacts do not support the link", "the default is 1e12"
+                effect, why = ", so contacts do not support the link", "the default is 1e12"
             elif child.tag != "kp" and value > highest:
                 why = "rubber on concrete has about 1"
             else:
                 continue
             _, children, wrongs = found.setdefault((child.tag == "kp", value < 0), (why, [], []))
+            of = f" of '{block.reference}'" if block.reference and not children else ""
+            wrong = f"{child.tag}{of} is {value:g}{effect}"
             children.append(child)
             wrongs.append(wrong)
         for (_, is_negative), (why, children, wrongs) in found.items():

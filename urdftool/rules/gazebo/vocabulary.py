@@ -132,7 +132,7 @@ def _in_sdf(element: Element) -> Iterator[Problem]:
             if near:
                 yield Problem(
                     element,
-                    f"<{element.tag}> has no <{child.tag}>; write <{near}>",
+                    f"<{element.tag}> has the unknown element <{child.tag}>; write <{near}>",
                     at=child,
                     severity=ERROR,
                     data={"write": near},
@@ -153,7 +153,8 @@ def _in_plugin(plugin: Element) -> Iterator[Problem]:
         if near and fold(near) != fold(tag) and not _variant(tag, near):
             yield Problem(
                 plugin,
-                f"plugin '{plugin.get('name') or library}' has no <{tag}>; write <{near}>",
+                f"plugin '{plugin.get('name') or library}' has the unknown parameter <{tag}>; "
+                f"write <{near}>",
                 at=child,
                 data={"write": near},
             )

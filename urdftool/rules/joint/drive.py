@@ -410,10 +410,10 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
     ]
     if free:
         names = quoted(joint.name for joint in free)
-        verb = "has" if len(free) == 1 else "have"
+        which, verb = ("joint", "has") if len(free) == 1 else ("joints", "have")
         yield Problem(
             free[0],
-            f"{names} {verb} neither damping nor friction; "
+            f"{which} {names} {verb} neither damping nor friction; "
             'write <dynamics damping="…" friction="…"/>',
             data={"joints": [joint.name for joint in free]},
         )

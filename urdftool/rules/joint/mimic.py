@@ -226,7 +226,8 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
             yield Problem(
                 joint,
                 f"mimic joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
-                f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}",
+                f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}; "
+                f"reduce the limits of '{leader.name}'",
                 at=joint.limit.element.attribute_place(name),
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )

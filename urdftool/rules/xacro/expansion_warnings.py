@@ -154,7 +154,7 @@ def unknown_xacro_attribute(description: Description) -> Iterator[Problem]:
         if names[0] in spans:
             at = Place(place.file, *spans[names[0]], place.calls)
         yield Problem(
-            root, f"<{match[1]}> has no attribute '{match[2]}', so xacro ignores it", at=at
+            root, f"<{match[1]}> has the unknown attribute '{match[2]}', which xacro ignores", at=at
         )
 
 

@@ -71,10 +71,10 @@ def content_before_declaration() -> tuple[Problem, ...]:
 
 
 _BELONGS = {
-    "sdf": "it is SDF; check it with 'gz sdf --check'",
-    "mujoco": "it is MJCF; check it with the MuJoCo compiler",
-    "launch": "it is a launch file",
-    "package": "it is a package manifest",
+    "sdf": "check SDF files with 'gz sdf --check'",
+    "mujoco": "check MJCF files with the MuJoCo compiler",
+    "launch": "a launch file is not a robot description",
+    "package": "a package manifest is not a robot description",
     "gazebo": "write it inside a <robot>",
 }
 

@@ -32,9 +32,9 @@ _ELSEWHERE = {
     ("robot", "collision"): "write it inside a <link>",
     ("robot", "origin"): "write it in the joint of the root link, or set the pose when spawning",
     ("robot", "plugin"): "write it inside a <gazebo>",
-    ("robot", "model"): "it is SDF; in URDF links and joints are children of <robot>",
-    ("link", "pose"): "it is SDF; in URDF the <origin> of the parent joint places the link",
-    ("link", "origin"): "the <origin> of the parent joint places the link",
+    ("robot", "model"): "write links and joints directly in <robot>, not in an SDF <model>",
+    ("link", "pose"): "write the pose in the <origin> of the parent joint",
+    ("link", "origin"): "write it in the <origin> of the parent joint",
     ("link", "mass"): "write it inside <inertial>",
     ("link", "inertia"): "write it inside <inertial>",
     ("link", "geometry"): "write it inside <visual>, <collision> or both",
@@ -45,43 +45,42 @@ _ELSEWHERE = {
     ("link", "self_collide"): 'write <selfCollide> inside <gazebo reference="the link">',
     ("link", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
     ("link", "parent"): "only joints have a parent",
-    ("visual", "pose"): "it is SDF; URDF has <origin>",
+    ("visual", "pose"): "write <origin> in place of the SDF element",
     ("visual", "color"): "write it inside <material>",
     ("visual", "texture"): "write it inside <material>",
     ("geometry", "material"): "write it one level up, in <visual>",
     ("geometry", "origin"): "write it one level up, next to <geometry>",
-    ("collision", "pose"): "it is SDF; URDF has <origin>",
-    ("collision", "surface"): "it is SDF; for URDF, "
-    'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
+    ("collision", "pose"): "write <origin> in place of the SDF element",
+    ("collision", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
     ("collision", "max_contacts"): 'write <maxContacts> inside <gazebo reference="the link">',
     ("collision", "material"): "a collision has no color; remove it, or write it in <visual>",
-    ("inertial", "pose"): "it is SDF; URDF has <origin>",
+    ("inertial", "pose"): "write <origin> in place of the SDF element",
     ("inertial", "ixx"): "write the six numbers as attributes of <inertia>",
-    ("inertia", "ixx"): "it is SDF; in URDF the six numbers are attributes",
-    ("box", "size"): 'it is SDF; URDF has <box size="x y z"/>',
-    ("cylinder", "radius"): 'it is SDF; URDF has <cylinder radius="…" length="…"/>',
-    ("cylinder", "length"): 'it is SDF; URDF has <cylinder radius="…" length="…"/>',
-    ("sphere", "radius"): 'it is SDF; URDF has <sphere radius="…"/>',
-    ("mesh", "uri"): 'it is SDF; URDF has <mesh filename="…"/>',
-    ("mesh", "scale"): 'it is SDF; URDF has <mesh scale="x y z"/>',
-    ("material", "ambient"): "it is SDF; URDF has <color rgba=…>",
-    ("material", "diffuse"): "it is SDF; URDF has <color rgba=…>",
-    ("material", "specular"): "it is SDF; URDF has <color rgba=…>",
+    ("inertia", "ixx"): "write six attributes in place of the SDF elements",
+    ("box", "size"): 'write <box size="x y z"/> in place of the SDF element',
+    ("cylinder", "radius"): 'write <cylinder radius="…" length="…"/> in place of the SDF element',
+    ("cylinder", "length"): 'write <cylinder radius="…" length="…"/> in place of the SDF element',
+    ("sphere", "radius"): 'write <sphere radius="…"/> in place of the SDF element',
+    ("mesh", "uri"): 'write <mesh filename="…"/> in place of the SDF element',
+    ("mesh", "scale"): 'write <mesh scale="x y z"/> in place of the SDF element',
+    ("material", "ambient"): "write <color rgba=…> in place of the SDF element",
+    ("material", "diffuse"): "write <color rgba=…> in place of the SDF element",
+    ("material", "specular"): "write <color rgba=…> in place of the SDF element",
     ("material", "script"): 'write materials of Gazebo inside <gazebo reference="the link">',
-    ("joint", "pose"): "it is SDF; URDF has <origin>",
-    ("joint", "joint_properties"): 'URDF has <dynamics damping="…" friction="…"/>',
-    ("joint", "joint_limits"): 'URDF has <limit lower="…" upper="…" effort="…" velocity="…"/>',
-    ("joint", "damping"): 'URDF has <dynamics damping="…"/>',
-    ("joint", "friction"): 'URDF has <dynamics friction="…"/>',
+    ("joint", "pose"): "write <origin> in place of the SDF element",
+    ("joint", "joint_properties"): 'write <dynamics damping="…" friction="…"/>',
+    ("joint", "joint_limits"): 'write <limit lower="…" upper="…" effort="…" velocity="…"/>',
+    ("joint", "damping"): 'write <dynamics damping="…"/>',
+    ("joint", "friction"): 'write <dynamics friction="…"/>',
     ("joint", "physics"): 'write it inside <gazebo reference="the joint">',
     ("joint", "actuator"): "write it inside a <transmission>",
-    ("axis", "xyz"): 'it is SDF; URDF has <axis xyz="x y z"/>',
-    ("axis", "limit"): "it is SDF; in URDF <limit> is next to <axis>",
-    ("axis", "dynamics"): "it is SDF; in URDF <dynamics> is next to <axis>",
-    ("limit", "lower"): "it is SDF; in URDF it is an attribute",
-    ("limit", "upper"): "it is SDF; in URDF it is an attribute",
-    ("limit", "effort"): "it is SDF; in URDF it is an attribute",
-    ("limit", "velocity"): "it is SDF; in URDF it is an attribute",
+    ("axis", "xyz"): 'write <axis xyz="x y z"/> in place of the SDF element',
+    ("axis", "limit"): "write <limit> next to <axis>, not inside as in SDF",
+    ("axis", "dynamics"): "write <dynamics> next to <axis>, not inside as in SDF",
+    ("limit", "lower"): "write an attribute in place of the SDF element",
+    ("limit", "upper"): "write an attribute in place of the SDF element",
+    ("limit", "effort"): "write an attribute in place of the SDF element",
+    ("limit", "velocity"): "write an attribute in place of the SDF element",
 }
 """Remedy for a misplaced element, by parent and tag."""
 
@@ -116,7 +115,7 @@ _OTHER_NAMES = {
 """Attribute that a wrong name stands for, by element and name."""
 
 _INSTEAD = {
-    ("axis", "rpy"): "an axis has no rotation; write the rotated axis in xyz",
+    ("axis", "rpy"): "write the rotated axis in xyz",
     ("origin", "x"): 'write xyz="x y z"',
     ("box", "x"): 'write size="x y z"',
     ("box", "length"): 'write size="x y z"',
@@ -193,7 +192,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             what = f"<{element.tag}> does not belong in {_the(parent)}; {instead}"
             yield Problem(element, what, alike=(parent.tag, element.tag))
         elif word is not None and word != element.tag.lower():
-            what = f"{_the(parent)} has no <{element.tag}>; write <{word}>"
+            what = f"{_the(parent)} has the unknown element <{element.tag}>; write <{word}>"
             yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
     for kind, elements in other.items():
         what = f"<{kind[1]}> does not belong in {_the(elements[0].parent)}{_more(elements)}"
@@ -314,7 +313,7 @@ def _word(element: Element, name: str) -> str | None:
 
 def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
     for name in _strange_attributes(element, known):
-        what = f"{_the(element)} has no attribute '{name}'"
+        what = f"{_the(element)} has the unknown attribute '{name}'"
         at = element.attribute_place(name)
         kind = (element.tag, name)
         if kind in _INSTEAD:
@@ -378,7 +377,8 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
         if parent is None or parent.tag == "geometry" or lower == element.tag:
             continue
         if lower in VOCABULARY[parent.tag].children:
-            yield Problem(element, f"{_the(parent)} has no <{element.tag}>; write <{lower}>")
+            what = f"{_the(parent)} has the unknown element <{element.tag}>; write <{lower}>"
+            yield Problem(element, what)
     for tag, elements in census(robot).known.items():
         known = set(attributes_of(tag))
         for element in elements:
@@ -387,7 +387,7 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
             for name in element.attributes:
                 lower = name.lower()
                 if name != lower and lower in known and lower not in element.attributes:
-                    what = f"{_the(element)} has no attribute '{name}'; write {lower}"
+                    what = f"{_the(element)} has the unknown attribute '{name}'; write {lower}"
                     yield Problem(element, what, at=element.attribute_place(name))
     for joint in robot.joints:
         if joint.type != joint.type.lower() and joint.type.lower() in _TYPES:
