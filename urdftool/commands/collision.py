@@ -48,7 +48,7 @@ class _OrMesh(GroupedCommand):
 
 _GROUPS = {
     "What to do": "output in_place check",
-    "Geometry": "method max_error source only skip keep_primitives "
+    "Geometry": "method quality max_error source only skip keep_primitives "
     "max_hulls max_vertices max_triangles threshold",
     "Output": "style mesh_dir mesh_format uri overwrite picture",
     "Performance": "jobs time_limit scheduler",
@@ -115,7 +115,7 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
     <collision>. To simplify a single mesh file: 'urdftool collision mesh IN.stl -o OUT.stl'.
 
     \b
-        urdftool collision arm.urdf -o arm_sim.urdf --max-error 0.01
+        urdftool collision arm.urdf -o arm_sim.urdf --quality tight
         urdftool collision arm.urdf.xacro --in-place --link forearm
         urdftool collision robots/ -o simulated/ -j 8
         urdftool collision arm.urdf --check

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".stl", ".obj")
 _GROUPS = {
     "Input": "scale",
-    "Geometry": "method max_error max_hulls max_vertices max_triangles threshold",
+    "Geometry": "method quality max_error max_hulls max_vertices max_triangles threshold",
     "Output": "output style overwrite picture",
     "Performance": "time_limit",
 }
