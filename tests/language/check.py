@@ -97,6 +97,8 @@ def _function(file: Path, node: ast.FunctionDef) -> Iterator[Remark]:
 
 NAMES: tuple[tuple[str, str, str], ...] = (
     (r"xacro_tree|xacro_hooks", r".*", "named by xml.dom, which xacro calls"),
+    (r"rules/rule\.py", r"rule|full", "decorators, which name what they make of a function"),
+    (r"rules/fix\.py", r"safe|unsafe", "make a proposal that is safe or unsafe"),
     (r"(?:terminal|console)\.py", r"isatty|fileno|flush|writable|readable", "named by io"),
 )
 """Functions whose names others decide: a pattern of paths, one of names, and the reason."""

@@ -103,7 +103,11 @@ VERBS = frozenset(
 """Verbs with which the docstring and the name of a function may begin."""
 
 PREDICATES = frozenset(
-    ("is", "has", "can", "are", "was", "contains", "matches", "needs", "allows", "may", "should")
+    (
+        *("is", "has", "can", "are", "was", "may", "should"),
+        *("allows", "applies", "begins", "contains", "covers", "defines", "depends", "explains"),
+        *("keeps", "matches", "needs", "reads", "repeats"),
+    )
 )
 """Beginnings of names of functions that return a truth value."""
 

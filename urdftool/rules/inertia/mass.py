@@ -213,7 +213,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 def every_zero_mass(robot: Robot) -> Iterator[Problem]:
     """Report each link with mass 0, even if it is part of a body with a mass.
 
-    A part without inertia is harmless, and so is a body that no joint moves.
+    A part without inertia is harmless, and so is a body on no moving joint.
     """
     for link, value, place in _masses(robot):
         if value != 0.0 or link.name == "world" or link.inertial is None:
@@ -404,12 +404,12 @@ class _Density(NamedTuple):
 def _find_densities(
     robot: Robot, bounds: _DensityBounds, *, of_body: bool = True
 ) -> Iterator[_Density]:
-    """Find links whose mass does not go with their size.
+    """Find links whose mass does not fit their size.
 
     Args:
         robot: The robot.
         bounds: The thresholds.
-        of_body: Whether a mass that is right for the rigid body of its link is ignored.
+        of_body: Whether to ignore a mass that is plausible for the rigid body of its link.
     """
     reach = reaches(robot)
     for link, mass, place in _masses(robot):

@@ -207,8 +207,8 @@ def every_massless_moving_body(robot: Robot) -> Iterator[Problem]:
 def _of_moved_body(robot: Robot, joint: Joint, name: str, link: Link) -> Problem:
     return Problem(
         link,
-        f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
-        "add a small <inertial>, or make the joint fixed",
+        f"joint '{joint.name}' moves link '{name}', which has no mass"
+        f"{_below(robot, name)}; add a small <inertial>, or make the joint fixed",
         data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
     )
 
@@ -245,8 +245,8 @@ def _below(robot: Robot, name: str) -> str:
 def _is_bare(links: list[Link]) -> bool:
     """Tell whether no link of a body has an inertial, nor geometry that requires one."""
     for link in links:
-        misspelt = {} if link.xml is None else misspelt_children(link.xml)
-        if not link.is_frame or "inertial" in misspelt.values():
+        misspelled = {} if link.xml is None else misspelt_children(link.xml)
+        if not link.is_frame or "inertial" in misspelled.values():
             return False
     return True
 

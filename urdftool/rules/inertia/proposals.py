@@ -52,7 +52,7 @@ def remedy_text(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
 
 
 def remedy_kind(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
-    """Tell apart the remedies of :func:`remedy_text`; empty if there is none."""
+    """Name the kind of the remedy of :func:`remedy_text`; empty if there is none."""
     proposal = proposal_of(link, inertial, six)
     return solid_kind(link) if proposal is None else proposal.kind
 

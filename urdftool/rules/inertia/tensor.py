@@ -59,8 +59,8 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
             continue
         yield Problem(
             link,
-            f"inertia of link '{link.name}' has a negative principal moment ({_shown(moments)}); "
-            f"all three must be positive{remedy_text(link, inertial, six)}",
+            f"inertia of link '{link.name}' has a negative principal moment "
+            f"({_shown(moments)}); all three must be positive{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, min(six[0], six[3], six[5])),
             effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             data={"moments": list(moments)},
@@ -257,9 +257,9 @@ def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
             is_held = is_fixed_to_world(robot, link)
             why = f" with a mass of {link.mass:g} kg{solid_text(link)}"
             if is_part:
-                why = "; the links that it is fixed to have one"
+                why = ", but the links that it is fixed to have one"
             elif is_held:
-                why = "; it is fixed to the world and never rotates"
+                why = ", but the link is fixed to the world and never rotates"
             yield Problem(
                 link,
                 f"inertia of link '{link.name}' is {amount}{why}",
@@ -310,7 +310,7 @@ def singular_inertia(
 
 @singular_inertia.full
 def every_singular_inertia(robot: Robot) -> Iterator[Problem]:
-    """Report each link whose inertia is zero about one axis, also where that is harmless."""
+    """Report each link whose inertia is zero about one axis, also if that is harmless."""
     smallest = singular_inertia.thresholds["smallest"]
     for link, inertial, six in tensors(robot):
         if _is_singular(six, link.mass, smallest):
@@ -323,7 +323,7 @@ def every_singular_inertia(robot: Robot) -> Iterator[Problem]:
 
 
 def _is_singular(six: SymmetricTensor, mass: float, smallest: float) -> bool:
-    """Tell whether a possible tensor has next to nothing about one axis."""
+    """Tell whether a consistent tensor is almost zero about one axis."""
     low, middle, high = principal_moments(six)
     if is_zero(six, mass) or high <= 0 or low > smallest * high or not is_positive(six):
         return False
@@ -331,7 +331,7 @@ def _is_singular(six: SymmetricTensor, mass: float, smallest: float) -> bool:
 
 
 def _is_harmless(robot: Robot, link: Link, smallest: float) -> bool:
-    """Tell whether a link never turns by itself: it is held, or a part of a body with inertia."""
+    """Tell whether a link is fixed to the world, or part of a body with inertia."""
     body = next((links for links in bodies(robot).values() if link in links), [link])
     return _is_fixed_to_more(robot, body, smallest) or is_fixed_to_world(robot, link)
 

@@ -110,7 +110,7 @@ def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
     if meshes:
         yield Problem(
             robot,
-            f"no <mujoco><compiler> sets how MuJoCo loads {meshes} meshes, so MuJoCo drops "
+            f"the robot with {meshes} meshes has no <mujoco><compiler>, so MuJoCo drops its "
             "visuals; add it",
             data={"meshes": meshes},
         )

@@ -59,8 +59,8 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
             first = materials[0]
             yield Problem(
                 first.element,
-                f"material '{name}' is not defined{times}; add a <color>"
-                + did_you_mean(name, defined),
+                f"material '{name}' is not defined{times}"
+                + (did_you_mean(name, defined) or "; add a <color>"),
                 at=first.element.attribute_place("name"),
                 data={"material": name, "suggestion": nearest(name, defined)},
             )
@@ -235,7 +235,7 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
             of = f" of material '{material.name}'" if material.name else ""
             yield Problem(
                 material.element,
-                f"color{of} {wrong}",
+                f"color '{text}'{of} {wrong}",
                 at=color.attribute_place("rgba"),
                 data={"write": right},
             )
@@ -259,10 +259,10 @@ def _wrong_color(text: str) -> tuple[str, str]:
         scaled = (*(value / 255 for value in values[:3]), opacity)
         shown = " ".join(f"{value:.3g}" for value in scaled)
         right = " ".join(f"{value:.4g}" for value in scaled)
-        return f"'{text}' is on a scale of 0 to 255; write '{shown}'", right
+        return f"is on a scale of 0 to 255; write '{shown}'", right
     if max(values) > 1 or min(values) < 0:
         right = " ".join(f"{min(1.0, max(0.0, value)):.6g}" for value in values)
-        return f"'{text}' has a component outside 0 to 1; write '{right}'", right
+        return f"has a component outside 0 to 1; write '{right}'", right
     return "", ""
 
 
