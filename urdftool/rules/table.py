@@ -118,13 +118,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "root-link-has-inertia",
             "mass-without-geometry",
         ),
-        "mass": (
-            "incomplete-inertial",
-            "zero-mass",
-            "negative-mass",
-            "implausible-mass",
-            "implausible-density",
-        ),
+        "completeness": ("incomplete-inertial",),
+        "mass": ("zero-mass", "negative-mass", "implausible-mass", "implausible-density"),
         "density": ("mass-out-of-line",),
         "tensor": (
             "inertia-not-positive-definite",

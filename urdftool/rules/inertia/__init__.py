@@ -1,4 +1,15 @@
 """Mass and inertia."""
 
-FILES = ("presence", "mass", "density", "tensor", "slips", "size", "center", "frame", "sides")
+FILES = (
+    "presence",
+    "completeness",
+    "mass",
+    "density",
+    "tensor",
+    "slips",
+    "size",
+    "center",
+    "frame",
+    "sides",
+)
 """Files with rules, in reading order."""

@@ -58,8 +58,7 @@ def mass_out_of_line(
     yield Problem(
         link,
         f"mass of link '{link.name}' ({link.mass:g} kg) is {found.denser:.2g} times too large by "
-        "the "
-        f"density of the other links, and its inertia fits {found.fitting:.2g} kg; check the mass",
+        f"the density of other links, and its inertia fits {found.fitting:.2g} kg; check the mass",
         data={"mass": link.mass, "fitting": found.fitting},
         at=mass.attribute_place("value") if mass is not None else None,
     )

@@ -1,4 +1,4 @@
-"""Check masses, and whether inertials are complete."""
+"""Check masses of links and rigid bodies."""
 
 from __future__ import annotations
 
@@ -8,124 +8,18 @@ from typing import NamedTuple
 
 from ...model.attached import attached_links
 from ...model.bounds import Bounds
-from ...model.elements import Inertial, Link, Robot
+from ...model.elements import Link, Robot
 from ...model.millimeters import shapes_in_millimeters
 from ...source.location import Place
-from ..fix import FixContext, Proposal, remove_sign, set_attribute, unsafe
+from ..fix import FixContext, Proposal, remove_sign
 from ..mesh.outlines import Reaches, reaches
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import some_of
-from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 from .bodies import bodies, mass_of, massless_pairs
 from .solids import solid_volume
-from .tensors import SIX
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
 _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
-
-
-@rule(
-    ERROR,
-    effects={
-        "urdfdom, pinocchio": (
-            "load the link without its visuals and collisions, with an error in the log"
-        ),
-        "gz, gazebo-classic (with a mass)": "load the link without its visuals and collisions",
-        "gz, gazebo-classic (without a mass)": (
-            "take 0 kg and drop its visuals and collisions; omit a body without mass and its "
-            "descendants"
-        ),
-        "check_urdf": "reports success anyway",
-        "mujoco": "rejects the file",
-        "pybullet (no element)": "rejects the robot",
-        "pybullet, drake (a number)": "take 0 for a missing number",
-    },
-)
-def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
-    """An ``<inertial>`` lacks its mass, its inertia or one of the six components.
-
-    urdfdom stops reading the link at this point: its visuals and collisions are lost, its inertia
-    is zero, and the robot is still reported as parsed. Write all components, also those that are
-    zero.
-    """
-    for link in robot.links:
-        if link.inertial is None:
-            continue
-        missing, at = _missing(link.inertial)
-        if missing:
-            yield Problem(
-                link,
-                f"<inertial> of link '{link.name}' lacks {', '.join(missing)}; add what is missing",
-                at=at,
-                effects=_effects_of(link.inertial),
-                data={"missing": missing},
-            )
-
-
-@incomplete_inertial.full
-def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
-    """Report each inertial that lacks an element or a number, even if one is misspelled."""
-    for link in robot.links:
-        if link.inertial is None or link.inertial.xml is None:
-            continue
-        found = {child.tag: child for child in link.inertial.xml.children}
-        missing = [f"<{tag}>" for tag in ("mass", "inertia") if tag not in found]
-        lacks_element = bool(missing)
-        if "inertia" in found:
-            missing += [name for name in SIX if name not in found["inertia"].attributes]
-        if missing:
-            text = f"<inertial> of link '{link.name}' lacks {', '.join(missing)}; add it"
-            data = {"missing": missing, "lacks_element": lacks_element}
-            yield Problem(link, text, at=link.inertial, data=data)
-
-
-def _effects_of(inertial: Inertial) -> set[str]:
-    mass, inertia = inertial.element.child("mass"), inertial.element.child("inertia")
-    has_mass = mass is not None and "value" in mass.attributes
-    has = "with" if has_mass else "without"
-    keys = {"urdfdom, pinocchio", f"gz, gazebo-classic ({has} a mass)", "check_urdf", "mujoco"}
-    if mass is None or inertia is None:
-        keys.add("pybullet (no element)")
-    elif has_mass:
-        keys.add("pybullet, drake (a number)")
-    return keys
-
-
-def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
-    element = inertial.element
-    missing: list[str] = []
-    mass, inertia = element.child("mass"), element.child("inertia")
-    if mass is None:
-        missing.append("<mass>")
-    elif not mass.attributes:
-        missing.append("mass value")
-    if inertia is None:
-        missing.append("<inertia>")
-    if mass is None or inertia is None:
-        if missing and (meant := misspelt_children(element)):
-            missing = [name for name in missing if name.strip("<>") not in meant.values()]
-    if inertia is not None:
-        lacking = [name for name in SIX if name not in inertia.attributes]
-        if lacking and (meant := misspelt_attributes(inertia)):
-            lacking = [name for name in lacking if name not in meant.values()]
-        if lacking and not missing:
-            return lacking, Inertial(inertia)
-        missing += lacking
-    return missing, inertial
-
-
-@incomplete_inertial.fix(UNSAFE)
-def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write 0 for missing products of inertia."""
-    inertial = context.link(problem).inertial
-    inertia = inertial.element.child("inertia") if inertial is not None else None
-    if inertial is None or inertia is None or inertial.element.child("mass") is None:
-        return None
-    missing = [name for name in SIX if name not in inertia.attributes]
-    if not missing or not set(missing) <= {"ixy", "ixz", "iyz"}:
-        return None
-    zeros = " ".join(f'{name}="0"' for name in missing)
-    return unsafe(f"write {zeros}", *(set_attribute(inertia, name, "0") for name in missing))
 
 
 @rule(
