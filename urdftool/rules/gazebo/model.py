@@ -279,6 +279,7 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
             f"root '{root.name}' of the arm '{robot.name}' is not fixed to the world; add a link "
             "'world' and a fixed joint",
             at=root,
+            data={"link": root.name},
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ...mechanics.mass_bounds import MARGIN, Misfit, misfit_of_com, shapes_in_words
 from ...model.bounds import Bounds
@@ -55,7 +55,7 @@ def com_outside_geometry(
     ``light`` of the robot's mass, or ten times that part of the mass of their rigid body, are
     skipped because they hardly influence it.
     """
-    remarks: list[tuple[Link, Misfit]] = []
+    remarks: list[tuple[Link, Misfit, list[str]]] = []
     reach = reaches(robot)
     skipped = negligible(robot, light)
     for link in robot.links:
@@ -71,32 +71,33 @@ def com_outside_geometry(
         box = reach.meant(link, box)
         if box is None:
             continue
-        shapes = shapes_in_words(other.name for other, _ in reach.counted(link))
+        attached = [other.name for other, _ in reach.counted(link)]
+        shapes = shapes_in_words(attached)
         found = misfit_of_com(box, com, of_mesh, margin=margin, shapes=shapes)
         if found is None:
             continue
         if found.certain:
-            yield _outside(link, found)
+            yield _outside(link, found, attached)
         else:
-            remarks.append((link, found))
+            remarks.append((link, found, attached))
     also = ""
     if len(remarks) > together:
         others = (
             f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
-            for link, found in remarks[1:]
+            for link, found, _ in remarks[1:]
         )
         also = f"; also outside: {', '.join(others)}"
         del remarks[1:]
-    yield from (_outside(link, found, also) for link, found in remarks)
+    yield from (_outside(*one, also) for one in remarks)
 
 
-def _outside(link: Link, found: Misfit, also: str = "") -> Problem:
+def _outside(link: Link, found: Misfit, attached: Sequence[str], also: str = "") -> Problem:
     return Problem(
         link,
         f"center of mass of link '{link.name}' {found.sentence}{also}",
         at=(link.inertial and link.inertial.origin) or link.inertial,
         severity=None if found.certain else INFO,
-        alike=(found.axis, bool(also)),
+        alike=(found.axis, min(len(attached), 3), bool(also)),
         data={"distance": found.amount, "axis": "xyz"[found.axis]},
     )
 

@@ -173,7 +173,8 @@ def inertia_exceeds_geometry(
         box = reach.meant(link, box)
         if box is None:
             continue
-        shapes = shapes_in_words(other.name for other, _ in reach.counted(link))
+        attached = [other.name for other, _ in reach.counted(link)]
+        shapes = shapes_in_words(attached)
         found = judge(box, com=pose.translation, shapes=shapes)
         if found is not None:
             fits = judge(box, com=box.centre) is None
@@ -187,7 +188,7 @@ def inertia_exceeds_geometry(
                 severity=None if found.certain else INFO,
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
                 effects=_readers_of(six),
-                alike=(found.axis, kind),
+                alike=(found.axis, min(len(attached), 3), kind),
                 data={"certain": found.certain},
             )
 
