@@ -391,7 +391,6 @@ READ_TEXTS = {
     ("formats/mjcf/meshes.py", "_report_notes"): "reports equal records of a file once",
     ("lint/group.py", "_combine_fixes"): "chooses between two wordings of the combined fix",
     ("report/expansion.py", "warnings"): "removes line breaks",
-    ("report/inertia_robot.py", "remarks"): "prints equal lines once",
     ("rules/xacro/expansion_warnings.py", "_warned"): "warnings of the library xacro",
 }
 """Functions that compare texts: for the page only, or texts of another library."""

@@ -72,7 +72,7 @@ def test_a_manifest_that_is_a_link_stays_one_and_one_that_is_read_only_is_left(
         patch.setattr(os, "access", lambda p, mode: mode != os.W_OK and real(p, mode))
         result = urdftool("lint", cart[0], *DECLARED, *FIX)
     assert result.code == 2
-    assert "cart/package.xml: is not fixed: it is read-only" in result.err
+    assert "cart/package.xml: not fixed, because the file is read-only" in result.err
     assert Path("cart/real.xml").read_bytes() == MANIFEST
     assert urdftool("lint", cart[0], *DECLARED, *FIX).code == 0
     assert os.path.islink("cart/package.xml")

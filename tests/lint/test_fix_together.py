@@ -144,7 +144,7 @@ def test_what_would_make_another_description_worse_is_not_made(write, urdftool, 
     other = write("b.urdf.xacro", XACRO.format(USES))
     result = urdftool("lint", one, other, *ONLY)
     assert Path("part.xacro").read_text() == XACRO.format(PART)
-    assert "the fix of empty-dynamics would make things worse and is not made" in result.err
+    assert "the fix of empty-dynamics was not applied, because it would introduce a defect" in result.err
     assert "Nothing to fix." in result.err
     assert urdftool("lint", one, *ONLY).err.startswith("Fixed 1 in 1 file")
     assert "damping='${damping}'" in Path("part.xacro").read_text()
@@ -165,7 +165,7 @@ def test_a_file_that_cannot_be_written_keeps_only_its_own_group(write, urdftool,
         )
         result = urdftool("lint", *two, alone, *ONLY)
     assert result.code == 2
-    assert "b.urdf.xacro: is not fixed: it is read-only" in result.err
+    assert "b.urdf.xacro: not fixed, because the file is read-only" in result.err
     assert {path: Path(path).read_text() for path in before} == before
     assert Path(alone).read_text() == chain(2, "")
     assert "Fixed 2 in 1 file: empty-dynamics × 2" in result.err

@@ -106,12 +106,12 @@ BARE = """<robot name="bare"><link name="a"><inertial><mass value="1"/>
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--picture", "a.jpg"], "--picture wants a name that ends in .png"),
-        (["--video", "a.png"], "--video wants a name that ends in .gif"),
+        (["--picture", "a.jpg"], "--picture requires a file that ends in .png"),
+        (["--video", "a.png"], "--video requires a file that ends in .gif"),
         (["--plot", "bare.urdf/a.png"], "bare.urdf is not a folder"),
         (["--plot", "folder.png"], "is a folder"),
-        (["--plot", "a.png", "--picture", "./a.png"], "want a file each"),
-        (["--video", "a.gif"], "bare.urdf:1:1: the robot has nothing that could be drawn"),
+        (["--plot", "a.png", "--picture", "./a.png"], "require different files"),
+        (["--video", "a.gif"], "bare.urdf:1:1: the robot has no geometry to draw"),
     ],
 )
 def test_what_cannot_be_drawn_is_said_before_the_simulation(

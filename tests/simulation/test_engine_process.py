@@ -75,7 +75,7 @@ def test_a_crash_is_one_message():
 def test_a_hang_ends_in_time_and_leaves_nobody():
     began = time.monotonic()
     with EngineProcess("json") as child:
-        with pytest.raises(EngineDied, match="was not done after 1 s"):
+        with pytest.raises(EngineDied, match="stopped after the limit of 1 s"):
             child.call("process_jobs", "hang", time_limit=1.0)
         number = child._process.pid
     assert time.monotonic() - began < 5
@@ -127,7 +127,7 @@ def test_a_system_without_threads_is_one_message():
 
 def test_it_ends_where_nobody_holds_its_input():
     with EngineProcess("json") as child:
-        with pytest.raises(EngineDied, match="was not done"):
+        with pytest.raises(EngineDied, match="stopped after the limit"):
             child.call("process_jobs", "hang", time_limit=1.0)
         child._process.stdin.close()
         assert child._process.wait(5) == 1

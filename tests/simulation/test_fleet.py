@@ -168,9 +168,9 @@ def test_one_robot_is_a_junit_case_too(urdftool):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--fleet"], "robots are wanted"),
-        (["--fleet", "-"], "not read from standard input"),
-        (["--fleet", "a.urdf", "--plot", "a.png"], "are of one robot, not a --fleet"),
+        (["--fleet"], "missing argument IN"),
+        (["--fleet", "-"], "does not read standard input"),
+        (["--fleet", "a.urdf", "--plot", "a.png"], "do not support --fleet"),
         (["a.urdf", "b.urdf"], "a.urdf b.urdf"),
         (["--fleet", "empty"], "no .urdf or .urdf.xacro below empty"),
         (["a.urdf", "--junit", "file/a.xml"], "file is not a folder"),
