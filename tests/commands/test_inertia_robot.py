@@ -223,14 +223,12 @@ def test_missing_meshes_leave_the_rest_of_the_table(urdftool, write):
 
 
 def test_a_mesh_is_read_once_and_mirrored_where_it_is(urdftool, write, monkeypatch):
-    from urdftool.inertia import mesh_files
+    from urdftool.inertia import bodies
 
     write("cube.stl", (FIXTURES / "meshes" / "cube.stl").read_bytes())
     reads = []
-    original = mesh_files.mesh_body
-    monkeypatch.setattr(
-        mesh_files, "mesh_body", lambda p, **up: reads.append(p) or original(p, **up)
-    )
+    original = bodies.mesh_body
+    monkeypatch.setattr(bodies, "mesh_body", lambda p, **up: reads.append(p) or original(p, **up))
     meshes = [f'<mesh filename="cube.stl" scale="{s}"/>' for s in ("1 1 1", "1 -1 1", "0.1 1 2")]
     path = write(
         "r.urdf", robot(*(link(n, geometry=m) for n, m in zip("abc", meshes, strict=True)))
@@ -386,7 +384,7 @@ def test_the_whole_of_the_small_head(urdftool):
 def test_two_roots_have_no_whole(urdftool, write):
     done = urdftool("inertia", "robot", write("r.urdf", robot(link("a"), link("b"))), "--lump")
     assert done.code == 2
-    assert "link 'b' is the child of no joint, as is 'a'" in done.err
+    assert "link 'b' and root 'a' have no parent joint" in done.err
 
 
 def test_standard_input_and_a_file_for_the_table(urdftool, write, monkeypatch):
@@ -414,8 +412,8 @@ MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
 @pytest.mark.parametrize(
     ("name", "text", "right"),
     [
-        ("macros.xacro", MACROS, "name a file that calls its macros"),
-        ("empty.urdf", "<robot name='r'/>", 'write <link name="…"/>'),
+        ("macros.xacro", MACROS, "lint a file that calls its macros"),
+        ("empty.urdf", "<robot name='r'/>", 'add a <link name="…"/>'),
     ],
 )
 @pytest.mark.parametrize("command", ["inertia robot", "collision"])

@@ -286,7 +286,10 @@ def test_a_fix_that_makes_things_worse_is_taken_back_and_said(write, urdftool, m
     path = write("r.urdf", LONG)
     result = urdftool("lint", path, "--fix", "--no-cache")
     assert Path(path).read_text() == LONG
-    assert "the fix of axis-not-unit was not applied, because it would introduce a defect" in result.err
+    assert (
+        "the fix of axis-not-unit was not applied, because it would introduce a defect"
+        in result.err
+    )
 
 
 def test_a_fix_that_breaks_is_a_bug_of_ours(write, urdftool, monkeypatch):

@@ -144,7 +144,10 @@ def test_what_would_make_another_description_worse_is_not_made(write, urdftool, 
     other = write("b.urdf.xacro", XACRO.format(USES))
     result = urdftool("lint", one, other, *ONLY)
     assert Path("part.xacro").read_text() == XACRO.format(PART)
-    assert "the fix of empty-dynamics was not applied, because it would introduce a defect" in result.err
+    assert (
+        "the fix of empty-dynamics was not applied, because it would introduce a defect"
+        in result.err
+    )
     assert "Nothing to fix." in result.err
     assert urdftool("lint", one, *ONLY).err.startswith("Fixed 1 in 1 file")
     assert "damping='${damping}'" in Path("part.xacro").read_text()

@@ -50,7 +50,7 @@ _GROUPS = {
     "What to do": "output in_place check",
     "Geometry": "method quality max_error source only skip keep_primitives "
     "max_hulls max_vertices max_triangles threshold",
-    "Output": "style mesh_dir mesh_format uri overwrite picture",
+    "Output": "style mesh_dir mesh_format uri spheres_file overwrite picture",
     "Performance": "jobs time_limit scheduler",
 }
 

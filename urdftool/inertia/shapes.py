@@ -112,5 +112,7 @@ def shape_properties(
     except ArithmeticError:
         result = None  # type: ignore[assignment]
     if result is None or not (_MIN < result.mass < _MAX and _MIN < max(result.tensor) < _MAX):
-        raise InertiaError(f"{shape.title} of this size and mass is beyond what numbers can hold")
+        raise InertiaError(
+            f"{shape.title} of this size and mass is too large for floating-point numbers"
+        )
     return result

@@ -173,6 +173,9 @@ class Problem:
     @property
     def owner(self) -> str:
         """Name of the nearest named element around a subject without a name."""
+        subject = self.subject
+        if isinstance(subject, Part) and subject.xml is None:
+            return self.name
         element: Element | None = self.element
         while element is not None:
             name = element.attributes.get("name") or element.attributes.get("reference")
