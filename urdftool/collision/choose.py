@@ -37,6 +37,7 @@ _COARSER = 3.0
 _SIMPLER = 0.05  # part of the mean distance that a costlier primitive must save
 _ALIKE = 0.02  # part of the error that it must save in addition
 _HULL_WITHIN = 1.3  # ratio of the hull's estimated error to the limit up to which it is measured
+_HELPS = 0.95  # part of the error that more pieces must give to be worth a note
 _PRIMITIVE_WITHIN = 2.2  # a primitive within the limit has a hull within twice the limit
 
 
@@ -109,7 +110,10 @@ def _auto(target: ReferenceSurface, settings: Settings, notes: list[Diagnostic])
             return min(fits, key=lambda choice: _expense(choice, limit))
     if not tried:
         tried += _hulls(target, settings, notes)
-    return min(tried, key=lambda choice: (choice.measures.error, len(choice.pieces)))
+    best = min(tried, key=lambda choice: (choice.measures.error, len(choice.pieces)))
+    useful = _HELPS * best.measures.error
+    notes[:] = [n for n in notes if n.code != MORE_PIECES or n.data["error"] < useful]
+    return best
 
 
 def _expense(choice: Choice, wanted: float) -> float:

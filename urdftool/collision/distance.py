@@ -15,6 +15,7 @@ _GOLDEN = 1.324717957244746  # real root of x³ = x + 1
 _NEIGHBOURS = 6
 _FEW = 24  # up to this number all triangles are tested
 _COARSE = 1000  # triangles below which more neighbors are tested
+_REFINED = 6000  # points of which the distance is measured exactly for the largest one
 _COVERED = 2.0  # spacings from every point of the covered part to its nearest sample
 _KEPT = 100_000  # largest sample whose positions are cached
 _AT_ONCE = 8192  # point-triangle pairs per block, to fit the processor's cache
@@ -158,13 +159,12 @@ def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Po
     order = np.argsort(-bounds, kind="stable")
     best = 0.0
     chosen: list[Points] = []
-    step = max(count, 256)
-    for begin in range(0, len(order), step):
-        some = order[begin : begin + step]
-        if begin and bounds[some[0]] <= best:
-            break
-        chosen.append(surface.distance(points[some]))
+    begin, step = 0, max(count, 256)
+    last = min(len(order), _REFINED)  # of the others, the samples' spacing decides
+    while begin < last and (not begin or bounds[order[begin]] > best):
+        chosen.append(surface.distance(points[order[begin : begin + step]]))
         best = max(best, float(chosen[-1].max()))
+        begin, step = begin + step, 4 * step
     found = np.concatenate(chosen)
     first = np.argsort(-found, kind="stable")[:count]
     return best, points[order[first]], found[first]

@@ -175,6 +175,8 @@ def _advice(row: Row) -> str:
         return "try a smaller --threshold with more --max-triangles"
     if row.wanted == "spheres":
         return "try a smaller --max-error, with more spheres"
+    if row.wanted in ("auto", "cuts"):
+        return "more pieces help little; allow a larger --max-error or try --method simplify"
     return "try --method auto"
 
 
