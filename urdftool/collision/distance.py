@@ -155,7 +155,7 @@ def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Po
     """
     if not len(points):
         return 0.0, points, np.zeros(0)
-    bounds, _ = surface.tree.query(points, workers=surface.workers)
+    bounds, _ = surface.tree.query(points, eps=0.02, workers=surface.workers)
     order = np.argsort(-bounds, kind="stable")
     best = 0.0
     chosen: list[Points] = []
