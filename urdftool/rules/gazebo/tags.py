@@ -74,15 +74,16 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
             cases.append("without a color")
         if needs:
             kind = f"{role} '{link.name}'" if role else f"link '{link.name}'"
+            needed = " and ".join(needs)
             yield Problem(
                 link,
-                f'{kind} has no <gazebo reference="{link.name}">; it needs {" and ".join(needs)}',
+                f'{kind} has no <gazebo reference="{link.name}">; it needs {needed}',
                 severity=None if role else INFO,
                 data={"role": role or ""},
                 alike=(role == "caster", *cases),
                 effects=holding(_WITHOUT_BLOCK, *cases),
                 group="{count} links have no <gazebo> block, and need "
-                f"{' and '.join(needs).replace(' its ', ' their ')}: {{names}}",
+                f"{needed.replace(' its ', ' their ')}: {{names}}",
             )
 
 
