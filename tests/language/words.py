@@ -65,8 +65,8 @@ VERBS = frozenset(
     re.findall(
         r"\w+",
         """
-        abort accept accumulate add adjust advance align allow announce append apply
-        approximate ask assemble assert assign average begin bind blend block blur bound build
+        abort accept accumulate add adjust advance align allow anchor announce append apply
+        approximate ask assemble assert assign average begin bind blank blend block blur bound build
         cache call cap cast change check choose clamp clear clip close cluster collect color combine
         compact compare compile complete compose compress compute concatenate configure
         connect consider construct convert copy correct count cover create cut decide decimate
@@ -83,7 +83,7 @@ VERBS = frozenset(
         make map mark mask match materialize measure merge mirror mix move multiply name
         narrow nest normalize notify number observe offer offset open order orient overlay
         overwrite pack pad paint pair parse partition pass pause peek perform pick pickle
-        place plan plot poll position prefetch prefix prepare prepend print probe process
+        place plan plot poll position prefetch prefix prepare preserve prepend print probe process
         produce project propagate propose prove provide prune publish pull push put quantize
         query quote raise rank read rebuild receive recenter recognize recompute record
         redirect reduce refer refine refit refresh refuse register reject relate release

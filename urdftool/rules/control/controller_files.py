@@ -97,7 +97,7 @@ class Package:
         stem = _stem(self.description.path)
         return [f for f in self.other_files if _stem(f.path) != stem and _is_robot(f)]
 
-    def shares(self, path: str) -> bool:
+    def is_shared(self, path: str) -> bool:
         """Tell whether another robot refers to a file, or includes files of this robot."""
         names = [os.path.basename(other) for other in (path, *self.own)]
         mention = _mention(*names)
@@ -109,7 +109,7 @@ class Package:
         launches = [file for file in self.launch_files if named.search(file.data)]
         return bool(robots) and any(_mention(*robots).search(file.data) for file in launches)
 
-    def launches(self, path: str) -> bool:
+    def is_launched_with(self, path: str) -> bool:
         """Tell whether a launch file refers to the description and to another file."""
         one = _mention(self.description.packages.file.name)
         other = _mention(os.path.basename(path))
@@ -131,12 +131,12 @@ def _found(robot: Robot, package: Package) -> Iterator[ControllerFile]:
         file = file_at(workspace, path) if workspace.is_file(path) else None
         if file is None or len(file.data) > _MOST_BYTES or not _CONTROLLER.search(file.data):
             continue
-        by_plugin, by_launch = path in named, package.launches(path)
+        by_plugin, by_launch = path in named, package.is_launched_with(path)
         if not by_plugin and not by_launch and package.other_robots != []:
             continue
         controllers = _read(file)
         if controllers:
-            yield ControllerFile(file, controllers, by_plugin, by_launch, package.shares(path))
+            yield ControllerFile(file, controllers, by_plugin, by_launch, package.is_shared(path))
 
 
 def _read(file: SourceFile) -> list[Controller]:

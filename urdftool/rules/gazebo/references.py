@@ -128,8 +128,8 @@ def _loops(robot: Robot) -> Iterator[Problem]:
                 continue
             what = f"<{end.tag}> of joint '{joint.get('name') or ''}' is '{name}', which is "
             if lumped:
-                what += f"lumped into '{body_of(robot, name)}', because its joint is fixed; write "
-                what += "that, or add preserveFixedJoint to the joint"
+                what += f"lumped into '{body_of(robot, name)}', because its joint is fixed; "
+                what += "write that, or add preserveFixedJoint to the joint"
             else:
                 what += f"not a link{did_you_mean(name, robot.link)}"
             yield Problem(

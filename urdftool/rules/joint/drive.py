@@ -156,7 +156,8 @@ def implausible_velocity(
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
-            what = f"{limit.velocity:g} {_units(joint)[1]}, {_judged(limit.velocity, fastest)}"
+            excess = _judged(limit.velocity, fastest)
+            what = f"{limit.velocity:g} {_units(joint)[1]}, {excess}"
             found.append(_Large(joint, limit, limit.velocity, _is_endless(limit.velocity), what))
     for one, more in _alike(found, together):
         yield Problem(
@@ -216,7 +217,7 @@ def _judged(value: float, most: float) -> str:
 
 
 def _is_endless(value: float) -> bool:
-    """Tell whether a large limit stands for none."""
+    """Tell whether a large limit means no limit."""
     power = math.log10(value)
     return value >= _ENDLESS or abs(power - round(power)) < 1e-9
 
@@ -232,7 +233,7 @@ class _Large(NamedTuple):
         joint: Its joint.
         limit: The limit.
         value: Its velocity [rad/s, m/s] or effort [N·m, N].
-        is_endless: Whether the value stands for no limit.
+        is_endless: Whether the value means no limit.
         what: The value in words.
     """
 
@@ -251,13 +252,13 @@ class _Large(NamedTuple):
 def _alike(found: list[_Large], together: float) -> Iterator[tuple[_Large, str]]:
     """Yield each limit, or the first of more than ``together`` that are equal."""
     times = Counter((one.value, one.is_slide) for one in found)
-    told = set()
+    reported = set()
     for one in found:
         key = one.value, one.is_slide
         if times[key] <= together:
             yield one, ""
-        elif key not in told:
-            told.add(key)
+        elif key not in reported:
+            reported.add(key)
             yield one, f" (and {times[key] - 1} more)"
 
 

@@ -182,7 +182,7 @@ def _distance(place: Vector, way: Vector, box: Bounds, enough: float) -> float:
     if nearest - radius >= enough:
         return enough
 
-    def apart(t: float) -> float:
+    def measure(t: float) -> float:
         return math.hypot(
             *(
                 max(low - (p + t * w), 0.0, p + t * w - high)
@@ -191,10 +191,10 @@ def _distance(place: Vector, way: Vector, box: Bounds, enough: float) -> float:
         )
 
     low, high = at - radius, at + radius
-    best = apart(at)
+    best = measure(at)
     while best > _TOUCHES and high - low > 1e-4 * radius:
         one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        first, second = apart(one), apart(other)
+        first, second = measure(one), measure(other)
         best = min(best, first, second)
         low, high = (low, other) if first <= second else (one, high)
     return best

@@ -411,8 +411,8 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
                     amount = "too few numbers" if parts < count else "enough numbers"
                     yield Problem(
                         element,
-                        f"{name} of <{tag}> in {owner(element)} has a tab or line break between "
-                        "its numbers; write single spaces",
+                        f"{name} of <{tag}> in {owner(element)} has a tab or line break "
+                        "between its numbers; write single spaces",
                         at=element.attribute_place(name),
                         effects=effects_read(
                             holding(_TABBED_VECTOR, *_where(element), amount), element, name

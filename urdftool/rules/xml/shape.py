@@ -105,8 +105,8 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
             around = geometry.parent.tag if geometry.parent is not None else "visual"
             yield Problem(
                 second,
-                f"{around} of {owner(second)} has a <{second.tag}> next to its <{first.tag}>, "
-                "but readers take only one; "
+                f"{around} of {owner(second)} has a <{second.tag}> next to its "
+                f"<{first.tag}>, but readers take only one; "
                 f"write a separate <{around}> for each",
             )
 

@@ -195,11 +195,10 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             what = f"{_the(parent)} has the unknown element <{element.tag}>; write <{word}>"
             yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
     for kind, elements in other.items():
-        what = f"<{kind[1]}> does not belong in {_the(elements[0].parent)}{_more(elements)}"
+        where = f"{_the(elements[0].parent)}{_more(elements)}"
         why = _ELSEWHERE.get(kind, "URDF readers ignore it")
-        yield Problem(
-            elements[0], f"{what}; {why}", severity=INFO, alike=(*kind, len(elements) > 1)
-        )
+        message = f"<{kind[1]}> does not belong in {where}; {why}"
+        yield Problem(elements[0], message, severity=INFO, alike=(*kind, len(elements) > 1))
 
 
 def _is_misplaced(element: Element, geometry: Element) -> bool:
