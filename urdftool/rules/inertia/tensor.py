@@ -57,10 +57,11 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
             continue
         if slip_of(link, inertial, six, robot) is not None:
             continue
+        remedy = remedy_text(link, inertial, six)
         yield Problem(
             link,
             f"inertia of link '{link.name}' has a negative principal moment "
-            f"({_shown(moments)}); all three must be positive{remedy_text(link, inertial, six)}",
+            f"({_shown(moments)}); all three must be positive{remedy}",
             at=_component(inertial, six, min(six[0], six[3], six[5])),
             effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             data={"moments": list(moments)},
