@@ -239,12 +239,12 @@ def implausible_density(
 ) -> Iterator[Problem]:
     """A link's density is implausible: its mass does not fit its size.
 
-    Usual materials have between ``least`` (foam) and ``most`` (lead) kg/m³; no material is denser
-    than ``most_possible`` (osmium). Usually a unit is wrong: grams, or millimeters.
+    Usual materials have 5 kg/m³ (``least``, foam) to 12,000 kg/m³ (``most``, lead); none is denser
+    than 22,600 kg/m³ (``most_possible``, osmium). Usually a unit is wrong: grams, or millimeters.
 
-    For a mesh or several shapes, the density in their bounding box counts: a body of steel has
-    at most ``most_of_box``, and below ``least_possible`` it is lighter than air. It is only an info
-    if a material could have the density, for links smaller than ``small`` [m], which mostly mark
+    For a mesh or several shapes, the density in their bounding box counts: a body of steel has at
+    most ``most_of_box``, and air about ``least_possible``. It is only an info if a material could
+    have the density, for links smaller than ``small`` [m], which mostly mark
     frames, and for links of up to ``dummy`` [kg] that are fixed to others, as sensor frames are for
     Gazebo. Small links that are fixed to links of ten times their mass are skipped. More than
     ``together`` infos are reported as one finding.

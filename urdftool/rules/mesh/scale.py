@@ -100,8 +100,9 @@ def mesh_in_millimetres(
     """A mesh is larger than ``largest`` [m]: its file is probably in millimeters.
 
     STL files have no unit, and CAD programs often export millimeters, but readers take meters.
-    Real robots have no meshes between 2 m and 100 m. Add ``scale="0.001 0.001 0.001"``. In a world
-    without moving parts, only STL files are reported, because such a world may be that large.
+    Among thousands of meshes of real robots, none was between 2 m and 100 m long. Add
+    ``scale="0.001 0.001 0.001"``. In a world without moving parts, only STL files are reported,
+    because such a world may be that large.
     """
     seen: set[str] = set()
     for use in mesh_uses(robot, description):
@@ -158,7 +159,7 @@ def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | Non
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet": "scale a mesh in meters to less than a millimeter",
+        "mujoco, pybullet": "apply the scale, which makes the mesh a thousand times too small",
     },
 )
 def mesh_scaled_twice(

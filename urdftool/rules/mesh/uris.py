@@ -119,8 +119,8 @@ _URDFDOM = "urdfdom, gz, gazebo-classic, pinocchio"
     ERROR,
     effects={
         _URDFDOM: (
-            "load the link without its visuals and collisions (without its collisions only, if it "
-            "is in one), with an error in the log"
+            "load the link without its visuals and collisions, or without its collisions if the "
+            "<mesh> is in a collision, with an error in the log"
         ),
         "pybullet, drake": "reject the robot",
         "mujoco": "rejects the file",

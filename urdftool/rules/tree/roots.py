@@ -234,7 +234,6 @@ def _round(cycle: list[Link]) -> str:
         "gz, gazebo-classic": (
             "reject the model, which then has the link twice; a link that is fixed to both is "
             "lumped (sdformat 12.3)"
-            "(sdformat 12.3)"
         ),
         "mujoco, pinocchio, drake": "reject the robot",
         "pybullet": "crashes",
