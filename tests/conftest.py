@@ -80,9 +80,9 @@ def skipped_tests(pytestconfig):
 @pytest.fixture(scope="session")
 def programs(tmp_path_factory):
     """A PATH with what every machine has, and the programs beside this Python."""
-    from generator.programs import bare_path
+    from generator.programs import restrict_path
 
-    return bare_path(tmp_path_factory.mktemp("programs"), Path(sys.executable).parent)
+    return restrict_path(tmp_path_factory.mktemp("programs"), Path(sys.executable).parent)
 
 
 @pytest.fixture(autouse=True)

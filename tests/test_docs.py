@@ -1,14 +1,17 @@
+import ast
 import re
 from importlib.util import find_spec
 
 import generate
 import pytest
-from generator.console import BLOCK, how, same, with_output, written_pages
+from generator import rule_pages
+from generator.console import BLOCK, insert_output, is_same, list_pages, read_mode
 
 from tests.conftest import ROOT
+from urdftool.rules import get_rule
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/**/*.md"))]
-RUN = [path for path in written_pages() if BLOCK.search(path.read_text("utf-8"))]
+RUN = [path for path in list_pages() if BLOCK.search(path.read_text("utf-8"))]
 
 
 def named(path):
@@ -18,23 +21,23 @@ def named(path):
 def of_pages(slow):
     """The pages with commands, slow ones marked as such."""
     for page in RUN:
-        is_slow = how(page.read_text("utf-8")).slow
+        is_slow = read_mode(page.read_text("utf-8")).slow
         if is_slow == slow:
             yield pytest.param(page, id=named(page), marks=[pytest.mark.slow] if slow else [])
 
 
 def test_generated_pages_are_fresh():
-    wrong = [named(path) for path in generate.stale()]
+    wrong = [named(path) for path in generate.find_stale()]
     assert wrong == [], "run make docs"
 
 
 @pytest.mark.parametrize("page", [*of_pages(slow=False), *of_pages(slow=True)])
 def test_commands_print_what_is_shown(page):
     text = page.read_text("utf-8")
-    if not how(text).is_possible:
-        pytest.skip(f"it needs {', '.join(how(text).needs)}")
-    new = with_output(text)
-    if not same(text, new, how(text)):
+    if not read_mode(text).is_possible:
+        pytest.skip(f"it needs {', '.join(read_mode(text).needs)}")
+    new = insert_output(text)
+    if not is_same(text, new, read_mode(text)):
         assert text == new, "run make docs"
 
 
@@ -55,33 +58,53 @@ def test_every_command_has_a_page():
         assert (ROOT / "docs" / "commands" / f"{name}.md").exists(), name
 
 
+@pytest.mark.parametrize("rule", ["axis-not-unit", "adjacent-pair-not-disabled"])
+def test_a_rule_page_shows_the_changed_lines_and_folds_the_robot(rule):
+    page = rule_pages.write_page(get_rule(rule))
+    shown, folded = page.split("<details>", 1)
+    difference = shown.split("```diff")[1]
+    assert re.search(r"^[-+] +<\w", difference, re.MULTILINE)
+    assert "<robot" not in shown
+    assert folded.count("<details>") == 1
+    assert folded.count("</details>") == 2
+    assert "<robot" in folded
+
+
+def test_redirects_lead_to_pages():
+    text = (ROOT / "docs" / "conf.py").read_text("utf-8")
+    redirects = ast.literal_eval(re.search(r"REDIRECTS = (\{.*?\})", text, re.DOTALL)[1])
+    for old, new in redirects.items():
+        assert not (ROOT / "docs" / f"{old}.md").exists()
+        assert (ROOT / "docs" / f"{new}.md").exists()
+
+
 def test_the_readme_is_short():
     assert len((ROOT / "README.md").read_text("utf-8").splitlines()) < 150
 
 
 def test_how_a_page_is_run():
-    said = how("# Title\n\n<!-- run: slow, needs mujoco, numbers vary -->\n")
+    said = read_mode("# Title\n\n<!-- run: slow, needs mujoco, numbers vary -->\n")
     assert said.slow
     assert said.needs == ("mujoco",)
     assert said.numbers_vary
-    assert how("# Title\n").is_possible
-    assert not how("<!-- run: needs no_such_library -->").is_possible
+    assert read_mode("# Title\n").is_possible
+    assert not read_mode("<!-- run: needs no_such_library -->").is_possible
     with pytest.raises(AssertionError):
-        how("<!-- run: slowly -->")
+        read_mode("<!-- run: slowly -->")
 
 
 def test_words_count_where_numbers_vary():
     shown = "```console\n$ x\nlink   0.31 s\n```\n"
-    vary = how("<!-- run: numbers vary -->")
-    assert same(shown, shown.replace("0.31 s", "12 s"), vary)
-    assert not same(shown, shown.replace("link", "joint"), vary)
-    assert not same(shown, shown + "more", vary)
-    assert not same(shown, shown.replace("0.31", "12"), how(""))
+    vary = read_mode("<!-- run: numbers vary -->")
+    assert is_same(shown, shown.replace("0.31 s", "12 s"), vary)
+    assert not is_same(shown, shown.replace("link", "joint"), vary)
+    assert not is_same(shown, shown + "more", vary)
+    assert not is_same(shown, shown.replace("0.31", "12"), read_mode(""))
 
 
 def python_blocks():
     found = []
-    for page in written_pages():
+    for page in list_pages():
         codes = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
         if codes and "import urdftool" in codes[0]:
             for number, code in enumerate(codes):
@@ -111,3 +134,6 @@ def test_the_site_builds_without_a_warning(tmp_path):
         text = page.read_text("utf-8")
         loaded = re.findall(r'<(?:script|img|link)\b[^>]*?(?:src|href)="(https?:[^"]+)"', text)
         assert loaded == [], page
+    assert "howto/untrusted-input.html" in (tmp_path / "site/howto/strangers.html").read_text()
+    rule = (tmp_path / "site/rules/axis-not-unit.html").read_text("utf-8")
+    assert "--fix --unsafe-fixes" in re.sub(r"<[^>]+>", "", rule)

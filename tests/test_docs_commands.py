@@ -10,7 +10,7 @@ from importlib.util import find_spec
 
 import click
 import pytest
-from generator.console import written_pages
+from generator.console import list_pages
 
 from tests import stand_ins
 from tests.conftest import ROOT
@@ -45,7 +45,7 @@ def all_shown():
         for line in text.splitlines():
             if line.strip().startswith("urdftool "):
                 found.setdefault(line.strip(), "help")
-    for page in written_pages():
+    for page in list_pages():
         for command in shown_in(page.read_text("utf-8")):
             found.setdefault(command, str(page.relative_to(ROOT)))
     return found

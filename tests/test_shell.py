@@ -9,8 +9,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from generator.completions import completions
-from generator.man import man_pages
+from generator.completions import list_completions
+from generator.man import list_man_pages
 
 from tests.conftest import ROOT
 from urdftool import cli
@@ -104,13 +104,13 @@ def test_scripts_are_as_their_shell_reads_them(name, shell):
 
 
 def test_a_script_for_each_shell():
-    assert [path.name for path, _ in completions()] == [
+    assert [path.name for path, _ in list_completions()] == [
         *("urdftool.bash", "_urdftool", "urdftool.fish")
     ]
 
 
 def test_a_page_for_each_command():
-    pages = dict(man_pages())
+    pages = dict(list_man_pages())
     assert [path.name for path in pages] == [
         "urdftool.1",
         *(f"urdftool-{name}.1" for name in cli.COMMANDS),

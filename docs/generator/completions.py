@@ -1,6 +1,7 @@
-"""What a shell sources or loads to complete ``urdftool``, as the wheel brings it.
+"""Write the completion scripts of shells that the wheel contains.
 
-The scripts are click's; they ask ``urdftool`` itself, so they stay right whatever it learns.
+The scripts are those of click. They call ``urdftool`` for the words, so they do not depend on its
+options.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ FOLDER = Path(__file__).resolve().parents[1] / "completions"
 SHELLS = {"urdftool.bash": BashComplete, "_urdftool": ZshComplete, "urdftool.fish": FishComplete}
 
 
-def completions() -> Iterator[tuple[Path, str]]:
-    """Every script with its text."""
+def list_completions() -> Iterator[tuple[Path, str]]:
+    """Yield every script with its text."""
     for name, shell in SHELLS.items():
         yield FOLDER / name, shell(cli.main, {}, "urdftool", "_URDFTOOL_COMPLETE").source().lstrip()

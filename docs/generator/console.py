@@ -1,9 +1,9 @@
-"""What commands print: the ``console`` blocks of the pages, run in a copy of the fixtures.
+"""Run the ``console`` blocks of the pages in a copy of the fixtures.
 
-A page may say how it is run in a comment, ``<!-- run: slow, needs mujoco, numbers vary -->``: slow
-pages are run by the slow tests alone, those that need a library where there is one, and where
-numbers vary (seconds, what an engine computes on another processor) the words are compared.
-Programs that not every machine has cannot be seen by the commands.
+A comment in a page sets how its commands run: ``<!-- run: slow, needs mujoco, numbers vary -->``.
+Slow pages run only in the slow tests; pages that need a library are skipped without it. Where
+numbers vary (seconds, results of an engine on another processor), tests compare only the words.
+Commands see only the programs of ``programs.py``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from .programs import bare_path
+from .programs import restrict_path
 
 ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "fixtures"
@@ -31,8 +31,14 @@ UNSEEN = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "FORCE_COLOR", "URDFTOOL_TRUS
 
 
 @dataclass(frozen=True)
-class How:
-    """How the commands of a page are run."""
+class Mode:
+    """How the commands of a page are run.
+
+    Attributes:
+        slow: Only the slow tests run them.
+        needs: Libraries and programs that they require.
+        numbers_vary: Numbers in their output are not compared.
+    """
 
     slow: bool = False
     needs: tuple[str, ...] = ()
@@ -40,36 +46,36 @@ class How:
 
     @property
     def is_possible(self) -> bool:
-        """Whether what they need is installed."""
+        """Whether the libraries and programs are installed."""
         return all(find_spec(name) or shutil.which(name) for name in self.needs)
 
 
-def how(text: str) -> How:
-    """What a page says of how it is run."""
-    said = RUN.search(text)
-    words = [word.strip() for word in said[1].split(",")] if said else []
+def read_mode(text: str) -> Mode:
+    """Read how the commands of a page are run."""
+    comment = RUN.search(text)
+    words = [word.strip() for word in comment[1].split(",")] if comment else []
     needs = tuple(word.removeprefix("needs ") for word in words if word.startswith("needs "))
     known = {"slow", "numbers vary", *(f"needs {name}" for name in needs)}
-    assert set(words) <= known, f"{set(words) - known} is no way to run a page"
-    return How("slow" in words, needs, "numbers vary" in words)
+    assert set(words) <= known, f"{set(words) - known} cannot be set for a page"
+    return Mode("slow" in words, needs, "numbers vary" in words)
 
 
-def written_pages() -> Iterator[Path]:
-    """The pages that people write."""
+def list_pages() -> Iterator[Path]:
+    """Yield the pages that people write."""
     yield ROOT / "README.md"
     for path in sorted((ROOT / "docs").rglob("*.md")):
         if path.parent.name != "rules":
             yield path
 
 
-def with_output(text: str, pictures: Path | None = None) -> str:
-    """A page with what its commands print now; the commands of a page run one after the other.
+def insert_output(text: str, pictures: Path | None = None) -> str:
+    """Replace the output in a page by the current output of its commands, run in order.
 
-    Files that the page shows under a mark, ``<!-- file: NAME -->``, are there when they start.
+    A block under a mark ``<!-- file: NAME -->`` is written to that file first.
 
     Args:
-        text: The page.
-        pictures: Where pictures go that its commands make and that it shows.
+        text: Text of the page.
+        pictures: Folder for the pictures that its commands write and the page shows.
     """
     if not BLOCK.search(text):
         return text
@@ -81,7 +87,7 @@ def with_output(text: str, pictures: Path | None = None) -> str:
 
         def run(match: re.Match[str]) -> str:
             commands = [line for line in match[0].splitlines() if line.startswith("$ ")]
-            return "".join(f"{line}\n{_output(line[2:], folder)}" for line in commands)
+            return "".join(f"{line}\n{_run_command(line[2:], folder)}" for line in commands)
 
         text = BLOCK.sub(run, text)
         for name in PICTURE.findall(text) if pictures else ():
@@ -90,21 +96,21 @@ def with_output(text: str, pictures: Path | None = None) -> str:
         return text
 
 
-def same(old: str, new: str, how: How) -> bool:
-    """Whether two states of a page say the same."""
-    if how.numbers_vary:
-        old, new = (BLOCK.sub(lambda match: _words(match[0]), text) for text in (old, new))
+def is_same(old: str, new: str, mode: Mode) -> bool:
+    """Return whether two versions of a page show the same output."""
+    if mode.numbers_vary:
+        old, new = (BLOCK.sub(lambda match: _mask_numbers(match[0]), text) for text in (old, new))
     return old == new
 
 
-def _words(block: str) -> str:
+def _mask_numbers(block: str) -> str:
     without = re.sub(r"[-+]?[\d,.]*\d(e[-+]?\d+)?", "0", block)
     return re.sub(r"[ \t]+|-{3,}|─+", " ", without)
 
 
-def _output(command: str, folder: str) -> str:
-    """What a command prints on both streams."""
-    path = bare_path(Path(folder) / ".programs", Path(sys.executable).parent)
+def _run_command(command: str, folder: str) -> str:
+    """Return what a command prints on standard output and standard error."""
+    path = restrict_path(Path(folder) / ".programs", Path(sys.executable).parent)
     seen = {name: value for name, value in os.environ.items() if name not in UNSEEN}
     own = {"PATH": path, "NO_COLOR": "1", "COLUMNS": "100", "XDG_CACHE_HOME": f"{folder}/.cache"}
     done = subprocess.run(

@@ -1,9 +1,9 @@
-"""The programs that every machine with Python, make and git has, linked into one folder.
+"""Link the programs that every machine with Python, make and git has into one folder.
 
     python3 docs/generator/programs.py FOLDER
 
-What the tests and the documentation print must not depend on what else is installed: Gazebo's
-reader, Graphviz, other shells, a compiler. They run with this folder as their PATH.
+The output of tests and documentation must not depend on other installed programs: Gazebo's reader,
+Graphviz, other shells, a compiler. They run with this folder as their PATH.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ PROGRAMS = (
     *("nproc", "od", "pwd", "printf", "readlink", "realpath", "rm", "rmdir", "seq", "sha256sum"),
     *("sleep", "sort", "stat", "stty", "tail", "tee", "test", "timeout", "touch", "tr", "true"),
     *("tty", "uname", "uniq", "wc"),
-    # what Debian calls essential beside them
+    # other essential packages of Debian
     *("awk", "cmp", "diff", "find", "grep", "gunzip", "gzip", "kill", "sed", "tar", "xargs"),
 )
 
@@ -30,10 +30,10 @@ def link_programs(folder: Path) -> Path:
     """Link the programs that are installed into a folder, and ``python3`` as it runs now.
 
     Args:
-        folder: Made if need be.
+        folder: Created if it does not exist.
 
     Returns:
-        The folder.
+        ``folder``.
     """
     folder.mkdir(parents=True, exist_ok=True)
     for name in PROGRAMS:
@@ -47,8 +47,8 @@ def link_programs(folder: Path) -> Path:
     return folder
 
 
-def bare_path(folder: Path, *before: Path) -> str:
-    """Return a value of PATH: some folders, and that of the programs; PATH itself on Windows."""
+def restrict_path(folder: Path, *before: Path) -> str:
+    """Return a value of PATH: the folders, then the folder of programs; on Windows, PATH itself."""
     if os.name == "nt":
         return os.environ.get("PATH", "")
     return os.pathsep.join(map(str, (*before, link_programs(folder))))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 
 from ..errors import ConfigError
 from ..lint.settings import nearest_rule
@@ -50,8 +51,8 @@ def page(name: str) -> str:
 
 
 def plain(text: str) -> str:
-    """Remove code markup from a docstring."""
-    return text.replace("``", "")
+    """Remove the marks of code and of cross-references from a docstring."""
+    return re.sub(r":\w+:`~?(?:[\w.]*\.)?(\w+)`", r"\1", text).replace("``", "")
 
 
 def facts(rule: Rule) -> list[tuple[str, str]]:

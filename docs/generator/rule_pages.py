@@ -1,0 +1,205 @@
+"""Pages of rules: a page per rule, from its docstring, decorator and fixtures, and the index."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator
+from difflib import unified_diff
+from pathlib import Path
+
+from urdftool.diagnostic import Severity
+from urdftool.report.file_diff import file_diff
+from urdftool.report.rule_pages import facts
+from urdftool.rules import all_rules, get_rule
+from urdftool.rules.effect_sources import effect_source
+from urdftool.rules.rule import TARGETS, Rule
+from urdftool.rules.table import FIXES, RULES
+
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures" / "rules"
+DESCRIPTIONS = (".urdf", ".xacro")
+LANGUAGES = {".urdf": "xml", ".xacro": "xml", ".srdf": "xml", ".yaml": "yaml"}
+
+COVERED = {
+    "a xacro argument without a default": "expansion-failed",
+    "a property with an invalid name": "expansion-failed",
+    "a property or macro used above its definition": ("undefined-name", "unknown-macro"),
+    "arithmetic outside of `${…}`": "not-a-number",
+    "a hardware interface only in the actuator": "missing-hardware-interface",
+    "a joint in two transmissions, two transmissions with one name": "duplicate-transmission",
+    "two sensors or plugins with one name": ("duplicate-sensor-name", "duplicate-plugin-name"),
+    "mimic joints that ros2_control rejects": "ros2-control-mimic",
+    "a parameter of ros2_control without a name": "ros2-control-bad-param",
+}
+"""Defects without a rule of their own, and the rules that report them."""
+
+
+def write_page(rule: Rule) -> str:
+    """Return the page of a rule: what is wrong, what readers do, the changed lines, the fix."""
+    fact, _, rest = inspect.cleandoc(rule.check.__doc__ or "").partition("\n")
+    parts = [f"# {rule.name}", as_markdown(fact), as_markdown(rest.strip())]
+    parts.append("\n".join(f"- {label}: {_mark_options(value)}" for label, value in facts(rule)))
+    if rule.effects:
+        rows = "\n".join(
+            f"| {readers} | {effect} | {effect_source(rule.name, readers)} |"
+            for readers, effect in rule.effects.items()
+        )
+        parts.append(f"| reader | what it does | how it is known |\n|---|---|---|\n{rows}")
+    parts += _write_example(rule.name)
+    if rule.name in FIXES:
+        parts.append(_write_fix(rule.name))
+    parts.append(
+        "## Accept it on purpose\n\n"
+        f"Add `<!-- urdftool-ignore[{rule.name}] reason -->` on the line or before the element."
+    )
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def write_index() -> str:
+    """Return the list of all rules, by family and by target."""
+    lines = ["# Rules", ""]
+    lines.append(f"{len(list(all_rules()))} rules. `urdftool lint --explain RULE` shows a page.")
+    lines.append("")
+    lines.append(
+        "What a page states about a reader was run in that reader on a minimal robot, with the "
+        "version given, or was read in its source, with the file given. Gazebo reads URDF with "
+        "sdformat: `gz` and `gazebo-classic` stand for the version of sdformat that was run."
+    )
+    for family in RULES:
+        names = [name for group in RULES[family].values() for name in group]
+        if not names:
+            continue
+        lines += ["", f"## {family}", "", "| rule | severity | defect | fix |", "|---|---|---|---|"]
+        for name in names:
+            rule = get_rule(name)
+            off = "" if rule.default else " *(off)*"
+            fact = as_markdown(rule.fact).replace("|", "\\|")
+            fix = FIXES[name].applicability if name in FIXES else ""
+            lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} | {fix} |")
+    lines += ["", "## Reported by another rule", "", "| defect | rule |", "|---|---|"]
+    for defect, rules in COVERED.items():
+        named = [rules] if isinstance(rules, str) else rules
+        links = ", ".join(f"[{name}]({name}.md)" for name in named)
+        lines.append(f"| {defect} | {links} |")
+    lines += ["", "A [baseline](../commands/lint.md) entry that no longer matches a finding is"]
+    lines.append("reported as a note of the run, not as a finding.")
+    lines += _write_target_sections()
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def as_markdown(text: str) -> str:
+    """Convert the code marks of a docstring to Markdown."""
+    return text.replace("``", "`")
+
+
+def _mark_options(text: str) -> str:
+    """Mark the options in a text as code."""
+    return re.sub(r"--[a-z][a-z-]*(?: --[a-z][a-z-]*)*(?: [a-z]+(?:-[a-z]+)+)?", r"`\g<0>`", text)
+
+
+def _write_target_sections() -> Iterator[str]:
+    yield from ("", "## By target", "")
+    yield (
+        "Rules that run only for a target, or have a higher severity for it. "
+        "All other rules run for every target."
+    )
+    for target in TARGETS:
+        yield from ("", f"### {target}", "", "| severity | rules |", "|---|---|")
+        special = [r for r in all_rules() if target in (r.on or ()) or target in r.raised]
+        for severity in reversed(Severity):
+            some = [r for r in special if r.severity_for(frozenset([target])) is severity]
+            links = ", ".join(f"[{rule.name}]({rule.name}.md)" for rule in some)
+            if links:
+                yield f"| {severity.label} | {links} |"
+
+
+def _write_example(rule: str) -> list[str]:
+    """Return the changed lines of a rule's example, and its files, folded."""
+    bad, good = _find_description(rule, "bad.*"), _find_description(rule, "good.*")
+    if bad is None or good is None:
+        return []
+    lines: list[str] = []
+    for wrong, right in [(bad, good), *_list_companions(bad)]:
+        lines += _compare_examples(rule, wrong, right)
+    parts = []
+    if lines:
+        shown = "\n".join(lines)
+        parts.append(f"## Example\n\nLines that differ, wrong and right:\n\n```diff\n{shown}\n```")
+    else:
+        parts.append("## Example")
+    parts.append(
+        _fold("The whole example, with the defect", [bad, *(p for p, _ in _list_companions(bad))])
+    )
+    parts.append(
+        _fold("The whole example, correct", [good, *(p for _, p in _list_companions(bad))])
+    )
+    return parts
+
+
+def _find_description(rule: str, pattern: str) -> Path | None:
+    """Return the first robot description of a rule's fixtures that matches a pattern."""
+    found = (path for path in sorted((FIXTURES / rule).glob(pattern)))
+    return next((path for path in found if path.suffix in DESCRIPTIONS), None)
+
+
+def _list_companions(bad: Path) -> list[tuple[Path, Path]]:
+    """Return the files next to an example that have a wrong and a right version."""
+    stem = bad.name.split(".")[0]
+    found = []
+    for path in sorted((*bad.parent.glob(f"{stem}.srdf"), *bad.parent.glob(f"config/{stem}.yaml"))):
+        right = path.with_name(path.name.replace("bad", "good", 1))
+        if right.is_file():
+            found.append((path, right))
+    return found
+
+
+def _compare_examples(rule: str, wrong: Path, right: Path) -> list[str]:
+    """Return the difference of two examples, without the comments that mark reported lines."""
+    mark = re.compile(rf"[ \t]*<!-- *{re.escape(rule)} *-->")
+    texts = (mark.sub("", path.read_text("utf-8", "replace")) for path in (wrong, right))
+    before, after = (text.splitlines() for text in texts)
+    names = (path.relative_to(FIXTURES / rule).as_posix() for path in (wrong, right))
+    return [line.rstrip() for line in unified_diff(before, after, *names, n=2, lineterm="")]
+
+
+def _fold(title: str, files: list[Path]) -> str:
+    """Return files as a part of a page that is closed until it is clicked."""
+    blocks = []
+    for path in files:
+        text = path.read_text("utf-8", "replace").rstrip()
+        language = LANGUAGES.get(path.suffix, "text")
+        blocks.append(f"`{path.name}`:\n\n```{language}\n{text}\n```")
+    shown = "\n\n".join(blocks)
+    return f"<details>\n<summary>{title}</summary>\n\n{shown}\n\n</details>"
+
+
+def _write_fix(rule: str) -> str:
+    """Return the section with the change that a rule's fix makes in a fixture."""
+    fix = FIXES[rule]
+    option = "--fix" if fix.applicability == "safe" else "--fix --unsafe-fixes"
+    option += " --fix-meshes" if fix.writes_meshes else ""
+    text = "\n".join(line.rstrip() for line in _list_fix_lines(rule))
+    lead = f"`urdftool lint {option}` makes this change ({fix.applicability} fix):"
+    return f"## Fix\n\n{lead}\n\n```diff\n{text}\n```"
+
+
+def _list_fix_lines(rule: str) -> Iterator[str]:
+    found = sorted((FIXTURES / rule).glob("fixed*"), key=lambda path: (path.is_dir(), path.name))
+    stem = found[0].name.split(".")[0]
+    for fixed in (path for path in found if path.name.split(".")[0] == stem):
+        if fixed.is_dir():
+            for path in sorted(filter(Path.is_file, fixed.rglob("*"))):
+                inside = path.relative_to(fixed).as_posix()
+                yield from _compare_files(FIXTURES / rule / inside, path, inside)
+        else:
+            bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
+            yield from _compare_files(bad, fixed, bad.name)
+
+
+def _compare_files(old: Path, new: Path, name: str) -> list[str]:
+    """Return what ``--diff`` prints for a file of a fixture; a missing file counts as empty."""
+    before, after = (path.read_bytes() if path.is_file() else b"" for path in (old, new))
+    if b"\0" in before + after:
+        return file_diff(name, before if old.is_file() else None, after).splitlines()
+    texts = (data.decode("utf-8", "replace").splitlines() for data in (before, after))
+    return list(unified_diff(*texts, name, name, n=2, lineterm=""))
