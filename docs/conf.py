@@ -1,7 +1,8 @@
-"""How Sphinx makes the site of these pages: ``make site``.
+"""Configure Sphinx for the site of these pages: ``make site``.
 
-The pages are plain Markdown that reads well where it lies; what only the site needs is here: the
-order of its menu, and a way back from each of the rules, which the menu does not list.
+The pages are plain Markdown that can be read in the repository. This file adds what only the site
+needs: the order of its menu, a link from each rule back to the list, and redirects of old
+addresses.
 """
 
 from __future__ import annotations
@@ -16,30 +17,30 @@ DOCS = Path(__file__).resolve().parent
 REPOSITORY = "https://github.com/urdftool/urdftool"
 
 MENU = {
-    "First": ("start", "install", "compare"),
+    "Start": ("start", "install", "terms", "compare"),
     "Commands": (
         *(f"commands/{name}" for name in ("expand", "lint", "inertia", "collision", "graph")),
         *(f"commands/{name}" for name in ("info", "diff", "view", "simulate", "export")),
     ),
-    "How to": (
-        *("adopting", "building", "howto/cad-to-simulation", "howto/collision-fleet"),
-        *("howto/classic-to-gz", "howto/mujoco-scene", "howto/strangers", "howto/two-wheels"),
+    "How-to": (
+        *("adopting", "building", "howto/two-wheels", "howto/cad-to-simulation"),
+        *("howto/collision-fleet", "howto/classic-to-gz", "howto/mujoco-scene"),
+        "howto/untrusted-input",
     ),
-    "To look up": (
+    "Reference": (
         *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "formats/mjcf_runs"),
         *("python", "completion"),
-        *(
-            "benchmarks",
-            "fidelity",
-            "robustness",
-            "simulate-robots",
-            "inertia-vendors",
-            "lint-precision",
-        ),
     ),
-    "For contributors": ("architecture", "contributing"),
+    "Measurements": (
+        *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
+        *("inertia-vendors", "lint-precision"),
+    ),
+    "Development": ("architecture", "contributing"),
 }
-"""The pages of the menu, by caption; one that is not there yet is left out."""
+"""Pages of the menu, by caption; files that do not exist are left out."""
+
+REDIRECTS = {"howto/strangers": "howto/untrusted-input", "house": "architecture"}
+"""Old addresses of pages, and their new ones."""
 
 project = author = "urdftool"
 project_copyright = "the authors of urdftool; Apache-2.0"
@@ -48,10 +49,10 @@ version = release = __version__
 extensions = ["myst_parser", "sphinx_copybutton"]
 source_suffix = {".md": "markdown"}
 exclude_patterns = ["pictures/*.py"]
-myst_enable_extensions = ["colon_fence"]
+myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 4
 nitpicky = True
-smartquotes = False  # "--fix" stays what is typed
+smartquotes = False  # docutils would turn --fix into an en dash and "fix"
 
 html_theme = "furo"
 html_title = "urdftool"
@@ -68,10 +69,10 @@ copybutton_prompt_text = "$ "
 copybutton_only_copy_prompt_lines = True
 
 
-def for_the_site(app: Sphinx, name: str, source: list[str]) -> None:
-    """A page as the site wants it: the first with the menu, a rule with a way back."""
+def add_site_parts(app: Sphinx, name: str, source: list[str]) -> None:
+    """Add to a page what only the site has: the menu, or the link from a rule to the list."""
     if name == "index":
-        source[0] += "".join(_menu(caption, pages) for caption, pages in MENU.items())
+        source[0] += "".join(write_menu(caption, pages) for caption, pages in MENU.items())
     elif name.startswith("rules/") and name != "rules/index":
         source[0] = f"---\norphan: true\n---\n\n{source[0]}\n[All rules](index.md)\n"
     elif name == "contributing":
@@ -79,12 +80,28 @@ def for_the_site(app: Sphinx, name: str, source: list[str]) -> None:
         source[0] = above.replace("](docs/", "](")
 
 
-def _menu(caption: str, pages: tuple[str, ...]) -> str:
-    there = "\n".join(page for page in pages if (DOCS / f"{page}.md").exists())
-    return f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{there}\n```\n"
+def write_menu(caption: str, pages: tuple[str, ...]) -> str:
+    """Return the part of the menu with one caption, as a directive."""
+    present = "\n".join(page for page in pages if (DOCS / f"{page}.md").exists())
+    return f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{present}\n```\n"
+
+
+def write_redirects(app: Sphinx, error: Exception | None) -> None:
+    """Write a page at each old address that leads to the new one."""
+    if error is not None or app.builder.name != "html":
+        return
+    for old, new in REDIRECTS.items():
+        target = "../" * old.count("/") + f"{new}.html"
+        page = (
+            f'<!doctype html>\n<meta charset="utf-8">\n<title>{new}</title>\n'
+            f'<meta http-equiv="refresh" content="0; url={target}">\n'
+            f'<p>This page has moved: <a href="{target}">{new}</a>.</p>\n'
+        )
+        (Path(app.outdir) / f"{old}.html").write_text(page, "utf-8")
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Called by Sphinx."""
-    app.connect("source-read", for_the_site)
+    """Connect the functions of this file; called by Sphinx."""
+    app.connect("source-read", add_site_parts)
+    app.connect("build-finished", write_redirects)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
