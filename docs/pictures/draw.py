@@ -1,11 +1,12 @@
 """Draw the pictures of robots in the documentation: ``python docs/pictures/draw.py``.
 
-Each is what ``urdftool view`` or ``simulate`` writes for a robot of the fixtures.
+They are written by ``urdftool view``, ``simulate`` and ``collision`` for robots of the fixtures.
 """
 
 from __future__ import annotations
 
 import sys
+import tempfile
 from pathlib import Path
 
 from urdftool import cli
@@ -29,7 +30,7 @@ PICTURES = {
         *("--size", "320x270", "--contact-sheet"),
     ),
 }
-"""By file: the robot, and the words that follow it."""
+"""By file: the robot, and the other arguments of ``view``."""
 
 SIMULATED = {
     "simulate_plot.png": (
@@ -41,11 +42,23 @@ SIMULATED = {
         *("--pose", "shoulder_joint=0.6", "--pose", "elbow_joint=0.8", "--picture"),
     ),
 }  # fmt: skip
-"""The same for ``simulate``, which says by its exit code whether the robot stands."""
+"""The same for ``simulate``; its exit code is 1 if the robot does not stand."""
+
+COLLISIONS = {
+    "collision_auto.png": (
+        "my_robot/urdf/mobile_manipulator.urdf.xacro",
+        *("-o", "robot.urdf", "--quality", "tight", "--replace-primitives", "--picture"),
+    ),
+    "collision_cuts.png": (
+        "mesh",
+        *("my_robot/meshes/arm_base.stl", "-o", "base.obj", "--max-error", "0.01", "--picture"),
+    ),
+}
+"""The same for ``collision``; its other outputs are removed."""
 
 
-def main() -> int:
-    """Draw them all; the exit code is that of the first that fails."""
+def run() -> int:
+    """Draw all pictures; return the exit code of the first command that fails."""
     for name, (robot, *words) in SIMULATED.items():
         code = cli.call(["simulate", str(ROBOTS / robot), *words, str(FOLDER / name)])
         if code > 1:
@@ -54,8 +67,15 @@ def main() -> int:
         code = cli.call(["view", str(ROBOTS / robot), *words, str(FOLDER / name)])
         if code:
             return code
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in COLLISIONS.items():
+            paths = [str(ROBOTS / word) if "/" in word else word for word in words]
+            paths[paths.index("-o") + 1] = str(Path(folder) / paths[paths.index("-o") + 1])
+            code = cli.call(["collision", *paths, str(FOLDER / name)])
+            if code:
+                return code
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run())

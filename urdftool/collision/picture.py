@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ..drawing.camera import Camera
+from ..drawing.lettering import Words, lettered
 from ..drawing.picture import draw, view_of
 from ..drawing.png_file import png
 from ..drawing.shapes import Shapes, bare_shapes, robot_shapes
@@ -23,6 +24,8 @@ from .surface import read_surface
 SIZE = (640, 560)
 """Width and height of each half in pixels."""
 
+_MARGIN = 14
+_LETTERS = 18
 _GREY = (0.72, 0.74, 0.78, 1.0)
 _CAMERA = Camera(np.radians(-50.0), np.radians(25.0))
 
@@ -43,7 +46,8 @@ def mesh_picture(task: Task, result: Result) -> bytes:
     """Draw one mesh and its pieces as a PNG file."""
     surface = read_surface(task.path, task.scale, task.gltf_up)
     left = bare_shapes([(surface.vertices, surface.faces, _GREY)])
-    return side_by_side(left, {"": IDENTITY}, _colored(result.pieces))
+    label = _label(result.pieces, [result.error])
+    return side_by_side(left, {"": IDENTITY}, _colored(result.pieces), right_label=label)
 
 
 def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result]) -> bytes:
@@ -72,14 +76,17 @@ def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task
         at = poses[link.name]
         rotation, xyz = np.array(at.rotation), np.array(at.translation)
         right += [piece.posed(rotation, xyz) for piece in pieces]
+    errors = [found.error for found in results.values()]
     visuals = robot_shapes(robot)
     if not len(visuals) and not right:
         raise UrdftoolError("the robot has nothing that could be drawn")
-    return side_by_side(visuals, poses, _colored(right))
+    return side_by_side(visuals, poses, _colored(right), right_label=_label(right, errors))
 
 
-def side_by_side(left: Shapes, poses: Mapping[str, Pose], right: Shapes) -> bytes:
-    """Draw posed shapes and unposed ones from the same viewpoint, as a PNG file."""
+def side_by_side(
+    left: Shapes, poses: Mapping[str, Pose], right: Shapes, *, right_label: str
+) -> bytes:
+    """Draw posed shapes and unposed ones from the same viewpoint, as a PNG file with labels."""
     there = [left.posed(poses), right.posed({"": IDENTITY})]
     view = view_of(np.concatenate([corners[seen] for corners, _, seen in there]), _CAMERA, SIZE)
     halves = [
@@ -87,7 +94,22 @@ def side_by_side(left: Shapes, poses: Mapping[str, Pose], right: Shapes) -> byte
         draw(right, {"": IDENTITY}, camera=view, ground=False),
     ]
     line = np.full((SIZE[1], 2, 3), 204, np.uint8)
-    return png(np.concatenate([halves[0], line, halves[1]], axis=1))
+    image = np.concatenate([halves[0], line, halves[1]], axis=1)
+    left_label = f"visual geometry: {len(left):,} triangles"
+    width = SIZE[0] - 2 * _MARGIN
+    labels = [
+        Words(left_label, (_MARGIN, _MARGIN), width, _LETTERS),
+        Words(right_label, (SIZE[0] + 2 + _MARGIN, _MARGIN), width, _LETTERS),
+    ]
+    return png(lettered(image, labels))
+
+
+def _label(pieces: Sequence[Piece], errors: Sequence[float]) -> str:
+    """Describe collision geometry by the number of its pieces and the largest error, if known."""
+    number = f"collision geometry: {len(pieces)} piece{'' if len(pieces) == 1 else 's'}"
+    if not errors:
+        return number
+    return f"{number}, {'largest ' if len(errors) > 1 else ''}error {max(errors):.1%}"
 
 
 def _colored(pieces: Sequence[Piece]) -> Shapes:
