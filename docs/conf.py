@@ -33,6 +33,7 @@ MENU = {
     ),
     "Measurements": (
         *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
+        "collision-measurements",
         *("inertia-vendors", "lint-precision"),
     ),
     "Development": ("architecture", "contributing"),
