@@ -100,7 +100,7 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             f"{words} {have} no effect in new Gazebo{times}; {remedy}",
             at=first,
             severity=None if own else INFO,
-            data={"elements": list(found), "count": count},
+            data={"elements": list(found), "count": count, "has_gz_plugin": own},
         )
 
 
