@@ -412,7 +412,7 @@ MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
 @pytest.mark.parametrize(
     ("name", "text", "right"),
     [
-        ("macros.xacro", MACROS, "lint a file that calls its macros"),
+        ("macros.xacro", MACROS, "use a file that calls its macros"),
         ("empty.urdf", "<robot name='r'/>", 'add a <link name="…"/>'),
     ],
 )

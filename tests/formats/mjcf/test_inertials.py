@@ -145,5 +145,5 @@ def test_noise_in_place_of_zeros_is_a_point(write):
 
 def test_negative_mass_is_refused(write):
     text = INERTIAL.replace('value="1"', 'value="-1"')
-    with pytest.raises(Refused, match=r"mass of link .* is -1 kg"):
+    with pytest.raises(Refused, match=r"mass of link .* is negative \(-1 kg\)"):
         export(write("r.urdf", robot(link("a", text))))

@@ -58,7 +58,7 @@ def every_missing_link(robot: Robot) -> Iterator[Problem]:
 
 def _no_link(robot: Robot) -> Problem:
     macros = robot.source is not None and robot.source.expansion is not None
-    what = "lint a file that calls its macros" if macros else 'add a <link name="…"/>'
+    what = "use a file that calls its macros" if macros else 'add a <link name="…"/>'
     who = f"robot '{robot.name}'" if robot.name else "the robot"
     return Problem(robot, f"{who} has no link; {what}")
 
