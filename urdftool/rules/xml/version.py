@@ -197,7 +197,7 @@ def keep_rpy(problem: Problem, context: FixContext) -> Proposal | None:
     effects={"ros2 run … -p robot_description:=…": "couldn't parse parameter override rule"},
 )
 def colon_space_in_comment(document: Document, description: Description) -> Iterator[Problem]:
-    """A comment contains a colon with a space after it.
+    """A comment contains a colon with a space or line end after it.
 
     ROS 2 reads a parameter on the command line as YAML, where this is a key and a value: the node
     does not start, and the error does not mention the comment. A launch file with
@@ -210,7 +210,8 @@ def colon_space_in_comment(document: Document, description: Description) -> Iter
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
             document.root,
-            f"comment{more} contains ': ', which ROS 2 may read as YAML; write ' - '",
+            f"comment{more} contains a colon before a blank or line end, which ROS 2 may read as "
+            "YAML; write ' - '",
             at=Place(document.file, found[0].start, found[0].end),
         )
 

@@ -41,7 +41,8 @@ _ELSEWHERE = {
     ("link", "material"): "write it inside <visual>",
     ("link", "color"): "write it inside <visual><material>",
     ("link", "sensor"): 'write it inside <gazebo reference="the link">',
-    ("link", "gravity"): 'write <turnGravityOff> inside <gazebo reference="the link">',
+    ("link", "gravity"): "remove it, since gravity acts by default; to switch it off for Gazebo, "
+    'write <turnGravityOff>true</turnGravityOff> inside <gazebo reference="the link">',
     ("link", "self_collide"): 'write <selfCollide> inside <gazebo reference="the link">',
     ("link", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
     ("link", "parent"): "only joints have a parent",
