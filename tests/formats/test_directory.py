@@ -93,7 +93,7 @@ def test_missing_parents_are_made(tmp_path):
 
 def test_a_parent_that_is_a_file(tmp_path):
     (tmp_path / "file").touch()
-    with pytest.raises(OutputError, match="cannot be made"):
+    with pytest.raises(OutputError, match="cannot be created"):
         write_directory(tmp_path / "file" / "out", {"a.xml": MODEL}, main="a.xml")
 
 
