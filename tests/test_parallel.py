@@ -60,7 +60,7 @@ def test_a_killed_worker_is_reported_and_the_others_go_on():
 
 
 def test_without_a_result_for_it_a_lost_worker_is_an_error():
-    with pytest.raises(UrdftoolError, match="exit code -9"):
+    with pytest.raises(UrdftoolError, match="code -9"):
         dict(map_tasks(work, ["a", "die"], workers=2))
 
 
