@@ -72,6 +72,7 @@ def test_the_fewest_pieces_within_the_error_are_taken():
     assert counts[0] < counts[1] < counts[2] <= 12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("most", [1, 2, 3])
 def test_the_smallest_error_of_the_budget(most):
     choice = choose(stairs(6), Settings(method="cuts", max_error=0.001, max_hulls=most))
@@ -82,6 +83,7 @@ def test_the_smallest_error_of_the_budget(most):
     assert note.data["error"] <= choice.measures.error
 
 
+@pytest.mark.slow
 def test_twice_the_pieces_give_about_what_was_forecast():
     surface = stairs(8)
     one, two = (

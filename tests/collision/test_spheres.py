@@ -45,6 +45,7 @@ def test_all_of_the_exterior_is_covered(number, excess, most):
         assert len(choice.pieces) <= most
 
 
+@pytest.mark.slow
 def test_more_excess_takes_fewer_spheres():
     surface = prepare(*finer(*l_profile()))
     counts = [
@@ -57,6 +58,7 @@ MESH = """<robot name="r"><link name="arm"><visual><origin xyz="1 0 0" rpy="0 0 
 <geometry><mesh filename="box.stl"/></geometry></visual></link></robot>"""
 
 
+@pytest.mark.slow
 def test_planners_get_spheres_in_the_frame_of_the_link(urdftool, write):
     from tests.commands.test_collision import stl
 
