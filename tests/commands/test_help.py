@@ -8,13 +8,15 @@ from urdftool.commands.grouped_help import SHARED, SHARED_OPTIONS, GroupedComman
 
 
 def leaf_commands():
-    root = click.Context(cli.main, info_name="urdftool")
+    root = click.Context(cli.main, info_name="urdftool", help_option_names=["-h", "--help"])
     for name in cli.COMMANDS:
         command = cli.main.get_command(root, name)
         if not isinstance(command, click.Group):
             yield command
             continue
-        context = click.Context(command, info_name=name, parent=root)
+        context = click.Context(
+            command, info_name=name, parent=root, help_option_names=["-h", "--help"]
+        )
         yield from (command.get_command(context, inner) for inner in command.list_commands(context))
     collision = cli.main.get_command(root, "collision")
     yield collision.get_command(root, "mesh")
@@ -23,7 +25,7 @@ def leaf_commands():
 @pytest.mark.parametrize("command", list(leaf_commands()), ids=lambda command: command.name)
 def test_every_option_is_in_one_group(command):
     assert isinstance(command, GroupedCommand)
-    context = click.Context(command)
+    context = click.Context(command, help_option_names=["-h", "--help"])
     groups = dict(command.list_groups(context))
     listed = [id(option) for options in groups.values() for option in options]
     shown = [
