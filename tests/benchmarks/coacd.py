@@ -19,10 +19,10 @@ CORPUS = peers.ROOT.parent / "shared" / "corpus-meshes"
 MORE = ("z1_Link03.STL", "torso_lift_link.stl")
 LONG = 20.0  # seconds by the clock from which a run of CoACD counts as long
 ABOUT = """\
-Ours is the whole command, of CoACD only the call of its function, both with all cores, one after
-the other on each mesh; memory it does not tell. The error is that of all surfaces of all pieces,
-relative to the diagonal; beside it stands that of what can be touched. One mesh alone:
-`python -m tests.benchmarks.collision_coacd MESH`."""
+For urdftool the whole command is timed, for CoACD only the call of its function, both with all
+cores, one after the other. The errors are those of all surfaces of all pieces, and of the
+surfaces that can be touched, relative to the diagonal. For one mesh: `python -m
+tests.benchmarks.collision_coacd MESH`."""
 
 
 def rows() -> Iterator[Table | str]:
@@ -32,7 +32,7 @@ def rows() -> Iterator[Table | str]:
     if importlib.util.find_spec("coacd") is None:
         yield peers.missing("coacd")
         return
-    head = ["mesh", "made by", "by the clock", "processor", "triangles", "pieces"]
+    head = ["mesh", "made by", "elapsed time", "processor", "triangles", "pieces"]
     table = Table([*head, "error", "touchable error"])
     pairs: list[tuple[Any, Any]] = []
     with tempfile.TemporaryDirectory() as name:
@@ -78,8 +78,9 @@ def _reading(pairs: Sequence[tuple[Any, Any]]) -> str:
         return f"{min(ratios):.2f} to {max(ratios):.2f}"
 
     return (
-        f"Where the default takes over {LONG:.0f} s by the clock, ours takes {span('clock')} of "
-        f"its time and {span('processor')} of its processor time, with {span('triangles')} of its "
+        f"Where the default takes over {LONG:.0f} s, urdftool takes {span('clock')} of its "
+        f"elapsed time and {span('processor')} of its processor time, with "
+        f"{span('triangles')} of its "
         f"triangles, {span('error')} of its error of all surfaces, and {span('touched')} of its "
         "touchable error."
     )

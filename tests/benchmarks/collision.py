@@ -17,10 +17,10 @@ PEERS = ("pybullet", "coacd")
 LIMIT = 150.0
 MESHES = ("wrist_roll_follower_so101_v1.stl", "torso_2.STL")
 ABOUT = """\
-Whole commands, nothing kept. V-HACD is that of PyBullet with its defaults. **Error** is the largest
-distance of any surface of any piece to the mesh's surface and back, relative to the diagonal, by
-MeshLab's measure: cuts inside the body count in it, which nothing can touch. `auto` takes what is
-cheapest within 1 % of error for a mesh, and may take another method than convex pieces."""
+Whole commands, without a cache. V-HACD is that of PyBullet with its defaults. **Error** is the
+largest distance between the surfaces of the pieces and of the mesh, in both directions, relative
+to the diagonal, measured by MeshLab: cuts inside the body count, although they cannot be touched.
+`auto` takes the cheapest method within 1 % of error, which may not be convex pieces."""
 
 V_HACD = """
 import sys, pybullet
@@ -52,8 +52,8 @@ def rows() -> Iterator[Table | str]:
     if not any(row[1] == "V-HACD" for row in table.rows):
         yield peers.missing("pybullet")
     table.reading = [
-        "Fewer triangles and pieces are what makes a simulation fast; the error is what it costs. "
-        "CoACD's own defaults take minutes a mesh and stand below, under a name of their own."
+        "Fewer triangles and pieces make a simulation faster, at the cost of a larger error. CoACD "
+        "with its own defaults takes minutes per mesh; see its section."
     ]
     yield table
 

@@ -26,8 +26,8 @@ ROBOTS = (
     (f"{FRANKA}/fr3/fr3.urdf.xacro", ("hand:=true", "ros2_control:=true", "robot_ip:=1.2.3.4")),
 )
 ABOUT = """\
-The output is equal as XML. Plain xacro finds no package without ROS: a stand-in for ROS's index
-answers its `$(find)`, which takes no time to speak of."""
+The output is equal as XML. Without ROS, xacro finds no packages: a replacement of the ROS index
+answers its `$(find)`, in negligible time."""
 
 
 def rows() -> Iterator[Table | str]:
@@ -48,8 +48,8 @@ def rows() -> Iterator[Table | str]:
             }
             pairs.add(name, in_turn(sides, budget=12, label=name))
     yield pairs.table(
-        "Both are the same engine: xacro compiles every expression anew, and urdftool runs it "
-        "with what was compiled before kept. Of small robots most of the time is Python's start."
+        "Both run xacro: xacro compiles every expression each time, urdftool caches compiled "
+        "expressions. For small robots most of the time is the start of Python."
     )
 
 
@@ -61,7 +61,7 @@ def _robots(folder: Path) -> Iterator[tuple[str, Path, tuple[str, ...]]]:
     yield path.name, path, ()
     large = folder / "made.urdf.xacro"
     large.write_text(made_xacro(200), "utf-8")
-    yield "made, 200 calls of a macro", large, ()
+    yield "generated, 200 calls of a macro", large, ()
 
 
 def _root(path: Path) -> Path:

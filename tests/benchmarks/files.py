@@ -28,5 +28,5 @@ def rows() -> Iterator[Table | str]:
             files = robots[:: len(robots) // count][:count]
             add_pile(pairs, str(count), files, folder, rounds=5, budget=20, most=99)
     yield pairs.table(
-        "Meshes are most of the work where nothing is kept: check_urdf does not open them."
+        "Without a cache, meshes are most of the work: check_urdf does not open them."
     )

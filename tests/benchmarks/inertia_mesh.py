@@ -17,9 +17,9 @@ from .timing import URDFTOOL, Call, command, in_turn
 PEERS = ("trimesh",)
 MESHES = ("z1_Link01.STL", "torso_2.STL")
 ABOUT = """\
-Whole commands: mass, centre and inertia of a mesh file. trimesh integrates over the triangles as
-they are; urdftool does, too, where the mesh is closed and turned outwards, and otherwise mends it
-first or takes its hull, and says which."""
+Whole commands: mass, center of mass and inertia of a mesh file. trimesh integrates over the
+triangles as they are. urdftool does so if the mesh is closed and oriented; otherwise it repairs it
+first or uses its hull, and prints the method."""
 
 TRIMESH = """
 import sys, json, trimesh

@@ -16,11 +16,10 @@ PEERS = ("xacro", "check_urdf", "urdf_to_graphviz", "ign sdf", "mujoco")
 COUNTS = (10, 100, 1000, 5000)
 LIMIT = 60.0
 ABOUT = """\
-A made robot: a base and arms of ten links that do not touch each other, each link with an inertia,
-a box to see and one to touch, and a revolute joint; for `expand` a macro that is called for each.
-Nothing is kept from one run to the next; what takes more than a minute is stopped. **Exponent** is
-p in time ~ links^p between the two largest, after the time of the smallest is taken off: 1 is in
-proportion, 2 is quadratic."""
+A generated robot: a base and arms of ten links without contacts, each link with an inertia, a
+visual box, a collision box and a revolute joint; for `expand`, a macro call per link. Caches are
+off; runs longer than a minute are stopped. **Exponent** is p in time ~ links^p between the two
+largest robots, after subtracting the time of the smallest: 1 is linear, 2 is quadratic."""
 
 IMPORT = """
 import sys, mujoco
@@ -39,7 +38,7 @@ def rows() -> Iterator[Table | str]:
             xacro[count] = folder / f"made_{count}.urdf.xacro"
             xacro[count].write_text(made_xacro(count), "utf-8")
         for words, peer, theirs, files in _commands(folder, urdf, xacro):
-            yield f"**`urdftool {' '.join(words)}`**" + (f" beside {peer}" if peer else "")
+            yield f"**`urdftool {' '.join(words)}`**" + (f" and {peer}" if peer else "")
             yield _grown(words, peer, theirs, files, folder)
 
 

@@ -20,10 +20,10 @@ ROBOTS = (
     "baxter.urdf",
 )  # fmt: skip
 ABOUT = """\
-Whole commands, from URDF to an MJCF file with its meshes. Of urdftool conversions of meshes are
-kept from one run to the next, as users have it; *anew* is with an empty cache. The others get a
-copy whose package URIs are paths. A result that MuJoCo does not load counts as failed: why, stands
-below. What each makes of all robots is in [fidelity](fidelity.md)."""
+Whole commands, from URDF to an MJCF file with its meshes. urdftool caches conversions of meshes;
+*empty cache* is without. The others get a copy with paths instead of package URIs. A result that
+MuJoCo does not load is a failure, with its reason below. The results are compared in
+[fidelity](fidelity.md)."""
 
 LOAD = "import sys, mujoco; mujoco.MjModel.from_xml_path(sys.argv[1])"
 
@@ -50,10 +50,10 @@ def rows() -> Iterator[Table | str]:
             taken = in_turn(sides, rounds=5, budget=15, label=robot)
             anew = taken.pop("anew")
             pairs.add(robot, taken)
-            pairs.add(f"{robot}, anew", {**taken, "urdftool": anew})
+            pairs.add(f"{robot}, empty cache", {**taken, "urdftool": anew})
     yield pairs.table(
-        "MuJoCo's import reads no COLLADA, and leaves out visuals; xacrodoc calls it. scikit-robot "
-        "turns every mesh into several, by colour."
+        "MuJoCo's import reads no COLLADA and drops visuals; xacrodoc calls it. scikit-robot "
+        "splits every mesh by color."
     )
 
 

@@ -18,17 +18,17 @@ _INSTALLED = re.compile(r"/[^\s'\"]*/site-packages/(?:cmeel\.prefix/share/)?")
 """Where a package happens to be installed, which a message of another tool names."""
 
 HEAD = """\
-# Measured beside other tools
+# Benchmarks
 
-`make bench-peers` installs the other tools that are on PyPI, in an environment of their own, and
-`make bench` measures all of this anew and writes this page, in some fifteen minutes. One alone:
-`python -m tests.benchmarks NAME --write`; what takes long has to be named: {long}.
+`make bench-peers` installs the other tools from PyPI in an environment of their own. `make bench`
+runs all benchmarks in about fifteen minutes and writes this page. `python -m tests.benchmarks
+NAME --write` runs one; long ones must be named: {long}.
 
-Every command is a process of its own, from its start to its end, and both sides of a row take
-turns in one run on the same input; shown are medians. **Ratio** is urdftool's time over the
-other's: below 1 urdftool is faster, and above 1, in bold, it is slower. Memory is the peak of the
-largest process; less than 9 MB is not resolved. What is no command but a library is timed without
-its imports, on both sides; its section says so. Nothing here passes or fails.
+Every command is a separate process, measured from start to end. Both sides of a row alternate in
+one run on the same input; the values are medians. **Ratio** is the time of urdftool divided by
+that of the other tool: below 1 urdftool is faster; above 1, in bold, it is slower. Memory is the
+peak of the largest process; less than 9 MB is not resolved. Libraries without a command are timed
+without their imports, on both sides. No result passes or fails.
 """
 
 

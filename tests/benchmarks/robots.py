@@ -70,7 +70,7 @@ def examples_and_made(names: Iterable[str], folder: Path) -> Iterator[tuple[str,
             yield name, path
     path = folder / "made.urdf"
     path.write_text(made(100), "utf-8")
-    yield "made, 100 links", path
+    yield "generated, 100 links", path
 
 
 def options_of(path: Path) -> list[str]:

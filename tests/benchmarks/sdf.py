@@ -15,9 +15,9 @@ from .timing import URDFTOOL, Call, command, in_turn
 PEERS = ("ign sdf",)
 ROBOTS = ("ur5_robot.urdf", "panda.urdf", "go2.urdf", "talos_full_v2.urdf", "pr2.urdf")
 ABOUT = """\
-`ign sdf -p` (libsdformat, C++, started by Ruby) prints a model that names the meshes where they
-are; so does urdftool with `--uri package`, and by default it copies them beside the model, with
-their textures. What each makes of all robots is in [fidelity](fidelity.md)."""
+`ign sdf -p` (libsdformat, C++, started by Ruby) prints a model that refers to the meshes in place;
+so does urdftool with `--uri package`. By default urdftool copies them, with their textures. The
+results are compared in [fidelity](fidelity.md)."""
 
 
 def rows() -> Iterator[Table | str]:

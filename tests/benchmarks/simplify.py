@@ -127,4 +127,4 @@ def _meshes() -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
         if path is not None:
             surface = read_surface(path)
             yield path.name, surface.vertices, surface.faces
-    yield "made torus with waves", *bumpy_torus(200_000)
+    yield "generated torus with waves", *bumpy_torus(200_000)

@@ -23,17 +23,17 @@ from .timing import PYTHON, URDFTOOL, command, in_turn
 PEERS = ("pybullet",)
 ROBOTS = FIXTURES / "robots"
 ABOUT = """\
-Whole processes. The **bare loop** loads the same URDF into PyBullet, holds every joint at zero with
-all its might, takes the same number of steps, and looks at nothing. Where joints give way, or
-follow others, it takes other steps; **the same calls** are all that urdftool makes PyBullet do,
-made once more. The hulls of meshes are kept from an earlier run."""
+Whole processes. The **bare loop** loads the same URDF into PyBullet, holds every joint at zero
+with a force of 1,000, and takes the same number of steps without checks. **The same calls**
+repeats all calls that urdftool makes to PyBullet; it differs from the bare loop for joints that
+give way or follow others. Hulls of meshes are cached."""
 
 MESHES = {
-    "a1/a1.urdf": "a1, a quadruped that is seen in meshes",
-    "husky/husky.urdf": "husky, a base that collides in one",
-    "kuka_iiwa/model.urdf": "kuka_iiwa, an arm that collides in meshes",
-    "laikago/laikago_toes_zup.urdf": "laikago, a quadruped that does, too",
-    "mini_cheetah/mini_cheetah.urdf": "mini_cheetah, one of 194,000 triangles",
+    "a1/a1.urdf": "a1, a quadruped with visual meshes",
+    "husky/husky.urdf": "husky, a base with a collision mesh",
+    "kuka_iiwa/model.urdf": "kuka_iiwa, an arm with collision meshes",
+    "laikago/laikago_toes_zup.urdf": "laikago, a quadruped with collision meshes",
+    "mini_cheetah/mini_cheetah.urdf": "mini_cheetah, a quadruped with 194,000 triangles",
 }
 
 BODIES = {
@@ -43,7 +43,7 @@ BODIES = {
     "tiago.urdf": "tiago, a mobile manipulator of 49",
     "pr2.urdf": "pr2, one of 31",
 }
-"""Of many bodies, of which many are in each other at the start."""
+"""Robots with many bodies, many of which interpenetrate at the start."""
 
 BARE = """
 import sys, pybullet as p
@@ -98,7 +98,7 @@ def _robots() -> Iterator[tuple[str, Path, list[str], Settings]]:
     base, arm = "my_robot/urdf/robot_base.urdf.xacro", "ros2_arm/urdf/robot2_sound.urdf.xacro"
     sloped = Settings(slope=math.radians(0.2))
     yield "mobile base, 5 s", ROBOTS / base, ["--slope", "0.2"], sloped
-    yield "arm, limp", ROBOTS / arm, ["--limp"], Settings(hold="none")
+    yield "arm, unactuated", ROBOTS / arm, ["--limp"], Settings(hold="none")
     known = {"/".join(path.parts[-2:]): path for path in bullet_robots()}
     for name, words in MESHES.items():
         if name in known:

@@ -23,7 +23,7 @@ def rows() -> Iterator[Table | str]:
     taken = in_turn(sides, rounds=31, label="--version, lint")
     pairs = Pairs("command", ["import click", "python -c pass"])
     for words in ("--version", "lint"):
-        name = f"`urdftool {words}`" + (", 10 links, kept in the cache" if words == "lint" else "")
+        name = f"`urdftool {words}`" + (", 10 links, cached" if words == "lint" else "")
         pairs.add(
             name,
             {
@@ -34,7 +34,7 @@ def rows() -> Iterator[Table | str]:
         )
     made = pairs.table()
     made.reading = [
-        "The start of Python and of click is what no command here can be below; a hook that lints "
-        "one file at each commit pays little more."
+        "The start of Python and click is the minimum of every command; a hook that lints one file "
+        "per commit takes little more."
     ]
     yield made

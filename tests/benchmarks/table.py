@@ -92,7 +92,7 @@ class Pairs:
             parts.append(f"faster in {len(faster)} of {len(ratios)} rows ({_times(faster)})")
         if slower:
             parts.append(f"slower in {len(slower)} of {len(ratios)} ({_slow(slower)})")
-        return f"Beside {peer}: {', '.join(parts)}."
+        return f"Compared with {peer}: {', '.join(parts)}."
 
 
 def _plain(text: str) -> str:

@@ -13,8 +13,8 @@ from .timing import URDFTOOL, command, in_turn
 COUNTS = (10_000, 100_000, 500_000, 2_000_000)
 LIMIT = 90.0
 ABOUT = f"""\
-A binary STL of a torus with waves, no two triangles in a plane. Nothing is kept from one run to the
-next; what takes more than {LIMIT:.0f} s is stopped."""
+A binary STL of a torus with waves, no two triangles in a plane. Caches are off; runs
+longer than {LIMIT:.0f} s are stopped."""
 
 ROBOT = """\
 <robot name="one"><link name="base"><visual><geometry><mesh filename="{}"/></geometry></visual>
@@ -46,7 +46,7 @@ def rows() -> Iterator[Table | str]:
                 cells.append(cell(in_turn({"it": call}, rounds=3, budget=6, label=label)["it"]))
             table.rows.append([f"{count:,}", *cells])
     table.reading = [
-        "`collision` is more than the simplification, which is a small part of it: both surfaces "
-        "are measured against each other before anything is said of the error."
+        "Simplification is a small part of `collision`; most of the time is the measurement of the "
+        "error between both surfaces."
     ]
     yield table

@@ -46,7 +46,7 @@ def write(outcomes, seed, robots):
     minutes = sum(outcome.seconds for outcome in outcomes) / 60
     bad = sum(bool(outcome.problems) for outcome in outcomes)
     lines = [
-        f"{len(outcomes)} cases of seed {seed}, drawn from {robots} files, on "
+        f"{len(outcomes)} cases of seed {seed}, from {robots} files, on "
         f"{date.today().isoformat()}; the commands took {minutes:.0f} minutes, and the largest "
         f"process {memory} MB. Cases with a problem: {bad}.",
         "",
