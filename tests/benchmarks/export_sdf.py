@@ -35,7 +35,7 @@ from urdftool.model.load import load
 CONFIGURATIONS = 10
 COLUMNS = (
     "written", "without --force", "ign sdf -k at 1.9", "Drake", "frames ≤ 1e-9",
-    "mass matrix ≤ 1e-8", "weight ≤ 1e-8", "mass, centre, inertia", "limits", "shapes", "all equal",
+    "mass matrix ≤ 1e-8", "weight ≤ 1e-8", "mass, center, inertia", "limits", "shapes", "all equal",
     "unannounced",
 )  # fmt: skip
 BEGIN, END = "<!-- fidelity: begin -->", "<!-- fidelity: end -->"
@@ -114,7 +114,7 @@ def _engines(path: Path, pair: Pair, place: Path, row: dict[str, bool | str]) ->
     row["frames ≤ 1e-9"] = worst["frames"] <= 1e-9
     row["mass matrix ≤ 1e-8"] = worst["mass matrix"] <= 1e-8
     row["weight ≤ 1e-8"] = worst["weight"] <= 1e-8
-    row["mass, centre, inertia"] = (
+    row["mass, center, inertia"] = (
         worst["mass"] <= 1e-12 and worst["centre"] <= 1e-9 and worst["inertia"] <= 1e-8
     )
     made = {joint.name: joint for joint in pair.made.joints}
