@@ -45,9 +45,10 @@ def write_page(rule: Rule) -> str:
             for readers, effect in rule.effects.items()
         )
         parts.append(f"| reader | what it does | how it is known |\n|---|---|---|\n{rows}")
-    parts += _write_example(rule.name)
+    example = _list_example_lines(rule.name)
+    parts += _write_example(rule.name, example)
     if rule.name in FIXES:
-        parts.append(_write_fix(rule.name))
+        parts.append(_write_fix(rule.name, example))
     parts.append(
         "## Accept it on purpose\n\n"
         f"Add `<!-- urdftool-ignore[{rule.name}] reason -->` on the line or before the element."
@@ -113,26 +114,32 @@ def _write_target_sections() -> Iterator[str]:
                 yield f"| {severity.label} | {links} |"
 
 
-def _write_example(rule: str) -> list[str]:
-    """Return the changed lines of a rule's example, and its files, folded."""
+def _list_example_lines(rule: str) -> list[str]:
+    """Return the difference between the wrong and the right example of a rule."""
     bad, good = _find_description(rule, "bad.*"), _find_description(rule, "good.*")
     if bad is None or good is None:
         return []
     lines: list[str] = []
     for wrong, right in [(bad, good), *_list_companions(bad)]:
-        lines += _compare_examples(rule, wrong, right)
-    parts = []
+        names = (path.relative_to(FIXTURES / rule).as_posix() for path in (wrong, right))
+        texts = (_read_lines(rule, path.read_bytes()) for path in (wrong, right))
+        lines += unified_diff(*texts, *names, n=2, lineterm="")
+    return [line.rstrip() for line in lines]
+
+
+def _write_example(rule: str, lines: list[str]) -> list[str]:
+    """Return the changed lines of a rule's example, and its files, folded."""
+    bad, good = _find_description(rule, "bad.*"), _find_description(rule, "good.*")
+    if bad is None or good is None:
+        return []
+    parts = ["## Example"]
     if lines:
         shown = "\n".join(lines)
-        parts.append(f"## Example\n\nLines that differ, wrong and right:\n\n```diff\n{shown}\n```")
-    else:
-        parts.append("## Example")
-    parts.append(
-        _fold("The whole example, with the defect", [bad, *(p for p, _ in _list_companions(bad))])
-    )
-    parts.append(
-        _fold("The whole example, correct", [good, *(p for _, p in _list_companions(bad))])
-    )
+        parts.append(f"Wrong (`-`) and right (`+`):\n\n```diff\n{shown}\n```")
+    companions = _list_companions(bad)
+    wrong, right = [bad, *(p for p, _ in companions)], [good, *(p for _, p in companions)]
+    parts.append(_fold("The whole example, with the defect", wrong))
+    parts.append(_fold("The whole example, correct", right))
     return parts
 
 
@@ -153,13 +160,10 @@ def _list_companions(bad: Path) -> list[tuple[Path, Path]]:
     return found
 
 
-def _compare_examples(rule: str, wrong: Path, right: Path) -> list[str]:
-    """Return the difference of two examples, without the comments that mark reported lines."""
+def _read_lines(rule: str, data: bytes) -> list[str]:
+    """Return the lines of a fixture without the comments that mark reported places."""
     mark = re.compile(rf"[ \t]*<!-- *{re.escape(rule)} *-->")
-    texts = (mark.sub("", path.read_text("utf-8", "replace")) for path in (wrong, right))
-    before, after = (text.splitlines() for text in texts)
-    names = (path.relative_to(FIXTURES / rule).as_posix() for path in (wrong, right))
-    return [line.rstrip() for line in unified_diff(before, after, *names, n=2, lineterm="")]
+    return mark.sub("", data.decode("utf-8", "replace")).splitlines()
 
 
 def _fold(title: str, files: list[Path]) -> str:
@@ -173,14 +177,19 @@ def _fold(title: str, files: list[Path]) -> str:
     return f"<details>\n<summary>{title}</summary>\n\n{shown}\n\n</details>"
 
 
-def _write_fix(rule: str) -> str:
+def _write_fix(rule: str, example: list[str]) -> str:
     """Return the section with the change that a rule's fix makes in a fixture."""
     fix = FIXES[rule]
     option = "--fix" if fix.applicability == "safe" else "--fix --unsafe-fixes"
     option += " --fix-meshes" if fix.writes_meshes else ""
-    text = "\n".join(line.rstrip() for line in _list_fix_lines(rule))
-    lead = f"`urdftool lint {option}` makes this change ({fix.applicability} fix):"
-    return f"## Fix\n\n{lead}\n\n```diff\n{text}\n```"
+    lines = [line.rstrip() for line in _list_fix_lines(rule)]
+    command = f"`urdftool lint {option}`"
+    if lines[2:] == example[2:]:
+        return f"## Fix\n\n{command} makes the change of the example ({fix.applicability} fix)."
+    text = "\n".join(lines)
+    return (
+        f"## Fix\n\n{command} makes this change ({fix.applicability} fix):\n\n```diff\n{text}\n```"
+    )
 
 
 def _list_fix_lines(rule: str) -> Iterator[str]:
@@ -190,16 +199,16 @@ def _list_fix_lines(rule: str) -> Iterator[str]:
         if fixed.is_dir():
             for path in sorted(filter(Path.is_file, fixed.rglob("*"))):
                 inside = path.relative_to(fixed).as_posix()
-                yield from _compare_files(FIXTURES / rule / inside, path, inside)
+                yield from _compare_files(rule, FIXTURES / rule / inside, path, inside)
         else:
             bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
-            yield from _compare_files(bad, fixed, bad.name)
+            yield from _compare_files(rule, bad, fixed, bad.name)
 
 
-def _compare_files(old: Path, new: Path, name: str) -> list[str]:
+def _compare_files(rule: str, old: Path, new: Path, name: str) -> list[str]:
     """Return what ``--diff`` prints for a file of a fixture; a missing file counts as empty."""
     before, after = (path.read_bytes() if path.is_file() else b"" for path in (old, new))
     if b"\0" in before + after:
         return file_diff(name, before if old.is_file() else None, after).splitlines()
-    texts = (data.decode("utf-8", "replace").splitlines() for data in (before, after))
+    texts = (_read_lines(rule, data) for data in (before, after))
     return list(unified_diff(*texts, name, name, n=2, lineterm=""))
