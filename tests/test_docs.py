@@ -102,6 +102,12 @@ def test_words_count_where_numbers_vary():
     assert not is_same(shown, shown.replace("0.31", "12"), read_mode(""))
 
 
+def test_progress_is_not_output():
+    lines = r"3 of 5 meshes, 2 s: a.stl, b.stl\n3 of 3 links, 2 s\nthe result\n"
+    shown = insert_output(f"```console\n$ printf '{lines}'\n```\n")
+    assert shown.splitlines()[2:] == ["the result", "```"]
+
+
 def python_blocks():
     found = []
     for page in list_pages():

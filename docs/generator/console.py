@@ -27,6 +27,7 @@ BLOCK = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n\n```\w+\n(.*?)```", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]*pictures/([^)/]+)\)")
 RUN = re.compile(r"<!-- run: (.*?) -->")
+PROGRESS = re.compile(r"^\d+ of \d+ \w+, \d+ s(?:: .*)?\n", re.MULTILINE)
 UNSEEN = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "FORCE_COLOR", "URDFTOOL_TRUST")
 
 
@@ -109,7 +110,7 @@ def _mask_numbers(block: str) -> str:
 
 
 def _run_command(command: str, folder: str) -> str:
-    """Return what a command prints on standard output and standard error."""
+    """Return what a command prints on both streams, without progress, which depends on the time."""
     path = restrict_path(Path(folder) / ".programs", Path(sys.executable).parent)
     seen = {name: value for name, value in os.environ.items() if name not in UNSEEN}
     own = {"PATH": path, "NO_COLOR": "1", "COLUMNS": "100", "XDG_CACHE_HOME": f"{folder}/.cache"}
@@ -123,4 +124,4 @@ def _run_command(command: str, folder: str) -> str:
         text=True,
         check=False,
     )
-    return re.sub(r"[ \t]+$", "", done.stdout, flags=re.MULTILINE)
+    return re.sub(r"[ \t]+$", "", PROGRESS.sub("", done.stdout), flags=re.MULTILINE)
