@@ -12,7 +12,10 @@ ROBOTS = FIXTURES / "robots"
 ARM = ROBOTS / "demo_arm" / "urdf"
 SRDF = (
     '<robot name="demo_arm">\n'
-    '  <disable_collisions link1="base_link" link2="shoulder" reason="Adjacent"/>\n</robot>\n'
+    '  <disable_collisions link1="base_link" link2="shoulder" reason="Adjacent"/>\n'
+    '  <group name="all"><joint name="elbow"/></group>\n'
+    '  <group_state name="ready" group="all"><joint name="elbow" value="0.5"/></group_state>\n'
+    "</robot>\n"
 )
 
 
@@ -21,7 +24,8 @@ def make(folder):
     packages = folder / "packages"
     shutil.copytree(ROBOTS, packages)
     arm = expand(packages / "demo_arm/urdf/arm_sound.urdf.xacro")
-    for name in ("arm_sim.urdf", "panda.urdf", "urdf/arm.urdf", "robots/arm.urdf"):
+    names = ("arm_sim.urdf", "panda.urdf", "hand.urdf", "quadruped.urdf")
+    for name in (*names, "urdf/arm.urdf", "robots/arm.urdf"):
         _put(folder / name, arm)
     _put(folder / "arm.urdf", re.sub("<inertial>.*?</inertial>", "", arm, count=1, flags=re.DOTALL))
     shutil.copy(ARM / "arm_sound.urdf.xacro", folder / "arm.urdf.xacro")
@@ -32,6 +36,7 @@ def make(folder):
     mobile = packages / "my_robot/urdf/mobile_manipulator.urdf.xacro"
     _put(folder / "rover.urdf", expand(mobile))
     _put(folder / "arm.srdf", SRDF)
+    _put(folder / "actuators.toml", '[joints."*"]\narmature = 0.01\n')
     for name, mesh in {
         "link3.stl": "cube.stl",
         "link3.dae": "inch_y_up.dae",
