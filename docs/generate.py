@@ -22,7 +22,7 @@ from generator.man import list_man_pages
 from generator.python_page import insert_names
 
 from urdftool import cli
-from urdftool.rules import all_rules
+from urdftool.rules import get_all_rules
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help begins", "<!-- help ends -->"
@@ -31,7 +31,7 @@ HELP = re.compile(rf"(?P<begin>{BEGIN}(?:: (?P<words>[a-z ]+))? -->).*?{END}", r
 
 def list_generated() -> Iterator[tuple[Path, str]]:
     """Yield every generated file with its text."""
-    for rule in all_rules():
+    for rule in get_all_rules():
         yield DOCS / "rules" / f"{rule.name}.md", rule_pages.write_page(rule)
     yield DOCS / "rules" / "index.md", rule_pages.write_index()
     for path in sorted((DOCS / "commands").glob("*.md")):

@@ -62,7 +62,7 @@ def pytest_runtest_makereport(item, call):
     """Skip a test that failed because an optional library is not installed, as in the core."""
     report = yield
     if report.failed and call.excinfo is not None:
-        library = extras.missing_library(call.excinfo.value)
+        library = extras.find_missing_library(call.excinfo.value)
         if library is not None and not extras.is_installed(library):
             report.outcome = "skipped"
             report.longrepr = (str(item.path), 0, f"requires {library}")

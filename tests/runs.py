@@ -73,7 +73,7 @@ def try_robot(path: Path, choices: dict[str, object]) -> Outcome:
             write_directory(target, written.files, main=written.main)
             for timestep in TIMESTEPS:
                 trial = run_at_home(target / written.main, timestep)
-                outcome.faults[timestep] = trial.faults()
+                outcome.faults[timestep] = trial.list_faults()
         except (UrdftoolError, ValueError) as error:
             outcome.refused = " ".join(str(error).split())
     return outcome

@@ -90,7 +90,7 @@ PLACES = {
     "matplotlib": ("simulation/plot.py",),
     "viser": ("viewer/server.py",),
     "websockets": ("viewer/server.py",),
-    "pygraphviz": ("graph/draw.py",),
+    "pygraphviz": ("graph/graphviz.py",),
 }
 
 
@@ -392,7 +392,7 @@ READ_TEXTS = {
     ("formats/mjcf/meshes.py", "_report_notes"): "reports equal records of a file once",
     ("lint/group.py", "_combine_fixes"): "chooses between two wordings of the combined fix",
     ("report/expansion.py", "warnings"): "removes line breaks",
-    ("rules/xacro/expansion_warnings.py", "_warned"): "warnings of the library xacro",
+    ("rules/xacro/expansion_warnings.py", "_match_warnings"): "warnings of the library xacro",
 }
 """Functions that compare texts: for the page only, or texts of another library."""
 

@@ -200,15 +200,15 @@ def test_the_report_of_an_engine_that_has_no_wheel_here(monkeypatch):
         return str(found.value)
 
     here("linux", "x86_64", (3, 11))
-    assert message(engines.default_engine).endswith("pip install 'urdftool[simulate]'")
+    assert message(engines.choose_default_engine).endswith("pip install 'urdftool[simulate]'")
     here("linux", "x86_64", (3, 13))
     said = message(lambda: engines.check_engines(("pybullet",)))
     assert "not for Python 3.13" in said
     assert said.endswith("use --engine mujoco, after pip install 'urdftool[simulate]'")
     here("darwin", "arm64", (3, 11), installed=("mujoco",))
-    assert engines.default_engine() == "mujoco"
+    assert engines.choose_default_engine() == "mujoco"
     assert message(lambda: engines.check_engines(("pybullet", "mujoco"))).endswith(
         "use --engine mujoco"
     )
     here("linux", "armv7l", (3, 12))
-    assert "neither PyBullet nor MuJoCo has a wheel for" in message(engines.default_engine)
+    assert "neither PyBullet nor MuJoCo has a wheel for" in message(engines.choose_default_engine)

@@ -10,7 +10,7 @@ import pytest
 
 from urdftool.errors import ModelError, UrdftoolError, XacroError
 from urdftool.isolated import IsolatedProcess, ProcessDied, ProcessTimeout
-from urdftool.parallel import in_order, map_tasks, plain_error
+from urdftool.parallel import make_plain_error, map_tasks, yield_in_order
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
@@ -49,7 +49,7 @@ def test_one_worker_is_this_process():
 
 
 def test_results_can_keep_the_order_of_the_tasks():
-    names = [task for task, _ in in_order(map_tasks(work, ["slow", "a", "b"], workers=2))]
+    names = [task for task, _ in yield_in_order(map_tasks(work, ["slow", "a", "b"], workers=2))]
     assert names == ["slow", "a", "b"]
 
 
@@ -107,6 +107,6 @@ def test_an_isolated_process_that_dies_or_hangs():
 def test_an_error_of_a_worker_keeps_what_a_fix_reads():
     facts = {"rule": "unknown-macro", "case": "a call", "data": {"suggestion": "wheel"}}
     error = XacroError("unknown macro 'whel'", path="r.xacro", line=3, **facts)
-    plain = pickle.loads(pickle.dumps(plain_error(error)))
+    plain = pickle.loads(pickle.dumps(make_plain_error(error)))
     assert (plain.rule, plain.case, plain.data) == tuple(facts.values())
     assert str(plain) == str(error)

@@ -7,8 +7,8 @@ import pytest
 from tests.conftest import CORPUS
 from urdftool.lint.discover import find_descriptions
 from urdftool.lint.outcome import Options
-from urdftool.lint.parallel import lint_files
-from urdftool.lint.run import lint_file
+from urdftool.lint.parallel import check_files
+from urdftool.lint.run import check_file
 from urdftool.source.document import read_file
 from urdftool.source.expand import expand_xacro
 from urdftool.source.packages import Packages
@@ -23,7 +23,7 @@ def pybullet_data():
 def test_the_robots_of_pybullet_are_checked(pybullet_data):
     paths = find_descriptions([str(pybullet_data)])
     assert len(paths) > 500
-    for report in lint_files(paths, Options()):
+    for report in check_files(paths, Options()):
         assert report.error is None, report.path
         assert not report.failed_rules, report.path
 
@@ -32,7 +32,7 @@ def test_the_robots_of_pybullet_are_checked(pybullet_data):
     "name", ["franka_panda/panda.urdf", "r2d2.urdf", "laikago/laikago.urdf", "husky/husky.urdf"]
 )
 def test_a_robot_that_its_readers_load_has_no_error(pybullet_data, name):
-    report = lint_file(pybullet_data / name, Options())
+    report = check_file(pybullet_data / name, Options())
     assert [str(f) for f in report.findings if f.severity.label == "error"] == []
 
 

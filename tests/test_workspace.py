@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.dependencies import ABSENT, Dependencies, answer, is_settled, stamp_of
-from urdftool.workspace import STDIN, Memo, Workspace, memoized
+from urdftool.dependencies import ABSENT, Dependencies, compute_answer, is_settled, read_stamp
+from urdftool.workspace import STDIN, Memo, Workspace, memoize_by_workspace
 
 
 def asked_by(action, workspace=None):
@@ -109,7 +109,7 @@ def test_another_process_gets_the_overlay():
 def size():
     times = []
 
-    @memoized
+    @memoize_by_workspace
     def size(workspace, path):
         times.append(path)
         return len(workspace.read_bytes(path))
@@ -124,7 +124,7 @@ def test_a_known_value_is_a_dependency_of_all_who_ask(size):
         assert asked_by(lambda w: size(w, "a"), workspace) == {("file", "a")}
     assert size.times == ["a"]
 
-    @memoized
+    @memoize_by_workspace
     def double(workspace, path):
         return 2 * size(workspace, path)
 
@@ -157,7 +157,7 @@ def test_trials_share_what_they_do_not_change(size, write):
 
 
 def test_a_new_file_changes_what_lists_its_folder():
-    @memoized
+    @memoize_by_workspace
     def names(workspace, folder):
         return [entry.name for entry in workspace.list_folder(folder)]
 
@@ -168,7 +168,7 @@ def test_a_new_file_changes_what_lists_its_folder():
 
 
 def test_many_dependencies_are_shared():
-    @memoized
+    @memoize_by_workspace
     def there(workspace, number):
         return [workspace.exists(f"{number}/{i}") for i in range(60)]
 
@@ -195,13 +195,13 @@ def test_a_memo_computes_once_and_is_not_copied():
 
 
 def state(kind, path):
-    return answer((kind, path)), stamp_of((kind, path))
+    return compute_answer((kind, path)), read_stamp((kind, path))
 
 
 @pytest.mark.parametrize("kind", ["file", "is", "there", "list"])
 def test_what_is_not_there_has_no_stamp(kind):
     assert state(kind, "none") == (ABSENT, None)
-    assert answer((kind, "a/below")).startswith("error")
+    assert compute_answer((kind, "a/below")).startswith("error")
 
 
 def test_a_file_is_its_contents(write):
@@ -209,7 +209,7 @@ def test_a_file_is_its_contents(write):
     assert state("file", "l")[0] == first[0]
     write("a", "TEXT")
     assert state("file", "a")[0] != first[0]
-    assert answer(("file", "d")) == "folder"
+    assert compute_answer(("file", "d")) == "folder"
 
 
 @pytest.mark.parametrize("kind", ["is", "there"])
@@ -231,24 +231,24 @@ def test_a_folder_is_its_names(write):
 
 
 def test_a_path_is_where_it_leads():
-    first = answer(("real", "l"))
+    first = compute_answer(("real", "l"))
     os.unlink("l")
     os.symlink("d", "l")
-    assert answer(("real", "l")) != first
+    assert compute_answer(("real", "l")) != first
 
 
 def test_a_variable_is_its_value(monkeypatch):
     monkeypatch.delenv("HEIGHT", raising=False)
-    assert answer(("env", "HEIGHT")) == ABSENT
+    assert compute_answer(("env", "HEIGHT")) == ABSENT
     monkeypatch.setenv("HEIGHT", "")
-    assert answer(("env", "HEIGHT")) == "="
+    assert compute_answer(("env", "HEIGHT")) == "="
 
 
 def test_what_is_young_is_not_settled():
-    stamp = stamp_of(("file", "a"))
+    stamp = read_stamp(("file", "a"))
     assert not is_settled(stamp)
     assert is_settled(stamp, max(stamp) + 3_000_000_000)
-    assert is_settled(stamp_of(("is", "a")))
+    assert is_settled(read_stamp(("is", "a")))
     assert is_settled(None)
 
 

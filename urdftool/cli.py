@@ -17,11 +17,11 @@ from typing import Any
 import click
 
 from . import __version__
-from .commands.general_options import accept_general_options, general_options
+from .commands.general_options import accept_general_options, make_general_options
 from .console import Console
 from .errors import UrdftoolError
-from .extras import missing, missing_library
-from .terminal import guard, open_streams
+from .extras import find_missing_library, make_missing_error
+from .terminal import install, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
@@ -61,9 +61,9 @@ class Commands(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Resolve the command as click does; suggest the nearest name for an unknown one."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
-            from .suggestions import did_you_mean
+            from .suggestions import suggest_name
 
-            hint = did_you_mean(args[0], COMMANDS, 0.6) or f"; choose one of {', '.join(COMMANDS)}"
+            hint = suggest_name(args[0], COMMANDS, 0.6) or f"; choose one of {', '.join(COMMANDS)}"
             ctx.fail(f"command '{args[0]}' does not exist{hint}")
         return super().resolve_command(ctx, args)
 
@@ -112,7 +112,7 @@ def main(
         ctx.fail("Missing command.")
 
 
-main.params[2:2] = general_options(hidden=False)
+main.params[2:2] = make_general_options(hidden=False)
 
 
 def run(arguments: list[str] | None = None) -> None:
@@ -121,7 +121,7 @@ def run(arguments: list[str] | None = None) -> None:
         warnings.simplefilter("ignore")  # warnings of libraries are for developers
     open_streams()
     if sys.platform != "win32":  # on Windows click translates colors for the console
-        guard()
+        install()
     gc.set_threshold(500_000, 50, 50)  # short process with many small, long-lived objects
     try:
         code = call(arguments)
@@ -130,7 +130,7 @@ def run(arguments: list[str] | None = None) -> None:
     try:
         sys.stdout.flush()
     except OSError:
-        code = _closed_pipe()
+        code = _report_closed_pipe()
     try:
         sys.stderr.flush()
     except OSError:  # avoids a second flush at exit, which would change the exit code
@@ -177,13 +177,13 @@ def call(arguments: list[str] | None = None) -> int:
     except click.exceptions.Exit as exit_:
         return exit_.exit_code
     except click.ClickException as error:
-        _usage(error)
+        _print_usage(error)
         return 2
     except (KeyboardInterrupt, click.Abort):
         console.say("stopped")
         return 130
     except ClosedPipe:
-        return _closed_pipe()
+        return _report_closed_pipe()
     except MemoryError:
         if console.debug:
             raise
@@ -201,9 +201,11 @@ def call(arguments: list[str] | None = None) -> int:
             return 130
         if console.debug:
             raise
-        library = missing_library(error)
+        library = find_missing_library(error)
         if library is not None:
-            console.error(missing(library, f"'urdftool {' '.join(_command_of(words))}'"))
+            console.error(
+                make_missing_error(library, f"'urdftool {' '.join(_find_command(words))}'")
+            )
             return 2
         console.say(
             f"bug in urdftool {__version__} (not in the robot): {type(error).__name__}: {error}\n"
@@ -213,13 +215,13 @@ def call(arguments: list[str] | None = None) -> int:
         return 3
 
 
-def _command_of(words: list[str]) -> list[str]:
+def _find_command(words: list[str]) -> list[str]:
     """Return the command name among the command-line arguments, as a list of at most one item."""
     named = [word for word in words if word in COMMANDS]
     return named[:1]
 
 
-def _usage(error: click.ClickException) -> None:
+def _print_usage(error: click.ClickException) -> None:
     """Print a usage error and a reference to ``--help``."""
     if isinstance(error, click.exceptions.NoArgsIsHelpError):
         with suppress(OSError):
@@ -232,7 +234,7 @@ def _usage(error: click.ClickException) -> None:
         click.echo(f"urdftool: {message}\nTry '{command} --help'.", err=True)
 
 
-def _closed_pipe() -> int:
+def _report_closed_pipe() -> int:
     """Report a closed standard output, discard further output, and return the exit code."""
     _discard(sys.stdout.fileno())
     with suppress(OSError):

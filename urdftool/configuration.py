@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
-from .suggestions import did_you_mean
-from .workspace import Workspace, memoized
+from .suggestions import suggest_name
+from .workspace import Workspace, memoize_by_workspace
 
 if TYPE_CHECKING:
     from .source.description import GltfUp
@@ -62,18 +62,18 @@ def find_configuration(
     if given is not None:
         return _parse(workspace, Path(given), required=True) or Configuration(given)
     folder = os.getcwd() if str(file) == "-" else os.path.dirname(os.path.abspath(file))
-    return _above(workspace, folder)
+    return _find_above(workspace, folder)
 
 
-@memoized
-def _above(workspace: Workspace, folder: str) -> Configuration:
+@memoize_by_workspace
+def _find_above(workspace: Workspace, folder: str) -> Configuration:
     """Return the configuration nearest to a folder."""
     here = (_parse(workspace, Path(folder, name), required=False) for name in NAMES)
     found = next((configuration for configuration in here if configuration), None)
     if found is not None:
         return found
     parent = os.path.dirname(folder)
-    return _above(workspace, parent) if parent != folder else Configuration()
+    return _find_above(workspace, parent) if parent != folder else Configuration()
 
 
 def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration | None:
@@ -101,7 +101,7 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
     for name in table:
         if name not in (*TABLES, GLTF_UP):
             raise ConfigError(
-                f"table '{name}' is unknown{_hint(name)}",
+                f"table '{name}' is unknown{_suggest_name(name)}",
                 path=path,
             )
     packages = table.get("packages", {})
@@ -127,5 +127,5 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
     )
 
 
-def _hint(name: str) -> str:
-    return did_you_mean(name, (*TABLES, GLTF_UP), 0.5) or f"; use {', '.join(TABLES)}"
+def _suggest_name(name: str) -> str:
+    return suggest_name(name, (*TABLES, GLTF_UP), 0.5) or f"; use {', '.join(TABLES)}"

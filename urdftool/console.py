@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from .errors import UrdftoolError
-from .terminal import visible
+from .terminal import escape_controls
 
 if TYPE_CHECKING:
     from .source.description import GltfUp
@@ -74,4 +74,4 @@ class Console:
 
     def _write(self, line: str) -> None:
         with suppress(OSError):  # stderr may be closed; the exit code remains
-            click.echo(visible(line), err=True)
+            click.echo(escape_controls(line), err=True)

@@ -56,7 +56,7 @@ class Dependencies:
             path = os.path.join(os.getcwd(), path)
         question = kind, path
         if question not in self.asked:
-            self.asked[question] = stamp_of(question)
+            self.asked[question] = read_stamp(question)
 
     def include(self, other: Dependencies) -> None:
         """Add the dependencies of a result that this result uses."""
@@ -75,12 +75,12 @@ class Dependencies:
             folders: Paths of folders, without symbolic links.
         """
         for part in (self, *self.shared):
-            files, listed = part._real_paths()
+            files, listed = part._get_real_paths()
             if not files.isdisjoint(paths) or not listed.isdisjoint(folders):
                 return True
         return False
 
-    def _real_paths(self) -> tuple[set[str], set[str]]:
+    def _get_real_paths(self) -> tuple[set[str], set[str]]:
         """Return the queried paths and the listed folders, both without symbolic links."""
         if self._real is None or self._real[0] != len(self.asked):
             files = {os.path.realpath(path) for kind, path in self.asked if kind != "env"}
@@ -89,7 +89,7 @@ class Dependencies:
         return self._real[1:]
 
 
-def answer(question: Question) -> str:
+def compute_answer(question: Question) -> str:
     """Return the present answer to a query: a digest of the content, or a word."""
     kind, path = question
     try:
@@ -100,7 +100,7 @@ def answer(question: Question) -> str:
         return f"error {getattr(error, 'errno', None)}"
 
 
-def stamp_of(question: Question) -> Stamp | None:
+def read_stamp(question: Question) -> Stamp | None:
     """Return the present stamp of a query; None if the path is absent or the kind has no stamp."""
     kind, path = question
     if kind in _WITHOUT_STAMP:
@@ -138,7 +138,7 @@ def is_settled(stamp: Stamp | None, now_ns: int | None = None) -> bool:
     return max(stamp[-2:]) < (time.time_ns() if now_ns is None else now_ns) - _FRESH_NS
 
 
-def _content(path: str) -> str:
+def _digest_content(path: str) -> str:
     from hashlib import sha256
 
     mode = os.stat(path).st_mode
@@ -153,15 +153,15 @@ def _content(path: str) -> str:
     return digest.hexdigest()
 
 
-def _kind(path: str) -> str:
+def _read_kind(path: str) -> str:
     return f"type {stat.S_IFMT(os.stat(path).st_mode)}"
 
 
-def _there(path: str) -> str:
+def _read_existence(path: str) -> str:
     return f"type {stat.S_IFMT(os.lstat(path).st_mode)}"
 
 
-def _listing(path: str) -> str:
+def _digest_listing(path: str) -> str:
     from hashlib import sha256
 
     with os.scandir(path) as entries:
@@ -169,7 +169,7 @@ def _listing(path: str) -> str:
     return sha256("".join(lines).encode("utf-8", "surrogateescape")).hexdigest()
 
 
-def _variable(name: str) -> str:
+def _digest_variable(name: str) -> str:
     return f"={os.environ[name]}" if name in os.environ else ABSENT
 
 
@@ -181,10 +181,10 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
 
 
 _ANSWERS: dict[str, Callable[[str], str]] = {
-    "file": _content,
-    "is": _kind,
-    "there": _there,
+    "file": _digest_content,
+    "is": _read_kind,
+    "there": _read_existence,
     "real": os.path.realpath,
-    "list": _listing,
-    "env": _variable,
+    "list": _digest_listing,
+    "env": _digest_variable,
 }

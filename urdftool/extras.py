@@ -42,10 +42,10 @@ def require(purpose: str, *libraries: str) -> None:
     """
     for library in libraries:
         if not is_installed(library):
-            raise missing(library, purpose)
+            raise make_missing_error(library, purpose)
 
 
-def missing(library: str, purpose: str) -> MissingDependency:
+def make_missing_error(library: str, purpose: str) -> MissingDependency:
     """Create the error for a library that is not installed."""
     name = DISTRIBUTION_OF.get(library, library)
     return MissingDependency(
@@ -59,7 +59,7 @@ def install_command(extra: str) -> str:
     return f"pip install 'urdftool[{extra}]'"
 
 
-def missing_library(error: BaseException) -> str | None:
+def find_missing_library(error: BaseException) -> str | None:
     """Return the optional library that caused an error; None for any other error."""
     if isinstance(error, MissingDependency):
         return error.library or None

@@ -129,7 +129,7 @@ class IsolatedProcess:
         most = min(time_limit, _LONGEST) + 5 if processor_limit is None else processor_limit
         job = pickle.dumps((module, function, arguments, most, on_message is not None))
         received: SimpleQueue[tuple[str, Any]] = SimpleQueue()
-        listener = Thread(target=self._listen, args=(job, received), daemon=True)
+        listener = Thread(target=self._exchange, args=(job, received), daemon=True)
         try:
             listener.start()
         except RuntimeError as error:  # thread limit of the system reached
@@ -142,7 +142,7 @@ class IsolatedProcess:
             except Empty:
                 raise ProcessTimeout(f"stopped after the limit of {time_limit:g} s") from None
             if kind == _DIED or (kind == _ANSWER and self._process.wait()):
-                raise self._death()
+                raise self._make_death_error()
             if kind == _ANSWER:
                 break
             if on_message is not None:
@@ -151,7 +151,7 @@ class IsolatedProcess:
             raise value
         return value
 
-    def _listen(self, job: bytes, received: SimpleQueue[tuple[str, Any]]) -> None:
+    def _exchange(self, job: bytes, received: SimpleQueue[tuple[str, Any]]) -> None:
         """Send the call to the process and queue its messages and its result."""
         stdin, stdout = self._process.stdin, self._process.stdout
         assert stdin is not None
@@ -169,7 +169,7 @@ class IsolatedProcess:
         except Exception:  # the process died within a message
             received.put((_DIED, None))
 
-    def _death(self) -> ProcessDied:
+    def _make_death_error(self) -> ProcessDied:
 
         try:
             self._process.wait(timeout=_DYING)

@@ -45,7 +45,7 @@ def _write_stdout(text: str) -> None:
         raise OutputError("standard output was closed before all output was written") from None
 
 
-def _same_file(one: str | Path, other: str | Path) -> bool:
+def _is_same_file(one: str | Path, other: str | Path) -> bool:
     try:
         return os.path.samefile(one, other)
     except OSError:
@@ -63,7 +63,7 @@ def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> No
         OutputError: It is an input, a folder or read-only, or its folder cannot be created.
     """
     for source in inputs:
-        if _same_file(source, target):
+        if _is_same_file(source, target):
             raise OutputError(
                 f"is an input ({source}); write the output to another file", path=target
             )

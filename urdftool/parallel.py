@@ -26,7 +26,7 @@ Progress = Callable[[int, Sequence[T]], None]
 _LEAVING = 3.0  # s: time to remove temporary files after SIGTERM
 
 
-def cores() -> int:
+def count_cores() -> int:
     """Return the number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
@@ -108,14 +108,14 @@ def map_tasks(
                 if not outcome.timed_out and attempt + 1 < tries:
                     killed.append(index)
                     continue
-                outcome = _Result(_lost(tasks[index], outcome, on_lost))
+                outcome = _Result(_handle_lost(tasks[index], outcome, on_lost))
             done += 1
             yield index, outcome.value
         todo = killed
     announce([])
 
 
-def in_order(results: Iterator[tuple[int, R]]) -> Iterator[R]:
+def yield_in_order(results: Iterator[tuple[int, R]]) -> Iterator[R]:
     """Yield the results of :func:`map_tasks` in the order of the tasks."""
     early: dict[int, R] = {}
     following = 0
@@ -126,7 +126,7 @@ def in_order(results: Iterator[tuple[int, R]]) -> Iterator[R]:
             following += 1
 
 
-def _lost(task: T, loss: Loss, on_lost: Callable[[T, Loss], R] | None) -> R:
+def _handle_lost(task: T, loss: Loss, on_lost: Callable[[T, Loss], R] | None) -> R:
     if on_lost is not None:
         return on_lost(task, loss)
     how = "exceeded its time limit" if loss.timed_out else f"ended with code {loss.exit_code}"
@@ -176,7 +176,7 @@ class _Crew(Generic[T, R]):
                     worker.begin(waiting[0], tasks[waiting[0]])
                     waiting.popleft()
                 announce([worker.index for worker in busy.values()])
-                for ready in connection.wait(list(busy), self._patience(busy.values())):
+                for ready in connection.wait(list(busy), self._compute_timeout(busy.values())):
                     worker = busy.pop(ready)
                     outcome: Any = worker.receive()
                     if self.isolate or isinstance(outcome, Loss):
@@ -184,7 +184,7 @@ class _Crew(Generic[T, R]):
                     else:
                         idle.append(worker)
                     yield worker.index, outcome
-                for worker in self._overdue(busy):
+                for worker in self._find_overdue(busy):
                     del busy[worker.connection]
                     end_processes([worker.process])
                     worker.connection.close()
@@ -195,14 +195,14 @@ class _Crew(Generic[T, R]):
             for worker in left:
                 worker.connection.close()
 
-    def _patience(self, running: Collection[_Worker]) -> float | None:
+    def _compute_timeout(self, running: Collection[_Worker]) -> float | None:
         """Return the time until the first worker exceeds its limit [s]; None without a limit."""
         if self.time_limit is None:
             return None
         first = min(worker.began for worker in running)
         return max(0.0, first + self.time_limit - monotonic())
 
-    def _overdue(self, busy: Mapping[Any, _Worker]) -> list[_Worker]:
+    def _find_overdue(self, busy: Mapping[Any, _Worker]) -> list[_Worker]:
         limit = self.time_limit
         if limit is None:
             return []
@@ -217,8 +217,8 @@ class _Worker:
 
         context: Any = get_context("fork" if sys.platform == "linux" else "spawn")
         self.connection, other = context.Pipe()
-        self.process = context.Process(target=_work, args=(*arguments, other))
-        with _blocked_signals():
+        self.process = context.Process(target=_run_worker, args=(*arguments, other))
+        with _block_signals():
             self.process.start()
         other.close()
         self.index = -1
@@ -260,7 +260,7 @@ class _Worker:
         self.connection.close()
 
 
-def _work(function: Callable[[Any], Any], memory_limit: int | None, connection: Any) -> None:
+def _run_worker(function: Callable[[Any], Any], memory_limit: int | None, connection: Any) -> None:
     """Apply a function to tasks until the parent sends no more."""
     from threading import Thread
 
@@ -282,10 +282,10 @@ def _send_result(function: Callable[[Any], Any], task: object, connection: Any) 
     except ConnectionError:
         raise
     except Exception as error:
-        connection.send((None, _portable(error)))
+        connection.send((None, _make_picklable(error)))
 
 
-def _portable(error: Exception) -> Exception:
+def _make_picklable(error: Exception) -> Exception:
     """Return an error that can be pickled, replacing one that cannot."""
     import pickle
 
@@ -293,12 +293,12 @@ def _portable(error: Exception) -> Exception:
         pickle.loads(pickle.dumps(error))
     except Exception:
         if isinstance(error, UrdftoolError):
-            return plain_error(error)
+            return make_plain_error(error)
         return RuntimeError(f"{type(error).__name__}: {error}")
     return error
 
 
-def plain_error(error: UrdftoolError) -> UrdftoolError:
+def make_plain_error(error: UrdftoolError) -> UrdftoolError:
     """Return the same facts as a :class:`UrdftoolError`, which can be pickled."""
     return UrdftoolError(
         error.message,
@@ -364,7 +364,7 @@ def ignore_interrupts() -> None:
 
 
 @contextmanager
-def _blocked_signals() -> Iterator[None]:
+def _block_signals() -> Iterator[None]:
     """Block signals while a process is forked, until :func:`_unblock_signals` runs in it.
 
     The new process inherits the signal handlers of this one, which would raise during its start.

@@ -46,7 +46,7 @@ def write_files(files: Mapping[Path, Content], *, follow_links: bool = True) -> 
         for path, content in files.items():
             place = Path(os.path.realpath(path)) if follow_links else path
             made += make_folders(place.parent)
-            new, old = _beside(place, "tmp"), _beside(place, "old")
+            new, old = _make_temporary_path(place, "tmp"), _make_temporary_path(place, "old")
             staged.append((place, new, old))
             _write(new, content)
             if place.exists():
@@ -66,7 +66,7 @@ def write_files(files: Mapping[Path, Content], *, follow_links: bool = True) -> 
                 new.unlink(missing_ok=True)
         remove_empty(made)
         if isinstance(error, OSError):
-            raise OutputError(f"cannot be written: {_reason(error)}", path=path) from None
+            raise OutputError(f"cannot be written: {_get_reason(error)}", path=path) from None
         raise
     finally:
         for _, _, old in staged:
@@ -87,7 +87,7 @@ def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
     import shutil
 
     folder = Path(os.path.realpath(target))
-    staged = _beside(folder, "tmp")
+    staged = _make_temporary_path(folder, "tmp")
     made: list[Path] = []
     try:
         made = make_folders(folder.parent)
@@ -98,10 +98,10 @@ def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
             place.parent.mkdir(parents=True, exist_ok=True)
             _write(place, content)
         if folder.is_dir():
-            _carry_over(folder, staged)
+            _copy_entries(folder, staged)
         _take_place(staged, folder)
     except OSError as error:
-        raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
+        raise OutputError(f"cannot be written: {_get_reason(error)}", path=target) from None
     finally:
         shutil.rmtree(staged, ignore_errors=True)
         remove_empty(made)
@@ -138,7 +138,7 @@ def remove_empty(folders: Iterable[Path]) -> None:
             folder.rmdir()
 
 
-def _beside(place: Path, kind: str) -> Path:
+def _make_temporary_path(place: Path, kind: str) -> Path:
     return place.with_name(f".{place.name}.{os.getpid()}.{kind}")
 
 
@@ -175,7 +175,7 @@ def _restore(place: Path, old: Path, *, alone: bool) -> None:
         place.unlink(missing_ok=True)
 
 
-def _carry_over(folder: Path, staged: Path) -> None:
+def _copy_entries(folder: Path, staged: Path) -> None:
     """Copy the entries of a folder that its new state does not contain."""
     import shutil
 
@@ -195,7 +195,7 @@ def _take_place(staged: Path, folder: Path) -> None:
     if not folder.exists():
         os.rename(staged, folder)
         return
-    old = _beside(folder, "old")
+    old = _make_temporary_path(folder, "old")
     os.rename(folder, old)
     try:
         os.rename(staged, folder)
@@ -205,7 +205,7 @@ def _take_place(staged: Path, folder: Path) -> None:
     shutil.rmtree(old, ignore_errors=True)
 
 
-def _reason(error: OSError) -> str:
+def _get_reason(error: OSError) -> str:
     return getattr(error, "strerror", None) or str(error)
 
 
@@ -240,19 +240,19 @@ class DiskCache:
         if self.folder is None:
             return
         place = Path(self._place(key))
-        new = _beside(place, "tmp")
+        new = _make_temporary_path(place, "tmp")
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
             with open(new, "wb") as stream:
                 stream.write(sha256(data).hexdigest().encode() + b"\n" + data)
             os.replace(new, place)
         except OSError as error:
-            self.trouble = _reason(error)
+            self.trouble = _get_reason(error)
         finally:
             try:
                 new.unlink(missing_ok=True)
             except OSError as error:
-                self.trouble = _reason(error)
+                self.trouble = _get_reason(error)
 
     def trim(self, *, days: float = 90.0, most: int = 1_000_000_000) -> int:
         """Remove entries that were not used for long, and the least recent of a cache too large.

@@ -20,11 +20,11 @@ def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
         known: Candidates.
         cutoff: Least similarity, 0 to 1, of ``difflib.get_close_matches``.
     """
-    return _nearest(name, tuple(dict.fromkeys(known)), cutoff)
+    return _find_nearest(name, tuple(dict.fromkeys(known)), cutoff)
 
 
 @lru_cache(4096)  # robots of one family have the same typos
-def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
+def _find_nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
     from difflib import get_close_matches
 
     names = [other for other in known if other and other != name]
@@ -32,12 +32,12 @@ def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
     for other in names:
         if fold(other) == folded:
             return other
-    names = [other for other in names if not _differ_by_number(folded, fold(other))]
+    names = [other for other in names if not _is_numbered_alike(folded, fold(other))]
     near = get_close_matches(name, names, 1, cutoff)
     return near[0] if near else ""
 
 
-def _differ_by_number(name: str, other: str) -> bool:
+def _is_numbered_alike(name: str, other: str) -> bool:
     """Tell whether two names differ only by the numbers in them."""
     texts, others = _NUMBER.split(name), _NUMBER.split(other)
     if texts[::2] != others[::2]:
@@ -45,7 +45,7 @@ def _differ_by_number(name: str, other: str) -> bool:
     return [int(text) for text in texts[1::2]] != [int(text) for text in others[1::2]]
 
 
-def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
+def suggest_name(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
     """Return ``; did you mean 'x'?`` with the nearest known name; empty if none is near."""
     near = nearest(name, known, cutoff)
     return f"; did you mean '{near}'?" if near else ""

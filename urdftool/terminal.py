@@ -23,23 +23,23 @@ _OBEYED = re.compile(
 _CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
-def visible(text: str) -> str:
+def escape_controls(text: str) -> str:
     """Return a message with all control characters escaped except tab and line feed."""
     return _CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
 
 
-def shown(data: bytes) -> bytes:
+def escape_bytes(data: bytes) -> bytes:
     """Return UTF-8 text with control characters escaped, except those that urdftool writes."""
-    return _OBEYED.sub(_written, data)
+    return _OBEYED.sub(_escape_match, data)
 
 
-def _written(match: re.Match[bytes]) -> bytes:
+def _escape_match(match: re.Match[bytes]) -> bytes:
     if match[1] is None:
         return match[0]
     return match[1].decode("utf-8").encode("unicode_escape")
 
 
-class Shown(io.RawIOBase):
+class SanitizingStream(io.RawIOBase):
     """Stream that escapes control characters on the way to a terminal."""
 
     def __init__(self, stream: BinaryIO) -> None:
@@ -61,18 +61,18 @@ class Shown(io.RawIOBase):
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
         """Write escaped bytes and flush; return the number of bytes given."""
-        self.stream.write(shown(bytes(data)))
+        self.stream.write(escape_bytes(bytes(data)))
         self.stream.flush()
         return len(data)
 
 
-def guard() -> None:
+def install() -> None:
     """Route standard output and standard error through :class:`Shown` if they are terminals."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if isinstance(stream, io.TextIOWrapper) and stream.isatty():
             stream.flush()
-            way: Any = io.BufferedWriter(cast(io.RawIOBase, Shown(stream.buffer)))
+            way: Any = io.BufferedWriter(cast(io.RawIOBase, SanitizingStream(stream.buffer)))
             text = io.TextIOWrapper(way, stream.encoding, stream.errors, line_buffering=True)
             setattr(sys, name, text)
 

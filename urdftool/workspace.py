@@ -84,7 +84,7 @@ class Workspace:
             overlay: Contents by path, read in place of those on disk.
         """
         self.dependencies: Dependencies | None = None
-        self._overlay = {_key(path): data for path, data in (overlay or {}).items()}
+        self._overlay = {_get_key(path): data for path, data in (overlay or {}).items()}
         self._names = frozenset(map(os.path.basename, self._overlay))
         self._folders = frozenset(map(os.path.dirname, self._overlay))
         self._known: dict[Hashable, tuple[Any, Dependencies]] = {}
@@ -134,7 +134,7 @@ class Workspace:
         entry = self._known.get(key)
         if entry is None and self._base is not None:
             entry = self._base._known.get(key)
-            if entry is not None and self._touches(entry[1]):
+            if entry is not None and self._is_affected(entry[1]):
                 entry = None
             elif entry is not None:
                 self._known[key] = entry
@@ -144,7 +144,7 @@ class Workspace:
             self.dependencies.include(entry[1])
         return cast("T", entry[0])
 
-    def _touches(self, read: Dependencies) -> bool:
+    def _is_affected(self, read: Dependencies) -> bool:
         """Tell whether the overlay may change the queried files or folders."""
         return read.touches(self._overlay.keys(), self._folders)
 
@@ -157,7 +157,7 @@ class Workspace:
             if self.dependencies is not None:
                 self.dependencies.include(read)
             raise
-        if self._base is not None and not self._touches(read):
+        if self._base is not None and not self._is_affected(read):
             self._base._known.setdefault(key, entry)
         return self._known.setdefault(key, entry)
 
@@ -180,7 +180,7 @@ class Workspace:
         # compare the name first, since resolving links is slow
         if os.path.basename(path) not in self._names and not os.path.islink(path):
             return None
-        return self._overlay.get(_key(path))
+        return self._overlay.get(_get_key(path))
 
     def read_bytes(self, path: str | Path) -> bytes:
         """Return the contents of a file.
@@ -330,12 +330,12 @@ class Workspace:
         found = [start or "/"]
         for name in names:
             if any(sign in name for sign in "*?["):
-                found = [path for above in found for path in self._named(above, name)]
+                found = [path for above in found for path in self._match_entries(above, name)]
             else:
                 found = [os.path.join(above, name) for above in found]
         return sorted(path for path in found if self.exists_or_is_link(path))
 
-    def _named(self, folder: str, name: str) -> list[str]:
+    def _match_entries(self, folder: str, name: str) -> list[str]:
         """Return the entries of a folder that match; hidden ones only if the pattern is hidden."""
         try:
             names = [entry.name for entry in self.list_folder(folder)]
@@ -366,7 +366,7 @@ class Workspace:
                     yield from self._glob(folder / entry.name, rest)
 
 
-def memoized(
+def memoize_by_workspace(
     function: Callable[Concatenate[Workspace, P], T],
 ) -> Callable[Concatenate[Workspace, P], T]:
     """Decorate a function of a workspace and hashable arguments: one computation per workspace."""
@@ -407,7 +407,7 @@ class _Copies:
         return path
 
 
-def _key(path: str | Path) -> str:
+def _get_key(path: str | Path) -> str:
     """Return the overlay key of a file: its path without symbolic links."""
     return STDIN if path == STDIN else os.path.realpath(path)
 

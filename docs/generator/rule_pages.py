@@ -9,10 +9,10 @@ from difflib import unified_diff
 from pathlib import Path
 
 from urdftool.diagnostic import Severity
-from urdftool.report.file_diff import file_diff
-from urdftool.report.rule_pages import facts
-from urdftool.rules import all_rules, get_rule
-from urdftool.rules.effect_sources import effect_source
+from urdftool.report.file_diff import format_file_diff
+from urdftool.report.rule_pages import get_facts
+from urdftool.rules import get_all_rules, get_rule
+from urdftool.rules.effect_sources import get_effect_source
 from urdftool.rules.rule import TARGETS, Rule
 from urdftool.rules.table import FIXES, RULES
 
@@ -38,10 +38,12 @@ def write_page(rule: Rule) -> str:
     """Return the page of a rule: what is wrong, what readers do, the changed lines, the fix."""
     fact, _, rest = inspect.cleandoc(rule.check.__doc__ or "").partition("\n")
     parts = [f"# {rule.name}", as_markdown(fact), as_markdown(rest.strip())]
-    parts.append("\n".join(f"- {label}: {_mark_options(value)}" for label, value in facts(rule)))
+    parts.append(
+        "\n".join(f"- {label}: {_mark_options(value)}" for label, value in get_facts(rule))
+    )
     if rule.effects:
         rows = "\n".join(
-            f"| {readers} | {effect} | {effect_source(rule.name, readers)} |"
+            f"| {readers} | {effect} | {get_effect_source(rule.name, readers)} |"
             for readers, effect in rule.effects.items()
         )
         parts.append(f"| reader | what it does | how it is known |\n|---|---|---|\n{rows}")
@@ -59,7 +61,9 @@ def write_page(rule: Rule) -> str:
 def write_index() -> str:
     """Return the list of all rules, by family and by target."""
     lines = ["# Rules", ""]
-    lines.append(f"{len(list(all_rules()))} rules. `urdftool lint --explain RULE` shows a page.")
+    lines.append(
+        f"{len(list(get_all_rules()))} rules. `urdftool lint --explain RULE` shows a page."
+    )
     lines.append("")
     lines.append(
         "What a page states about a reader was run in that reader on a minimal robot, with the "
@@ -106,9 +110,9 @@ def _write_target_sections() -> Iterator[str]:
     )
     for target in TARGETS:
         yield from ("", f"### {target}", "", "| severity | rules |", "|---|---|")
-        special = [r for r in all_rules() if target in (r.on or ()) or target in r.raised]
+        special = [r for r in get_all_rules() if target in (r.on or ()) or target in r.raised]
         for severity in reversed(Severity):
-            some = [r for r in special if r.severity_for(frozenset([target])) is severity]
+            some = [r for r in special if r.get_severity(frozenset([target])) is severity]
             links = ", ".join(f"[{rule.name}]({rule.name}.md)" for rule in some)
             if links:
                 yield f"| {severity.label} | {links} |"
@@ -209,6 +213,6 @@ def _compare_files(rule: str, old: Path, new: Path, name: str) -> list[str]:
     """Return what ``--diff`` prints for a file of a fixture; a missing file counts as empty."""
     before, after = (path.read_bytes() if path.is_file() else b"" for path in (old, new))
     if b"\0" in before + after:
-        return file_diff(name, before if old.is_file() else None, after).splitlines()
+        return format_file_diff(name, before if old.is_file() else None, after).splitlines()
     texts = (_read_lines(rule, data) for data in (before, after))
     return list(unified_diff(*texts, name, name, n=2, lineterm=""))

@@ -27,7 +27,7 @@ from urdftool.formats.check import is_faithful
 from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import Pair, compare, pair_of
-from urdftool.formats.sdf.verify.loader import loads
+from urdftool.formats.sdf.verify.loader import run_loads
 from urdftool.formats.sdf.write import write
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
@@ -85,7 +85,7 @@ def _loads(robot: Robot, options: Options, folder: Path) -> bool:
     old = replace(options, version="1.9")
     place = folder / "old.sdf"
     place.write_bytes(write(robot, old).files["robot.sdf"])  # type: ignore[arg-type]
-    check = loads(robot, old, place)
+    check = run_loads(robot, old, place)
     return check is not None and check.verdict == "equal"
 
 

@@ -97,14 +97,14 @@ class Mujoco:
     def state(self, q: dict[str, float], names: list[str], frames: list[str]) -> Any:
         from .sdf_engines import State
 
-        self.compiled.pose(q)
+        self.compiled.set_pose(q)
         state = State()
         for name in frames:
-            frame = self.compiled.frame(name)
+            frame = self.compiled.get_frame(name)
             if frame is not None:
                 state.frames[name] = frame
-        state.mass_matrix = self.compiled.mass_matrix(self.compiled.dofs(names))
-        state.mass, state.center, state.inertia = self.compiled.centroid()
+        state.mass_matrix = self.compiled.compute_mass_matrix(self.compiled.get_dofs(names))
+        state.mass, state.center, state.inertia = self.compiled.compute_centroid()
         return state
 
     def limits(self, name: str) -> dict[str, float]:

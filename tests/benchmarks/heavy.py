@@ -105,14 +105,14 @@ def _heaviest(path: Path) -> tuple[str, Path, tuple[float, float, float], Any] |
     from urdftool.errors import UrdftoolError
     from urdftool.geometry.load import load_mesh
     from urdftool.model.elements import Mesh
-    from urdftool.model.pose import pose_of
+    from urdftool.model.pose import make_pose
 
     robot = urdftool.load(path)
     best: Any = None
     for link in robot.links:
         if len(link.visuals) != 1 or not isinstance(link.visuals[0].geometry, Mesh):
             continue
-        mesh, pose = link.visuals[0].geometry, pose_of(link.visuals[0].origin)
+        mesh, pose = link.visuals[0].geometry, make_pose(link.visuals[0].origin)
         try:
             file = Path(robot.source.resolve(mesh.filename))
             count = len(load_mesh(file).faces)

@@ -10,7 +10,7 @@ from pathlib import Path
 import mujoco
 from mjcf_robots import example_folder, example_robots, export
 
-from urdftool.formats.mjcf.joint import bounds
+from urdftool.formats.mjcf.joint import get_bounds
 from urdftool.model.elements import Robot
 
 ROBOTS = (
@@ -77,7 +77,7 @@ def _held(robot: Robot) -> dict[str, float]:
     """Each joint at zero, or at the bound that is nearest to it."""
     found = {}
     for joint in robot.moving_joints:
-        low, high = bounds(joint) or (0.0, 0.0)
+        low, high = get_bounds(joint) or (0.0, 0.0)
         found[joint.name] = min(max(0.0, low), high) if low <= high else 0.0
     return found
 

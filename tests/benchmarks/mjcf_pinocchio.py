@@ -243,4 +243,4 @@ def _geom_box(compiled, geom, frame):
         def geom_frame(number):
             return np.linalg.inv(frame) @ compiled.geom_frame(number)
 
-    return verify_shapes._geom_bounds(Turned, geom)
+    return verify_shapes._compute_geom_bounds(Turned, geom)

@@ -6,11 +6,11 @@ Reads the robots of ``pybullet_data`` and ``example-robot-data``, as far as they
 from __future__ import annotations
 
 from tests.benchmarks.simulate_robots import robots
-from urdftool.commands.simulate_one import judged
+from urdftool.commands.simulate_one import simulate_and_judge
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.simulation.checks.thresholds import Thresholds
-from urdftool.simulation.fleet import Row, in_parallel, make_row
+from urdftool.simulation.fleet import Row, make_row, run_in_parallel
 from urdftool.simulation.settings import Settings
 
 FILES = {str(path): name for name, path in robots()}
@@ -19,8 +19,10 @@ FILES = {str(path): name for name, path in robots()}
 def work(path: str) -> Row:
     """One robot in both engines."""
     robot = load(path)
-    verdicts, comparison = judged(robot, Settings(), ("pybullet", "mujoco"), Thresholds())
-    differ = comparison.faults(robot) if comparison is not None else []
+    verdicts, comparison = simulate_and_judge(
+        robot, Settings(), ("pybullet", "mujoco"), Thresholds()
+    )
+    differ = comparison.report_faults(robot) if comparison is not None else []
     row = make_row(path, robot.name, [verdict for some in verdicts for verdict in some], differ)
     ends = []
     for (verdict,) in verdicts:
@@ -48,7 +50,7 @@ def main() -> None:
     """Print the table, and how many agree."""
     print("| robot | PyBullet: at rest, height | MuJoCo | difference |\n|---|---|---|---|")
     ran = []
-    for row in in_parallel(list(FILES), work, jobs=2, limit=300.0):
+    for row in run_in_parallel(list(FILES), work, jobs=2, limit=300.0):
         print(line(row), flush=True)  # as they are done; sort them for a page
         if row.error is None:
             ran.append(row)

@@ -25,8 +25,8 @@ from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
 from urdftool.model.pose import Pose
 from urdftool.simulation.checks.contact import check_contacts
-from urdftool.simulation.checks.final_state import final_state
-from urdftool.simulation.checks.interpenetration import overlap_depth
+from urdftool.simulation.checks.final_state import measure_final_state
+from urdftool.simulation.checks.interpenetration import get_overlap_depth
 from urdftool.simulation.checks.thresholds import Thresholds
 from urdftool.simulation.engines import driver
 from urdftool.simulation.engines.pybullet.urdf import write_folder
@@ -62,7 +62,7 @@ def started(robot: Robot) -> Run:
 
 def misplaced(robot: Robot, run: Run) -> set[str]:
     """Links that are said to be in another, with what fails."""
-    faults = check_contacts(robot, run, final_state(run))
+    faults = check_contacts(robot, run, measure_final_state(run))
     return {fault.name for fault in faults if fault.fails and fault.code == "parts-collide"}
 
 
@@ -84,7 +84,7 @@ def planted(robot: Robot, link: str, shift: Array) -> set[str] | None:
             ),
             default=0.0,
         )
-        return misplaced(robot, run) if depth > overlap_depth(run.start) else None
+        return misplaced(robot, run) if depth > get_overlap_depth(run.start) else None
     finally:
         for collision, origin in whole:
             collision.origin = origin

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
-from urdftool.report.simulate import outcome
+from urdftool.report.simulate import describe_outcome
 from urdftool.simulation.checks.interpenetration import precompute_overlaps
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
@@ -55,7 +55,7 @@ def row(named: tuple[str, Path]) -> str:
         if fault.fails:
             first.setdefault(fault.code, fault.message[:110])
     why = "; ".join(f"{kind}: {message}" for kind, message in first.items())
-    return f"| {name} | {outcome(verdict)} | {why} |"
+    return f"| {name} | {describe_outcome(verdict)} | {why} |"
 
 
 def main() -> None:

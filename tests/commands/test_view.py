@@ -95,8 +95,8 @@ def test_neither_trimesh_nor_scipy_is_imported_for_shapes(arm):
     code = (
         "import sys\nfrom urdftool.viewer import page\nfrom urdftool.model.load import load\n"
         "from urdftool.drawing.shapes import robot_shapes\n"
-        "from urdftool.viewer.looks import looks_of\n"
-        "list(looks_of(robot_shapes(load(sys.argv[1]))))\n"
+        "from urdftool.viewer.render_mesh import list_render_meshes\n"
+        "list(list_render_meshes(robot_shapes(load(sys.argv[1]))))\n"
         "print([n for n in ('trimesh', 'scipy', 'yourdfpy', 'viser') if n in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code, arm], capture_output=True, text=True)

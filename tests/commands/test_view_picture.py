@@ -6,7 +6,7 @@ from io import BytesIO
 import numpy as np
 import pytest
 
-from urdftool.drawing.contact_sheet import layout_of
+from urdftool.drawing.contact_sheet import choose_layout
 
 LINK = (
     '<link name="{0}"><visual><geometry>{1}</geometry></visual>'
@@ -63,7 +63,7 @@ def test_a_contact_sheet_and_a_picture_at_once(urdftool, write):
     done = urdftool("view", path, "--picture", "p.png", "--contact-sheet", "s.png",
                     "--size", "64x48")  # fmt: skip
     assert done.code == 0, done.err
-    layout = layout_of(1, (64, 48))
+    layout = choose_layout(1, (64, 48))
     assert pixels("s.png").shape == (layout.height, layout.width, 3)
 
 

@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.graph.robots import robot
-from urdftool.compare.closeness import angle, close
 from urdftool.compare.differences import compare
+from urdftool.compare.tolerance import close, compute_angle
 from urdftool.model.load import load
-from urdftool.model.pose import rotation_of_rpy
+from urdftool.model.pose import rotation_from_rpy
 
 LINK = '<link name="a">{}</link><link name="b"/>'
 JOINT = '<joint name="j" type="{}"><parent link="a"/><child link="b"/>{}</joint>'
@@ -163,11 +163,11 @@ def test_broken_robots_are_compared_too():
 
 @given(st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(-3, 3), st.floats(0, 3))
 def test_an_angle_is_by_how_much_it_is_turned(roll, pitch, yaw, by):
-    from urdftool.model.pose import matrix_product
+    from urdftool.model.pose import multiply_matrices
 
-    rotation = rotation_of_rpy((roll, pitch, yaw))
-    turned = matrix_product(rotation, rotation_of_rpy((by, 0, 0)))
-    assert angle(rotation, turned) == pytest.approx(by, abs=1e-9)
+    rotation = rotation_from_rpy((roll, pitch, yaw))
+    turned = multiply_matrices(rotation, rotation_from_rpy((by, 0, 0)))
+    assert compute_angle(rotation, turned) == pytest.approx(by, abs=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
-from urdftool.model.pose import Pose, rotate, rotation_of_rpy, rpy_of_rotation
+from urdftool.model.pose import Pose, rotate, rotation_from_rpy, rpy_from_rotation
 
 Damage = Callable[["Robot", random.Random], "set[str] | None"]
 KINDS: dict[str, Damage] = {}
@@ -346,14 +346,14 @@ def place_of(element: Element) -> Pose:
     place = element.find("origin")
     if place is None:
         return Pose()
-    rotation = rotation_of_rpy(tuple(numbers(place.get("rpy"))))
+    rotation = rotation_from_rpy(tuple(numbers(place.get("rpy"))))
     return Pose(rotation, tuple(numbers(place.get("xyz"))))
 
 
 def put(element: Element, pose: Pose) -> None:
     place = origin(element)
     place.set("xyz", words(pose.translation))
-    place.set("rpy", words(rpy_of_rotation(pose.rotation)))
+    place.set("rpy", words(rpy_from_rotation(pose.rotation)))
 
 
 def turned_about_the_origin(robot: Robot, joints: list[Element]) -> None:

@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 
 import urdftool
 from urdftool.diagnostic import Severity
-from urdftool.rules.mesh.outlines import reaches
+from urdftool.rules.mesh.link_extents import get_extents
 
 from .kinds import Robot
 from .peer_kinds import PEER_KINDS, Measured
@@ -99,7 +99,7 @@ def _count(
 def _extents(path: Path, sample: Sample) -> dict[str, float]:
     """The greatest extent of the collisions of each link [m]."""
     robot = urdftool.load(path, packages=sample.packages)
-    boxes = {link.name: reaches(robot).shapes(link.collisions) for link in robot.links}
+    boxes = {link.name: get_extents(robot).get_shapes_box(link.collisions) for link in robot.links}
     return {name: max(box.size) for name, box in boxes.items() if box is not None}
 
 

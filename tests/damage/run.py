@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 from urdftool.finding import Finding
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 
 from .kinds import KINDS, Robot
 from .robots import Sample
@@ -20,7 +20,7 @@ def findings(text: str, sample: Sample, folder: Path) -> list[Finding]:
     """What lint says of a robot."""
     path = folder / "robot.urdf"
     path.write_text(text, "utf-8")
-    report = lint_file(path, Options(packages=sample.packages))
+    report = check_file(path, Options(packages=sample.packages))
     assert report.error is None, report.error
     assert not report.failed_rules, report.failed_rules
     return report.findings

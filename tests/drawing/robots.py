@@ -7,7 +7,7 @@ import numpy as np
 
 from urdftool.drawing.camera import View
 from urdftool.drawing.picture import draw
-from urdftool.drawing.shapes import robot_shapes
+from urdftool.drawing.shapes import read_robot_shapes
 from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
 
@@ -52,7 +52,7 @@ def front_view(distance=1000.0, half=1.0, size=(200, 200), side="x"):
 
 
 def seen(robot, view=None, positions=None, show="visual", **more):
-    shapes = robot_shapes(robot, show=show)
+    shapes = read_robot_shapes(robot, show=show)
     poses = link_poses(robot, positions or {})
     more = {"ground": False, "background": MAGENTA, **more}
     return draw(shapes, poses, camera=view or front_view(), **more)

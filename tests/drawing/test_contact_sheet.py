@@ -7,14 +7,14 @@ import pytest
 
 from urdftool.drawing.camera import Camera
 from urdftool.drawing.contact_sheet import (
-    contact_sheet,
-    layout_of,
+    choose_layout,
+    draw_contact_sheet,
+    list_shown_links,
+    list_sweeps,
     position_text,
-    shown_links,
-    sweeps_of,
 )
-from urdftool.drawing.lettering import Words, lettered, shown
-from urdftool.drawing.shapes import robot_shapes
+from urdftool.drawing.shapes import read_robot_shapes
+from urdftool.drawing.text import Words, draw_text, replace_undrawable
 
 from .robots import BOX, joint, link, read, visual
 
@@ -50,7 +50,7 @@ def test_each_joint_has_both_its_ends(tmp_path):
         ("follows", "revolute", mimic("turn", -2)),
         ("drift", "floating", ""),
     )
-    sweeps = {sweep.joint.name: sweep for sweep in sweeps_of(robot, slide=0.2)}
+    sweeps = {sweep.joint.name: sweep for sweep in list_sweeps(robot, slide=0.2)}
     assert {name: sweep.ends for name, sweep in sweeps.items()} == {
         "turn": (-1, 2),
         "wheel": (-math.pi / 2, math.pi / 2),
@@ -64,8 +64,8 @@ def test_each_joint_has_both_its_ends(tmp_path):
 
 def test_a_sheet_has_two_cells_a_joint(tmp_path):
     robot = chain(tmp_path, *((f"j{n}", "revolute", "") for n in range(5)))
-    image = contact_sheet(robot, robot_shapes(robot), cell=(96, 80))
-    layout = layout_of(5, (96, 80))
+    image = draw_contact_sheet(robot, read_robot_shapes(robot), cell=(96, 80))
+    layout = choose_layout(5, (96, 80))
     assert image.shape == (layout.height, layout.width, 3)
     cells = []
     for number in range(5):
@@ -91,11 +91,11 @@ def test_what_mimics_moves_along(tmp_path):
     leader = joint("lead", "a", "b", axis="1 0 0")
     follower = joint("follow", "b", "c", "revolute", mimic("lead", -1), "0 1 0", "1 0 0")
     robot = read(tmp_path, *links, leader, follower)
-    (sweep,) = sweeps_of(robot)
+    (sweep,) = list_sweeps(robot)
     assert sweep.followers == ("follow",)
     camera = Camera(0.0, 0.0)  # from the front: y to the right, z up
-    image = contact_sheet(robot, robot_shapes(robot), camera=camera, cell=(300, 300))
-    layout = layout_of(1, (300, 300))
+    image = draw_contact_sheet(robot, read_robot_shapes(robot), camera=camera, cell=(300, 300))
+    layout = choose_layout(1, (300, 300))
     left, top = layout.place(0)
     corners = []
     for side in (0, 1):
@@ -116,12 +116,12 @@ def test_a_loop_of_mimics_has_no_row(tmp_path):
         ("q", "revolute", mimic("p")),
         ("r", "revolute", ""),
     )
-    assert [sweep.joint.name for sweep in sweeps_of(robot)] == ["r"]
+    assert [sweep.joint.name for sweep in list_sweeps(robot)] == ["r"]
 
 
 @pytest.mark.parametrize("count", [1, 2, 7, 50, 130])
 def test_a_sheet_grows_both_ways(count):
-    layout = layout_of(count, (200, 160))
+    layout = choose_layout(count, (200, 160))
     assert layout.columns * layout.rows >= count > (layout.columns - 1) * layout.rows
     if count > 4:
         assert 0.8 < layout.width / layout.height < 2.2
@@ -135,11 +135,11 @@ def test_names_of_any_kind_are_written(tmp_path):
     names = ["é" * 300, "関節", "a\tb", "\u202e", "<b>%s{}", "🤖", "x" * 5000]
     page = np.full((300, 200, 3), 255, np.uint8)
     lines = [Words(name, (4, 4 + 30 * n), 150, 14) for n, name in enumerate(names)]
-    image = lettered(page, lines)
+    image = draw_text(page, lines)
     assert image.shape == page.shape
     assert (image[:, :154] != 255).any()
     assert (image[:, 160:] == 255).all()  # none is longer than it may be
-    assert shown("Gelenk é\n") == "Gelenk e·"
+    assert replace_undrawable("Gelenk é\n") == "Gelenk e·"
 
 
 def test_positions_have_their_unit(tmp_path):
@@ -152,18 +152,18 @@ def test_positions_have_their_unit(tmp_path):
 def test_limits_of_any_size_are_drawn(tmp_path):
     limits = '<limit lower="-1e12" upper="1e300" effort="1" velocity="1"/>'
     robot = chain(tmp_path, ("s", "prismatic", limits), ("j", "revolute", ""))
-    assert contact_sheet(robot, robot_shapes(robot), cell=(64, 48)).ndim == 3
+    assert draw_contact_sheet(robot, read_robot_shapes(robot), cell=(64, 48)).ndim == 3
 
 
 def test_no_joint_and_no_shape(tmp_path):
     still = read(tmp_path, link("a", SMALL))
-    assert contact_sheet(still, robot_shapes(still)).ndim == 3
+    assert draw_contact_sheet(still, read_robot_shapes(still)).ndim == 3
     empty = read(tmp_path, link("a"), link("b"), joint("j", "a", "b"))
-    assert contact_sheet(empty, robot_shapes(empty), cell=(64, 48)).ndim == 3
+    assert draw_contact_sheet(empty, read_robot_shapes(empty), cell=(64, 48)).ndim == 3
 
 
 def _cells(image, count, cell):
-    layout = layout_of(count, cell)
+    layout = choose_layout(count, cell)
     for number in range(count):
         left, top = layout.place(number)
         for side in (0, 1):
@@ -178,7 +178,7 @@ def test_limits_a_full_turn_apart_show_the_joint_at_90_degrees(tmp_path):
         for name, end in most.items()
     ]
     robot = read(tmp_path, link("a", SMALL), *(link(name, SMALL) for name in most), *joints)
-    ends = {sweep.joint.name: sweep.ends for sweep in sweeps_of(robot)}
+    ends = {sweep.joint.name: sweep.ends for sweep in list_sweeps(robot)}
     right = math.pi / 2
     assert ends == {"all_around": (-right, right), "half": (-right, right), "less": (-3.0, 3.0)}
 
@@ -187,11 +187,14 @@ def test_a_joint_that_moves_no_shape_has_no_row(tmp_path):
     links = [link("a", SMALL), link("b", SMALL), link("c")]
     joints = joint("one", "a", "b", "continuous", ""), joint("two", "b", "c", "continuous", "")
     robot = read(tmp_path, *links, *joints)
-    shapes = robot_shapes(robot)
-    sweeps = sweeps_of(robot, shown=shown_links(shapes))
+    shapes = read_robot_shapes(robot)
+    sweeps = list_sweeps(robot, shown=list_shown_links(shapes))
     assert [sweep.joint.name for sweep in sweeps] == ["one"]
-    layout = layout_of(1, (96, 80))
-    assert contact_sheet(robot, shapes, cell=(96, 80)).shape[:2] == (layout.height, layout.width)
+    layout = choose_layout(1, (96, 80))
+    assert draw_contact_sheet(robot, shapes, cell=(96, 80)).shape[:2] == (
+        layout.height,
+        layout.width,
+    )
 
 
 def test_what_is_hidden_shines_through(tmp_path):
@@ -201,7 +204,7 @@ def test_what_is_hidden_shines_through(tmp_path):
         link("wheel", visual(BOX.format("0.5 0.5 0.5"), "0.5 0.5 0.5 1")),
     ]
     robot = read(tmp_path, *links, joint("turn", "base", "wheel", "continuous", ""))
-    image = contact_sheet(robot, robot_shapes(robot), cell=(120, 100))
+    image = draw_contact_sheet(robot, read_robot_shapes(robot), cell=(120, 100))
     for cell in _cells(image, 1, (120, 100)):
         red, blue = cell[..., 0].astype(int), cell[..., 2].astype(int)
         assert (red > blue + 40).sum() > 300
@@ -215,7 +218,7 @@ def test_the_side_is_taken_that_shows_what_moves(tmp_path):
     ]
     swing = joint("swing", "wall", "flap", "continuous", "", "-0.3 0 0", "1 0 0")
     robot = read(tmp_path, *links, swing)
-    image = contact_sheet(robot, robot_shapes(robot), cell=(120, 100))
+    image = draw_contact_sheet(robot, read_robot_shapes(robot), cell=(120, 100))
     for cell in _cells(image, 1, (120, 100)):
         red, blue = cell[..., 0].astype(int), cell[..., 2].astype(int)
         assert (red > blue + 140).sum() > 300  # more than shines through a wall

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from urdftool.drawing.materials import PLAIN
-from urdftool.drawing.normals import corner_normals
-from urdftool.drawing.shapes import robot_shapes
-from urdftool.drawing.texture import looked_up, read_texture
+from urdftool.drawing.normals import compute_corner_normals
+from urdftool.drawing.shapes import read_robot_shapes
+from urdftool.drawing.texture import read_texture, sample_texture
 from urdftool.errors import MeshError
 from urdftool.geometry.tessellate import tessellate
 
@@ -37,7 +37,7 @@ def quad(folder, mtl, image=None):
 
 
 def colors(robot):
-    return [tuple(np.round(c, 3)) for c in np.unique(robot_shapes(robot).colors, axis=0)]
+    return [tuple(np.round(c, 3)) for c in np.unique(read_robot_shapes(robot).colors, axis=0)]
 
 
 def named(name, rgba=""):
@@ -91,7 +91,7 @@ def test_an_image_lies_as_its_coordinates_say(tmp_path):
 
 def test_a_missing_image_is_said_and_the_colour_kept(tmp_path):
     quad(tmp_path, "Kd 0 1 0\nmap_Kd t.png")
-    shapes = robot_shapes(read(tmp_path, link("a", visual(MESH.format("q.obj")))))
+    shapes = read_robot_shapes(read(tmp_path, link("a", visual(MESH.format("q.obj")))))
     (problem,) = shapes.problems
     assert "r.urdf:1:" in str(problem)
     assert "t.png" in str(problem)
@@ -108,27 +108,27 @@ def test_an_image_that_is_none_is_said(tmp_path):
 def test_images_repeat_and_mix():
     texels = read_texture(image_bytes([[[0, 0, 0], [255, 255, 255]]]))
     at = np.array([[0.25, 0.5], [0.75, 0.5], [0.5, 0.5], [1.25, -3.5], [np.nan, np.inf]])
-    assert looked_up(texels, at)[:4, 0] == pytest.approx([0, 1, 0.5, 0])
-    assert np.isfinite(looked_up(texels, at)).all()
+    assert sample_texture(texels, at)[:4, 0] == pytest.approx([0, 1, 0.5, 0])
+    assert np.isfinite(sample_texture(texels, at)).all()
 
 
 def test_normals_of_a_sphere_point_outwards():
     vertices, faces = tessellate("sphere", (2.0,), 64)
     outwards = vertices[faces] / 2.0
-    dots = np.einsum("mij,mij->mi", corner_normals(vertices, faces), outwards)
+    dots = np.einsum("mij,mij->mi", compute_corner_normals(vertices, faces), outwards)
     assert np.quantile(dots, 0.03) > 0.999  # but at the poles, where very many faces meet
     assert dots.min() > 0.99
 
 
 def test_normals_of_a_box_are_its_faces():
     vertices, faces = tessellate("box", (1.0, 2.0, 3.0))
-    normals = corner_normals(vertices, faces)
+    normals = compute_corner_normals(vertices, faces)
     assert np.allclose(np.sort(np.abs(normals), axis=2), [0, 0, 1])
 
 
 def test_normals_of_a_cylinder_are_smooth_around_and_sharp_at_the_rim():
     vertices, faces = tessellate("cylinder", (1.0, 1.0), 48)
-    normals = corner_normals(vertices, faces).reshape(-1, 3)
+    normals = compute_corner_normals(vertices, faces).reshape(-1, 3)
     corners = vertices[faces].reshape(-1, 3)
     side = np.abs(normals[:, 2]) < 0.5
     assert np.allclose(np.abs(normals[~side, 2]), 1, atol=1e-9)
@@ -138,7 +138,7 @@ def test_normals_of_a_cylinder_are_smooth_around_and_sharp_at_the_rim():
 
 def test_degenerate_faces_have_no_normal_and_do_no_harm():
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0], [0, 0, 0]], dtype=float)
-    normals = corner_normals(vertices, np.array([[0, 1, 2], [0, 1, 3], [0, 0, 4]]))
+    normals = compute_corner_normals(vertices, np.array([[0, 1, 2], [0, 1, 3], [0, 0, 4]]))
     assert np.isfinite(normals).all()
     assert np.allclose(normals[0], [0, 0, 1])
 
@@ -155,7 +155,7 @@ def test_shapes_that_are_no_numbers_are_said_and_left_out(tmp_path):
             visual('<geometry><sphere radius="inf"/></geometry>'),
         ),
     )
-    shapes = robot_shapes(robot)
+    shapes = read_robot_shapes(robot)
     assert len(shapes) == 12
     assert all("r.urdf:1:" in str(problem) for problem in shapes.problems)
     assert len(shapes.problems) == 2
@@ -172,7 +172,7 @@ def test_one_mesh_is_read_once_and_its_trouble_said_at_each_use(tmp_path, monkey
     uses = [visual(MESH.format(name)) for name in ("t.obj", "gone.stl") * 3]
     told = []
     robot = read(tmp_path, *(link(str(n), use) for n, use in enumerate(uses)))
-    shapes = robot_shapes(robot, progress=lambda *words: told.append(words))
+    shapes = read_robot_shapes(robot, progress=lambda *words: told.append(words))
     assert len(reads) == 2
     assert len(shapes.problems) == 3
     assert len(shapes) == 3
@@ -181,6 +181,6 @@ def test_one_mesh_is_read_once_and_its_trouble_said_at_each_use(tmp_path, monkey
 
 def test_shapes_with_nothing_in_them(tmp_path):
     robot = read(tmp_path, link("a", visual("<geometry><cone/></geometry>"), "<visual/>"))
-    assert len(robot_shapes(robot)) == 0
+    assert len(read_robot_shapes(robot)) == 0
     flat = read(tmp_path, link("a", visual('<geometry><box size="0 1 1"/></geometry>')))
     assert mask(seen(flat)).sum() == pytest.approx(100**2, rel=0.03)

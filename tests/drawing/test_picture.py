@@ -9,7 +9,7 @@ import pytest
 
 from urdftool.drawing.camera import Camera
 from urdftool.drawing.picture import draw, png
-from urdftool.drawing.shapes import bare_shapes, robot_shapes
+from urdftool.drawing.shapes import make_bare_shapes, read_robot_shapes
 from urdftool.geometry.tessellate import tessellate
 from urdftool.model.kinematics import link_poses
 from urdftool.model.pose import IDENTITY, Pose
@@ -20,7 +20,7 @@ RED = (0.9, 0.1, 0.1, 1.0)
 
 
 def one(kind, size, rgba=RED):
-    return bare_shapes([(*tessellate(kind, size), rgba)])
+    return make_bare_shapes([(*tessellate(kind, size), rgba)])
 
 
 def picture(shapes, view=None, pose=IDENTITY, **more):
@@ -115,7 +115,7 @@ def test_both_sides_of_a_face_are_seen_and_lit():
     vertices = np.array([[0, -0.5, -0.5], [0, 0.5, -0.5], [0, 0, 0.5]])
     pixels = []
     for faces in ([[0, 1, 2]], [[0, 2, 1]]):
-        shapes = bare_shapes([(vertices, np.array(faces), RED)])
+        shapes = make_bare_shapes([(vertices, np.array(faces), RED)])
         pixels.append(picture(shapes)[100, 100])
     assert (pixels[0] == pixels[1]).all()
 
@@ -216,7 +216,7 @@ def test_collisions_over_visuals_let_them_through(tmp_path):
     assert (mask(both) == mask(collisions)).all()
     assert visuals[100, 100, 2] > both[100, 100, 2] > collisions[100, 100, 2]
     with pytest.raises(ValueError, match="show must be one of"):
-        robot_shapes(robot, show="inertia")
+        read_robot_shapes(robot, show="inertia")
 
 
 def test_a_camera_within_the_robot_cuts_it():
@@ -228,7 +228,7 @@ def test_a_camera_within_the_robot_cuts_it():
 
 def test_nothing_to_draw_is_a_backdrop(tmp_path):
     robot = read(tmp_path, link("a"))
-    shapes = robot_shapes(robot)
+    shapes = read_robot_shapes(robot)
     assert len(shapes) == 0
     image = draw(shapes, link_poses(robot), size=(60, 40))
     assert image.shape == (40, 60, 3)
@@ -278,8 +278,8 @@ def test_the_same_bytes_in_another_process(tmp_path):
         for _ in range(2)
     }
     assert len(sums) == 1
-    image = draw(robot_shapes(robot), link_poses(robot), size=(160, 120))
-    assert png(image) == png(draw(robot_shapes(robot), link_poses(robot), size=(160, 120)))
+    image = draw(read_robot_shapes(robot), link_poses(robot), size=(160, 120))
+    assert png(image) == png(draw(read_robot_shapes(robot), link_poses(robot), size=(160, 120)))
 
 
 def test_a_png_is_read_as_it_was(tmp_path):
@@ -297,7 +297,7 @@ def test_two_million_triangles():
     import time
 
     vertices, faces = tessellate("sphere", (1.0,), around=2000)
-    shapes = bare_shapes([(vertices, faces, RED)])
+    shapes = make_bare_shapes([(vertices, faces, RED)])
     assert len(shapes) > 1_900_000
     begin = time.process_time()
     image = picture(shapes)

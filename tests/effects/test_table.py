@@ -5,8 +5,8 @@ import re
 
 import pytest
 
-from urdftool.rules import all_rules
-from urdftool.rules.effect_sources import effect_source
+from urdftool.rules import get_all_rules
+from urdftool.rules.effect_sources import get_effect_source
 
 from . import table
 from .__main__ import as_text
@@ -42,7 +42,9 @@ NOT_RUN = {
 
 
 def test_every_effect_of_every_rule_has_a_row_and_no_row_is_left_over():
-    effects = {(rule.name, key): says for rule in all_rules() for key, says in rule.effects.items()}
+    effects = {
+        (rule.name, key): says for rule in get_all_rules() for key, says in rule.effects.items()
+    }
     assert {pair: row.says for pair, row in ROWS.items()} == effects
 
 
@@ -101,9 +103,9 @@ def test_lint_knows_which_readers_reject_a_robot():
 def test_rule_pages_quote_the_table():
     packaged = json.loads(table.PACKAGED.read_text("utf-8"))
     assert packaged == table.packaged(), "python -m tests.effects --pages"
-    assert effect_source("zero-axis", "pybullet").startswith("run: PyBullet ")
-    assert effect_source("mimic-chain", "moveit").startswith("source: moveit/moveit2 ")
-    assert effect_source("zero-axis", "no such reader") == ""
+    assert get_effect_source("zero-axis", "pybullet").startswith("run: PyBullet ")
+    assert get_effect_source("mimic-chain", "moveit").startswith("source: moveit/moveit2 ")
+    assert get_effect_source("zero-axis", "no such reader") == ""
 
 
 FACTS = {

@@ -3,7 +3,7 @@
 import pytest
 
 import urdftool
-from urdftool.formats.common.extent import box_size
+from urdftool.formats.common.extent import compute_box_size
 from urdftool.formats.common.inertia_repair import repair_tensor
 from urdftool.mechanics.spatial_inertia import SpatialInertia
 from urdftool.model.pose import IDENTITY, Pose
@@ -41,7 +41,7 @@ def test_the_box_is_that_of_collisions_before_visuals(write):
     )
     one, other = robot.links
     shifted = Pose(translation=(2.0, 0.0, 0.0))
-    assert box_size(robot, [(one, IDENTITY), (other, shifted)]) == (1, 2, 3)
-    assert box_size(robot, [(one, IDENTITY), (one, shifted)]) == (3, 2, 3)
-    assert box_size(robot, [(other, IDENTITY)]) == (1, 1, 1)
-    assert box_size(robot, []) is None
+    assert compute_box_size(robot, [(one, IDENTITY), (other, shifted)]) == (1, 2, 3)
+    assert compute_box_size(robot, [(one, IDENTITY), (one, shifted)]) == (3, 2, 3)
+    assert compute_box_size(robot, [(other, IDENTITY)]) == (1, 1, 1)
+    assert compute_box_size(robot, []) is None

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from urdftool.formats.check import Check
-from urdftool.formats.registry import writable_formats
+from urdftool.formats.registry import get_writable_formats
 from urdftool.report.exports import check_table
 from urdftool.rules import FAMILY_OF
 
-LANGUAGES = [target.name for target in writable_formats()]
+LANGUAGES = [target.name for target in get_writable_formats()]
 FORMATS = Path(__file__).parents[2] / "urdftool" / "formats"
 
 BALL = '<visual><geometry><mesh filename="package://gone/meshes/{}.stl"/></geometry></visual>'

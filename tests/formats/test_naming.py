@@ -4,18 +4,24 @@ from itertools import islice
 
 import pytest
 
-from urdftool.formats.common.naming import UniqueNames, file_name, first_free, free_name, numbered
+from urdftool.formats.common.naming import (
+    UniqueNames,
+    get_first_free,
+    get_free_name,
+    list_numbered_names,
+    replace_file_name,
+)
 
 
 def test_numbers_come_before_a_suffix():
-    assert list(islice(numbered("arm", suffix=".stl"), 2)) == ["arm_2.stl", "arm_3.stl"]
-    assert next(numbered("arm", 1)) == "arm_1"
+    assert list(islice(list_numbered_names("arm", suffix=".stl"), 2)) == ["arm_2.stl", "arm_3.stl"]
+    assert next(list_numbered_names("arm", 1)) == "arm_1"
 
 
 def test_a_free_name_stays():
-    assert free_name("arm", {"leg"}) == "arm"
-    assert free_name("arm", {"arm", "arm_2", None}) == "arm_3"
-    assert first_free(["arm", "leg"], ("arm",)) == "leg"
+    assert get_free_name("arm", {"leg"}) == "arm"
+    assert get_free_name("arm", {"arm", "arm_2", None}) == "arm_3"
+    assert get_first_free(["arm", "leg"], ("arm",)) == "leg"
 
 
 def test_candidates_are_tried_before_numbers():
@@ -26,7 +32,7 @@ def test_candidates_are_tried_before_numbers():
 
 def test_a_name_without_letters_is_unnamed():
     assert UniqueNames().take("", "") == "unnamed_1"
-    assert file_name("..--") == "unnamed"
+    assert replace_file_name("..--") == "unnamed"
 
 
 @pytest.mark.parametrize(("fold", "second"), [(True, "ARM_1"), (False, "ARM")])

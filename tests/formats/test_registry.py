@@ -9,12 +9,12 @@ from tests.conftest import FIXTURES, ROOT
 from urdftool.formats.registry import (
     FORMATS,
     format_named,
-    readable_formats,
-    writable_formats,
+    get_readable_formats,
+    get_writable_formats,
 )
 
 EVERYTHING = FIXTURES / "formats" / "everything" / "everything.urdf"
-WRITABLE = writable_formats()
+WRITABLE = get_writable_formats()
 
 BEYOND = """<robot name="r"><link name="a"/><link name="b"/>
 <joint name="j" type="revolute"><parent link="a"/><child link="b"/>
@@ -47,7 +47,7 @@ FILES = {
 }
 
 
-@pytest.mark.parametrize("target", readable_formats(), ids=by_name)
+@pytest.mark.parametrize("target", get_readable_formats(), ids=by_name)
 def test_a_reader_gives_a_robot(target):
     file = FILES[target.name]
     assert target.has_suffix(file)

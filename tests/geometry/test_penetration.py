@@ -7,11 +7,11 @@ import pytest
 
 from urdftool.geometry.penetration import convex_of, overlap
 from urdftool.model.elements import Box, Capsule, Cylinder, Sphere
-from urdftool.model.pose import IDENTITY, Pose, rotation_of_rpy
+from urdftool.model.pose import IDENTITY, Pose, rotation_from_rpy
 
 
 def at(x=0.0, y=0.0, z=0.0, rpy=(0.0, 0.0, 0.0)):
-    return Pose(rotation_of_rpy(rpy), (x, y, z))
+    return Pose(rotation_from_rpy(rpy), (x, y, z))
 
 
 def box(*size):

@@ -7,7 +7,7 @@ from urdftool.geometry.load import load_mesh
 from urdftool.geometry.mesh import Mesh, Part
 from urdftool.geometry.tessellate import tessellate
 from urdftool.geometry.thin import SMALL_FILE, ThinMeshes, content_key, thin
-from urdftool.inertia.bodies import cached_mesh_body, mesh_body
+from urdftool.inertia.bodies import cached_mesh_body, integrate_mesh_body
 from urdftool.storage import DiskCache
 
 
@@ -96,7 +96,7 @@ def test_materials_belong_to_the_content(tmp_path):
 def test_mass_properties_are_kept_by_content(heavy, tmp_path, monkeypatch):
     cache = DiskCache(tmp_path / "cache")
     first = cached_mesh_body(heavy, cache)
-    plain = mesh_body(heavy)
+    plain = integrate_mesh_body(heavy)
     monkeypatch.setattr("urdftool.inertia.bodies.mesh_body", None)
     second = cached_mesh_body(heavy, cache)
     for body in (first, second):

@@ -3,7 +3,7 @@
 from itertools import pairwise
 from xml.sax.saxutils import quoteattr
 
-from urdftool.model.load import robot_of
+from urdftool.model.load import make_robot
 from urdftool.source.description import Description
 from urdftool.source.document import parse
 from urdftool.source.location import SourceFile
@@ -33,7 +33,7 @@ HOSTILE = [
 
 def robot(text, path="r.urdf"):
     file = SourceFile(path, text.encode("utf-8"))
-    return robot_of(Description(path, parse(file), [file], Packages()))
+    return make_robot(Description(path, parse(file), [file], Packages()))
 
 
 def attribute(text):

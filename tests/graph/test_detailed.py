@@ -1,7 +1,7 @@
 import pytest
 
 from tests.graph.robots import robot
-from urdftool.graph.detailed import detailed_figure
+from urdftool.graph.detailed import create_detailed_figure
 from urdftool.graph.dot import to_dot
 from urdftool.graph.fold import fold_fixed
 from urdftool.graph.marks import mark_findings
@@ -46,7 +46,7 @@ ARM = """<robot name="arm">
 
 @pytest.fixture
 def figure():
-    return detailed_figure(robot(ARM))
+    return create_detailed_figure(robot(ARM))
 
 
 def lines(figure, key):
@@ -136,7 +136,7 @@ def test_instances_of_a_macro_are_all_marked(xacro_file):
         '<xacro:leg n="1"/><xacro:leg n="2"/>',
     )
     model = load(path)
-    figure = detailed_figure(model)
+    figure = create_detailed_figure(model)
     mark_findings(figure, check(model))
     for key in ("link:leg_1", "link:leg_2"):
         assert "negative-mass" in {finding.code for finding in figure.nodes[key].findings}

@@ -6,14 +6,14 @@ import pytest
 
 from tests.graph.robots import HOSTILE, hostile_text, robot, tree
 from urdftool.errors import UrdftoolError
-from urdftool.graph import draw as drawing
-from urdftool.graph.detailed import detailed_figure
+from urdftool.graph import graphviz as drawing
+from urdftool.graph.detailed import create_detailed_figure
 from urdftool.graph.dot import to_dot
-from urdftool.graph.draw import FORMATS, DrawError, draw
 from urdftool.graph.faults import find_faults
+from urdftool.graph.formatting import escape_controls
+from urdftool.graph.graphviz import FORMATS, DrawError, draw
 from urdftool.graph.marks import mark_faults
 from urdftool.graph.ros import ros_figure
-from urdftool.graph.words import visible
 
 STARTS = {"pdf": b"%PDF", "svg": b"<?xml", "png": b"\x89PNG"}
 SMALL = tree("ab", [("the joint", "a", "b")])
@@ -36,46 +36,46 @@ def links(svg):
 
 
 @pytest.mark.parametrize("format", FORMATS)
-@pytest.mark.parametrize("style", [ros_figure, detailed_figure])
+@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
 def test_pictures_are_drawn(format, style, capfd):
     assert draw(to_dot(style(SMALL)), format).startswith(STARTS[format])
     assert capfd.readouterr() == ("", "")
 
 
-@pytest.mark.parametrize("style", [ros_figure, detailed_figure])
+@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
 def test_every_name_is_in_the_picture(style):
     shown = texts(draw(to_dot(style(SMALL)), "svg"))
     assert {"a", "b", "the joint"} <= set(shown)
 
 
-@pytest.mark.parametrize("style", [ros_figure, detailed_figure])
+@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
 def test_hostile_names_are_drawn_as_they_are(style):
     svg = draw(to_dot(style(robot(hostile_text(HOSTILE))), "."), "svg")
     shown = [text.replace("\xa0", " ") for text in texts(svg)]
     for name in HOSTILE:
-        assert visible(name) in shown
+        assert escape_controls(name) in shown
     for name in HOSTILE[1:]:
-        assert visible(f"j {name}") in shown
+        assert escape_controls(f"j {name}") in shown
 
 
 def test_hostile_names_are_in_tooltips_as_they_are():
-    svg = draw(to_dot(detailed_figure(robot(hostile_text(HOSTILE))), "."), "svg")
+    svg = draw(to_dot(create_detailed_figure(robot(hostile_text(HOSTILE))), "."), "svg")
     titles = [title.split("\n")[0] for title in links(svg)]
-    assert {f"link {visible(name)}" for name in HOSTILE} <= set(titles)
+    assert {f"link {escape_controls(name)}" for name in HOSTILE} <= set(titles)
 
 
 def test_nodes_link_to_their_lines():
-    svg = draw(to_dot(detailed_figure(SMALL), "pictures"), "svg")
+    svg = draw(to_dot(create_detailed_figure(SMALL), "pictures"), "svg")
     assert set(links(svg).values()) == {"../r.urdf#L2", "../r.urdf#L3", "../r.urdf#L4"}
 
 
 def test_no_name_of_a_file_becomes_another_link():
     model = robot('<robot name="r"><link name="a"/></robot>', 'javascript:alert(1)"x.urdf')
-    (target,) = links(draw(to_dot(detailed_figure(model), "."), "svg")).values()
+    (target,) = links(draw(to_dot(create_detailed_figure(model), "."), "svg")).values()
     assert target == "javascript%3Aalert%281%29%22x.urdf#L1"
 
 
-@pytest.mark.parametrize("style", [ros_figure, detailed_figure])
+@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
 def test_empty_names_do_not_break_graphviz(style):
     model = robot('<robot><link/><joint/><link name="a"/><joint name="n"/><link/></robot>')
     figure = style(model)
@@ -115,7 +115,7 @@ def test_text_that_is_no_graph_is_an_error():
     [lambda i: i - 1, lambda i: 0, lambda i: (i - 1) // 2, lambda i: (i * 7919) % i],
     ids=["chain", "star", "binary", "scattered"],
 )
-@pytest.mark.parametrize("style", [ros_figure, detailed_figure])
+@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
 def test_two_thousand_links_are_drawn_or_refused_in_a_minute(parent, style):
     names = [f"link_{i}" for i in range(2000)]
     model = tree(names, [(f"joint_{i}", names[parent(i)], names[i]) for i in range(1, 2000)])

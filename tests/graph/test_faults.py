@@ -1,7 +1,7 @@
 import pytest
 
 from tests.graph.robots import robot, tree
-from urdftool.graph.detailed import detailed_figure
+from urdftool.graph.detailed import create_detailed_figure
 from urdftool.graph.faults import find_faults
 from urdftool.graph.fold import fold_fixed
 from urdftool.graph.marks import mark_faults
@@ -44,7 +44,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("style", [ros_figure, detailed_figure])
+@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_wrong_stands_on_its_node(case, style):
     model, expected = CASES[case]
@@ -57,7 +57,7 @@ def test_what_is_wrong_stands_on_its_node(case, style):
 @pytest.mark.parametrize("case", CASES)
 def test_everything_is_drawn(case):
     model, _ = CASES[case]
-    figure = detailed_figure(model)
+    figure = create_detailed_figure(model)
     assert {link.name for link in model.links} <= {n.name for n in figure.of_kind("link")}
     assert sum(1 for _ in figure.of_kind("joint")) == len(model.joints)
     assert all(edge.tail in figure.nodes and edge.head in figure.nodes for edge in figure.edges)
@@ -83,20 +83,22 @@ def test_lint_reports_what_keeps_a_robot_from_being_a_tree(case):
 
 
 def test_a_joint_without_links_is_drawn_apart():
-    figure = detailed_figure(robot('<robot name="r"><link name="a"/><joint name="j"/></robot>'))
+    figure = create_detailed_figure(
+        robot('<robot name="r"><link name="a"/><joint name="j"/></robot>')
+    )
     assert [node.kind for node in figure.nodes.values()] == ["link", "joint", "missing", "missing"]
 
 
 def test_what_a_joint_lacks_stands_on_the_joint():
     model = robot('<robot name="r"><link name="a"/><joint name="j"/></robot>')
-    figure = detailed_figure(model)
+    figure = create_detailed_figure(model)
     mark_faults(figure, find_faults(model))
     assert figure.nodes["joint:j"].faults == ["no parent", "no child"]
 
 
 def test_fixed_joints_fold_and_faulty_ones_do_not():
     model = tree("abcd", [("ab", "a", "b"), ("bc", "b", "c"), ("bd", "b", "d"), ("cd", "c", "d")])
-    figure = detailed_figure(model)
+    figure = create_detailed_figure(model)
     mark_faults(figure, find_faults(model))
     folded = fold_fixed(figure)
     assert {node.name: node.members for node in folded.of_kind("link")} == {

@@ -10,10 +10,10 @@ from tests.graph.robots import HOSTILE, hostile_text, robot, tree
 from urdftool.errors import XmlError
 from urdftool.graph.dot import to_dot
 from urdftool.graph.ros import ros_figure
-from urdftool.model.load import load, robot_of
+from urdftool.model.load import load, make_robot
 from urdftool.source.description import read_description
 from urdftool.source.document import read_file
-from urdftool.source.well_formed import mend
+from urdftool.source.well_formed import repair
 
 EXPECTED = FIXTURES / "graph"
 ROBOTS = {path.stem: path for path in (FIXTURES / "robots").rglob("*.urdf")}
@@ -82,9 +82,9 @@ def test_the_text_is_the_same_for_every_robot_of_the_corpus():
 def lax(path, arguments):
     """As the command reads it: what ROS reads all the same is passed over."""
     try:
-        return robot_of(read_description(path, arguments))
+        return make_robot(read_description(path, arguments))
     except XmlError:
-        return robot_of(read_description(path, arguments, file=mend(read_file(path))))
+        return make_robot(read_description(path, arguments, file=repair(read_file(path))))
 
 
 def test_children_come_in_the_order_of_their_joints_bytes():

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tests.hostile.writers import process
-from urdftool.terminal import shown, visible
+from urdftool.terminal import escape_bytes, escape_controls
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there are no such terminals")
 
@@ -16,17 +16,17 @@ NASTY = "\x9b31m\u202eevil\u2066"
 
 def test_ours_passes():
     for text in (b"\x1b[31mred\x1b[0m", b"\r\x1b[K12/13", b"a\r\n", b"\ta\n", "é–×\n".encode()):
-        assert shown(text) == text
+        assert escape_bytes(text) == text
 
 
 @pytest.mark.parametrize(
     "text", ["\x1b]0;title\x07", "\x1b[2J", "\x9b2J", "\u202e", "a\rb", "\x08", "\x7f", "\0"]
 )
 def test_what_is_obeyed_is_written_out(text):
-    written = shown(text.encode()).decode()
+    written = escape_bytes(text.encode()).decode()
     assert written.isprintable()
     assert "\\" in written
-    assert visible(text).isprintable()
+    assert escape_controls(text).isprintable()
 
 
 ROBOT = f"""<robot name="r{NASTY}"><link name="a{NASTY}">
@@ -60,6 +60,6 @@ def test_no_command_sends_it_raw(tmp_path, command):
     os.close(ours)
     assert child.wait(60) in (0, 1, 2)
     assert said
-    assert shown(said) == said
+    assert escape_bytes(said) == said
     text = said.decode()
     assert not any(c in text for c in ("\x9b", "\u202e", "\u2066", "\x07"))

@@ -7,9 +7,9 @@ import urdftool
 from tests.conftest import FIXTURES
 from urdftool.errors import MeshError, UrdftoolError
 from urdftool.geometry.load import load_mesh
-from urdftool.inertia.bodies import mesh_body
+from urdftool.inertia.bodies import integrate_mesh_body
 from urdftool.inertia.estimate import estimate_mass_properties
-from urdftool.inertia.polyhedron import shell_moments
+from urdftool.inertia.polyhedron import compute_shell_moments
 
 MESHES = FIXTURES / "meshes"
 
@@ -17,7 +17,7 @@ MESHES = FIXTURES / "meshes"
 @pytest.mark.parametrize("name", ["sphere.stl", "cube.obj", "two_cubes.stl", "cavity.stl"])
 @pytest.mark.parametrize("scale", [(1, 1, 1), (0.001, 0.001, 0.001), (2, -3, 0.5), (-1, -1, -1)])
 def test_scaling_the_body_is_loading_the_mesh_scaled(name, scale):
-    found = mesh_body(MESHES / name).scaled(scale)
+    found = integrate_mesh_body(MESHES / name).scale(scale)
     mesh = load_mesh(MESHES / name, scale)
     meant = estimate_mass_properties(mesh.vertices, mesh.faces, density=1.0).properties
     assert found.unit.mass == pytest.approx(meant.mass, rel=1e-12)
@@ -31,12 +31,12 @@ def test_scaling_the_body_is_loading_the_mesh_scaled(name, scale):
 
 def test_a_shell_scales_with_its_area():
     mesh = load_mesh(MESHES / "cube.obj", (2, -2, 2))
-    meant = shell_moments(mesh.vertices, mesh.faces).with_density(1.0)
-    found = mesh_body(MESHES / "cube.obj", surface=True).scaled((2, -2, 2))
+    meant = compute_shell_moments(mesh.vertices, mesh.faces).with_density(1.0)
+    found = integrate_mesh_body(MESHES / "cube.obj", surface=True).scale((2, -2, 2))
     assert found.unit.mass == pytest.approx(meant.mass)
     assert found.unit.inertia == pytest.approx(meant.inertia)
     with pytest.raises(UrdftoolError, match="equal factors"):
-        mesh_body(MESHES / "cube.obj", surface=True).scaled((1, 2, 3))
+        integrate_mesh_body(MESHES / "cube.obj", surface=True).scale((1, 2, 3))
 
 
 def robot(tmp_path, shapes, inertial=""):
@@ -81,5 +81,5 @@ def test_compute_inertia_falls_back_where_a_mesh_is_missing(tmp_path):
 
 def test_an_unreadable_mesh_names_its_file():
     with pytest.raises(MeshError) as caught:
-        mesh_body(MESHES / "flat.stl")
+        integrate_mesh_body(MESHES / "flat.stl")
     assert str(caught.value).startswith(str(MESHES / "flat.stl"))

@@ -11,9 +11,9 @@ from urdftool.errors import MeshError
 from urdftool.geometry.load import load_mesh
 from urdftool.inertia.estimate import estimate_mass_properties
 from urdftool.inertia.inertia_error import InertiaError
-from urdftool.inertia.polyhedron import solid_moments
+from urdftool.inertia.polyhedron import compute_solid_moments
 from urdftool.inertia.requirements import is_consistent
-from urdftool.inertia.solids import box
+from urdftool.inertia.solids import compute_box
 from urdftool.mechanics.spatial_inertia import combine
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
@@ -83,7 +83,7 @@ def damaged(faces, kind, random):
 def test_damage_is_repaired_or_said(name, kind):
     mesh = shapes()[name]
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    wanted = solid_moments(vertices, faces).with_density(2.0)
+    wanted = compute_solid_moments(vertices, faces).with_density(2.0)
     trusted = 0
     for seed in range(2):
         broken = damaged(faces, kind, np.random.default_rng(seed))
@@ -107,7 +107,7 @@ def test_vertices_of_each_face_its_own(name):
     faces = np.arange(len(vertices)).reshape(-1, 3)
     got = estimate_mass_properties(vertices, faces, mass=3.0)
     assert got.method == "exact"
-    wanted = solid_moments(np.asarray(mesh.vertices), np.asarray(mesh.faces)).with_mass(3.0)
+    wanted = compute_solid_moments(np.asarray(mesh.vertices), np.asarray(mesh.faces)).with_mass(3.0)
     assert differences(got.properties, wanted).max() < 1e-12
 
 
@@ -117,7 +117,7 @@ def test_split_into_touching_bodies():
     both = trimesh.util.concatenate([left, right])
     got = estimate_mass_properties(both.vertices, np.asarray(both.faces), density=1.0)
     assert got.method == "exact"
-    wanted = move(box((2, 1, 1), density=1.0), xyz=(0.5, 0, 0))
+    wanted = move(compute_box((2, 1, 1), density=1.0), xyz=(0.5, 0, 0))
     assert differences(got.properties, wanted).max() < 1e-12
 
 
@@ -143,8 +143,10 @@ def test_cavity_that_is_inside_out_with_its_body():
     mesh = load_mesh(FIXTURES / "cavity.stl")
     got = estimate_mass_properties(mesh.vertices, mesh.faces[:, ::-1], density=1.0)
     assert got.volume == pytest.approx(0.875, rel=1e-12)
-    hole = box((0.5, 0.5, 0.5), density=1.0).inertia
-    np.testing.assert_allclose(got.properties.inertia, box((1, 1, 1), density=1.0).inertia - hole)
+    hole = compute_box((0.5, 0.5, 0.5), density=1.0).inertia
+    np.testing.assert_allclose(
+        got.properties.inertia, compute_box((1, 1, 1), density=1.0).inertia - hole
+    )
 
 
 def test_bodies_that_overlap_by_half_are_united():
@@ -212,7 +214,7 @@ def test_random_triangles_never_give_an_impossible_tensor():
 def test_several_meshes_combine():
     parts = [estimate("cube.stl", mass=1.0).properties for _ in range(2)]
     whole = combine([parts[0], move(parts[1], xyz=(1, 0, 0))])
-    np.testing.assert_allclose(whole.inertia, box((2, 1, 1), mass=2.0).inertia, atol=1e-12)
+    np.testing.assert_allclose(whole.inertia, compute_box((2, 1, 1), mass=2.0).inertia, atol=1e-12)
 
 
 @pytest.mark.corpus

@@ -6,12 +6,12 @@ import pytest
 import xacro
 
 from tests.mechanics.bodies import move
-from urdftool.inertia.macros import macro_file, mass_macro, shape_call, shape_macro
+from urdftool.inertia.macros import get_macro_file, get_mass_macro, get_shape_call, get_shape_macro
 from urdftool.inertia.rounding import round_properties
-from urdftool.inertia.shapes import find_shape, shape_properties
+from urdftool.inertia.shapes import compute_shape_properties, find_shape
 from urdftool.mechanics.spatial_inertia import SpatialInertia
-from urdftool.mechanics.tensor import components_of, diagonal_tensor, rotate_tensor
-from urdftool.model.pose import rotation_of_rpy
+from urdftool.mechanics.tensor import get_components, make_diagonal_tensor, rotate_tensor
+from urdftool.model.pose import rotation_from_rpy
 
 CASES = [
     ("box", {"size": (0.3, 0.7, 1.1)}, {}),
@@ -43,24 +43,26 @@ def expanded(tmp_path, body):
 def test_macros_equal_the_command(tmp_path, name, sizes, more, whole):
     shape = find_shape(name)
     xyz, rpy = (0.1, -0.2, 0.3), (0.4, -0.5, 0.6)
-    call = shape_call(shape, sizes, 1.7, **more, xyz=xyz, rpy=rpy)
+    call = get_shape_call(shape, sizes, 1.7, **more, xyz=xyz, rpy=rpy)
     if whole:
-        (tmp_path / "inertia.xacro").write_text(macro_file())
+        (tmp_path / "inertia.xacro").write_text(get_macro_file())
         before = '<xacro:include filename="inertia.xacro"/>'
     else:
-        before = shape_macro(shape, hollow="thickness" in more)
+        before = get_shape_macro(shape, hollow="thickness" in more)
     mass, at, turned, six = expanded(tmp_path, before + f"<link>{call}</link>")
-    alone = shape_properties(shape, sizes, mass=1.7, **more)
-    assert six == components_of(round_properties(alone).tensor)
+    alone = compute_shape_properties(shape, sizes, mass=1.7, **more)
+    assert six == get_components(round_properties(alone).tensor)
     moved = round_properties(move(alone, xyz=xyz, rpy=rpy))
     assert mass == moved.mass == 1.7
     assert at == pytest.approx(moved.com, abs=1e-11)
-    tensor = diagonal_tensor(six["ixx"], six["iyy"], six["izz"])
-    assert rotate_tensor(tensor, rotation_of_rpy(turned)) == pytest.approx(moved.tensor, rel=1e-10)
+    tensor = make_diagonal_tensor(six["ixx"], six["iyy"], six["izz"])
+    assert rotate_tensor(tensor, rotation_from_rpy(turned)) == pytest.approx(
+        moved.tensor, rel=1e-10
+    )
 
 
 def test_xyz_and_rpy_may_be_left_out(tmp_path):
-    macro = shape_macro(find_shape("cone"))
+    macro = get_shape_macro(find_shape("cone"))
     call = '<xacro:cone_inertia mass="1" radius="0.1" length="0.4"/>'
     _, at, _, _ = expanded(tmp_path, macro + call)
     assert at == [0, 0, -0.1]
@@ -68,9 +70,9 @@ def test_xyz_and_rpy_may_be_left_out(tmp_path):
 
 def test_a_body_of_any_shape_takes_its_mass(tmp_path):
     tensor = (2.0, 0.1, 0.2, 3.0, 0.3, 4.0)
-    macro = mass_macro("part", SpatialInertia(2.0, (1.0, 2.0, 3.5), tensor))
-    assert expanded(tmp_path, macro)[3] == components_of(tensor)
+    macro = get_mass_macro("part", SpatialInertia(2.0, (1.0, 2.0, 3.5), tensor))
+    assert expanded(tmp_path, macro)[3] == get_components(tensor)
     heavy = macro.replace("<xacro:part_inertia/>", '<xacro:part_inertia mass="4"/>')
     mass, at, _, six = expanded(tmp_path, heavy)
     assert (mass, at) == (4, [1, 2, 3.5])
-    assert six == {n: pytest.approx(v * 2) for n, v in components_of(tensor).items()}
+    assert six == {n: pytest.approx(v * 2) for n, v in get_components(tensor).items()}

@@ -8,10 +8,14 @@ import pytest
 import trimesh
 
 from urdftool.errors import MeshError
-from urdftool.inertia.polyhedron import shell_moments, signed_volume, solid_moments
-from urdftool.inertia.solids import box
-from urdftool.mechanics.tensor import inertia_from_second_moment, matrix_of, tensor_of_matrix
-from urdftool.model.pose import rotation_of_rpy
+from urdftool.inertia.polyhedron import (
+    compute_shell_moments,
+    compute_signed_volume,
+    compute_solid_moments,
+)
+from urdftool.inertia.solids import compute_box
+from urdftool.mechanics.tensor import compute_inertia_from_second_moment, from_matrix, to_matrix
+from urdftool.model.pose import rotation_from_rpy
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
 
@@ -62,13 +66,13 @@ def meshes():
 @pytest.mark.parametrize("offset", [0.0, 1000.0])
 def test_equals_exact_fractions(name, offset):
     mesh = meshes()[name]
-    turn = np.array(rotation_of_rpy((0.1, 0.5, 0.8)))
+    turn = np.array(rotation_from_rpy((0.1, 0.5, 0.8)))
     vertices = mesh.vertices @ turn.T + offset
     faces = np.asarray(mesh.faces)
     volume, centroid, second = tetrahedra_sum(vertices, faces)
-    moments = solid_moments(vertices, faces)
+    moments = compute_solid_moments(vertices, faces)
     assert moments.measure == pytest.approx(volume, rel=1e-12)
-    assert signed_volume(vertices, faces) == pytest.approx(volume, rel=1e-12)
+    assert compute_signed_volume(vertices, faces) == pytest.approx(volume, rel=1e-12)
     np.testing.assert_allclose(moments.centroid, centroid, atol=1e-12 * max(1, offset))
     np.testing.assert_allclose(moments.second, second, atol=1e-12 * np.abs(second).max())
 
@@ -77,7 +81,7 @@ def test_equals_exact_fractions(name, offset):
 def test_equals_trimesh(name):
     mesh = meshes()[name]
     mesh.apply_translation([0.3, -0.2, 0.1])
-    body = solid_moments(mesh.vertices, np.asarray(mesh.faces)).with_density(7.0)
+    body = compute_solid_moments(mesh.vertices, np.asarray(mesh.faces)).with_density(7.0)
     mesh.density = 7.0
     assert body.mass == pytest.approx(mesh.mass, rel=1e-9)
     np.testing.assert_allclose(body.com, mesh.center_mass, rtol=1e-9)
@@ -87,24 +91,24 @@ def test_equals_trimesh(name):
 
 def test_box_by_mass():
     mesh = trimesh.creation.box((1, 2, 3))
-    body = solid_moments(mesh.vertices, np.asarray(mesh.faces)).with_mass(5.0)
-    np.testing.assert_allclose(body.inertia, box((1, 2, 3), mass=5.0).inertia, atol=1e-12)
+    body = compute_solid_moments(mesh.vertices, np.asarray(mesh.faces)).with_mass(5.0)
+    np.testing.assert_allclose(body.inertia, compute_box((1, 2, 3), mass=5.0).inertia, atol=1e-12)
 
 
 def test_shell_of_a_sphere():
     mesh = trimesh.creation.icosphere(subdivisions=5, radius=2.0)
-    moments = shell_moments(mesh.vertices + 5, np.asarray(mesh.faces))
+    moments = compute_shell_moments(mesh.vertices + 5, np.asarray(mesh.faces))
     assert moments.measure == pytest.approx(16 * np.pi, rel=1e-3)
     np.testing.assert_allclose(moments.centroid, [5] * 3, atol=1e-9)
-    tensor = inertia_from_second_moment(tensor_of_matrix(moments.second / moments.measure))
-    inertia = matrix_of(tensor)
+    tensor = compute_inertia_from_second_moment(from_matrix(moments.second / moments.measure))
+    inertia = to_matrix(tensor)
     np.testing.assert_allclose(inertia, np.eye(3) * 2 / 3 * 4, atol=5e-3)
 
 
 def test_shell_of_one_triangle_by_its_midpoints():
     # three midpoints with a third of the area each are exact for quadratics
     vertices = np.array([[0.0, 0, 0], [3, 0, 1], [0, 2, 0]])
-    moments = shell_moments(vertices, np.array([[0, 1, 2]]))
+    moments = compute_shell_moments(vertices, np.array([[0, 1, 2]]))
     middles = (vertices + np.roll(vertices, 1, axis=0)) / 2 - moments.centroid
     np.testing.assert_allclose(moments.second, moments.measure / 3 * middles.T @ middles)
 
@@ -112,6 +116,6 @@ def test_shell_of_one_triangle_by_its_midpoints():
 def test_no_volume():
     flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     with pytest.raises(MeshError, match="no volume"):
-        solid_moments(flat, np.array([[0, 1, 2], [0, 2, 1]]))
+        compute_solid_moments(flat, np.array([[0, 1, 2], [0, 2, 1]]))
     with pytest.raises(MeshError, match="no area"):
-        shell_moments(flat * 0, np.array([[0, 1, 2]]))
+        compute_shell_moments(flat * 0, np.array([[0, 1, 2]]))

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from urdftool.inertia.sampling import sampled_moments, spread_points
-from urdftool.inertia.winding import boxes_of, solid_angles, winding_numbers
+from urdftool.inertia.sampling import compute_sampled_moments, spread_points
+from urdftool.inertia.winding import compute_solid_angles, compute_winding_numbers, sort_into_boxes
 
 
 def corners(mesh):
@@ -14,21 +14,24 @@ def corners(mesh):
 
 def direct(points, triangles):
     return np.array(
-        [solid_angles(np.tile(point, (len(triangles), 1)), triangles).sum() for point in points]
+        [
+            compute_solid_angles(np.tile(point, (len(triangles), 1)), triangles).sum()
+            for point in points
+        ]
     ) / (4 * np.pi)
 
 
 def test_octant():
     far = 1e9
     triangle = np.array([[[far, 0, 0], [0, far, 0], [0, 0, far]]])
-    assert solid_angles(np.zeros((1, 3)), triangle)[0] == pytest.approx(np.pi / 2)
+    assert compute_solid_angles(np.zeros((1, 3)), triangle)[0] == pytest.approx(np.pi / 2)
 
 
 @pytest.mark.parametrize("missing", [0, 300])
 def test_boxes_agree_with_the_direct_sum(missing):
     triangles = corners(trimesh.creation.torus(1.0, 0.3))[missing:]
     points = spread_points(300, np.full(3, -1.5), np.full(3, 1.5))
-    got = winding_numbers(points, boxes_of(triangles))
+    got = compute_winding_numbers(points, sort_into_boxes(triangles))
     np.testing.assert_allclose(got, direct(points, triangles), atol=0.03)
 
 
@@ -36,9 +39,9 @@ def test_inside_outside_and_inside_out():
     triangles = corners(trimesh.creation.icosphere(subdivisions=3))
     points = np.array([[0.0, 0, 0], [0.9, 0, 0], [1.2, 0, 0], [5, 5, 5]])
     np.testing.assert_allclose(
-        winding_numbers(points, boxes_of(triangles)), [1, 1, 0, 0], atol=0.02
+        compute_winding_numbers(points, sort_into_boxes(triangles)), [1, 1, 0, 0], atol=0.02
     )
-    turned = winding_numbers(points, boxes_of(triangles[:, ::-1]))
+    turned = compute_winding_numbers(points, sort_into_boxes(triangles[:, ::-1]))
     np.testing.assert_allclose(turned, [-1, -1, 0, 0], atol=0.02)
 
 
@@ -50,7 +53,7 @@ def test_spread_points_are_spread():
 
 
 def test_sampled_sphere():
-    halves = sampled_moments(corners(trimesh.creation.icosphere(subdivisions=3)), 8000)
+    halves = compute_sampled_moments(corners(trimesh.creation.icosphere(subdivisions=3)), 8000)
     assert halves is not None
     for moments in halves:
         assert moments.measure == pytest.approx(4 / 3 * np.pi, rel=0.02)
@@ -59,4 +62,4 @@ def test_sampled_sphere():
 
 def test_nothing_inside():
     one = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0.1]]])
-    assert sampled_moments(one, 2000, caps=one[:, ::-1]) is None
+    assert compute_sampled_moments(one, 2000, caps=one[:, ::-1]) is None

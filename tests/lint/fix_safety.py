@@ -7,9 +7,9 @@ import struct
 
 from tests.lint.engine_views import ENGINES, Engine, difference
 from urdftool.errors import UrdftoolError
-from urdftool.lint.fix_run import mend
+from urdftool.lint.fix_run import fix_description
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.source.description import read_description
 from urdftool.source.document import read_file
@@ -37,9 +37,9 @@ class Bench:
     def changes_of_fixes(self, path, rules, *, unsafe=False):
         """Apply fixes to a description; gives what was applied, and what engines see of it."""
         options = Options(Settings(select=tuple(rules)), fixes=True)
-        report = lint_file(path, options)
+        report = check_file(path, options)
         assert report.error is None
-        done = mend(report, options, unsafe=unsafe, meshes=True)
+        done = fix_description(report, options, unsafe=unsafe, meshes=True)
         if not done.after:
             return done.applied, []
         return done.applied, self.changes(path, {}, done.after)

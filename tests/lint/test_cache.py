@@ -19,7 +19,7 @@ from urdftool.lint import cache as cache_module
 from urdftool.lint import run
 from urdftool.lint.cache import Cache
 from urdftool.lint.outcome import Options, Report
-from urdftool.lint.parallel import lint_files
+from urdftool.lint.parallel import check_files
 from urdftool.rules import get_rule
 from urdftool.storage import DiskCache, cache_folder
 
@@ -327,7 +327,7 @@ def test_standard_input_is_not_kept(lint, monkeypatch):
 
 def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, monkeypatch):
     path = write("r.urdf", '<robot name="r"><link name="a"/></robot>')
-    check = run._lint_once
+    check = run._check_variant
 
     def slow(*question):
         report = check(*question)
@@ -337,10 +337,10 @@ def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, mo
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     with monkeypatch.context() as patch:
         patch.setattr(run, "_lint_once", slow)
-        found = {finding.code for finding in run.lint_file(path, options).findings}
+        found = {finding.code for finding in run.check_file(path, options).findings}
     assert "missing-name" not in found
     options.cache = Cache(DiskCache(tmp_path / "kept"))
-    assert run.known_report(path, options) is None
+    assert run.find_cached_report(path, options) is None
 
 
 def test_several_processes_use_one_folder(write):
@@ -376,16 +376,16 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
     ]
     write("ws/.git/HEAD", "")
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
-    for report in lint_files(paths, options, 1):
+    for report in check_files(paths, options, 1):
         assert "mesh-not-found" in [finding.code for finding in report.findings]
     sizes = sorted(path.stat().st_size for path in entries(tmp_path / "kept"))
     assert len(sizes) == 4
     assert sizes[-1] > 2 * sizes[0]
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
-    assert all(run.known_report(path, options) for path in paths)
+    assert all(run.find_cached_report(path, options) for path in paths)
     write("ws/p59/package.xml", "<package><name>gone</name></package>")
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
-    assert not any(run.known_report(path, options) for path in paths)
+    assert not any(run.find_cached_report(path, options) for path in paths)
 
 
 def test_old_entries_go(tmp_path):

@@ -110,7 +110,7 @@ def test_files_are_read_through_the_workspace(room):
             if isinstance(node, ast.Attribute):
                 holder = ast.unparse(node.value)
                 if holder in ("os", "os.path") and node.attr in OF_OS:
-                    assert (name, node.attr) == ("source/reach.py", "environ"), where
+                    assert (name, node.attr) == ("source/sandbox.py", "environ"), where
                 elif node.attr in OF_PATHS and name not in LOCAL:
                     assert holder.rpartition(".")[2] in ("workspace", "files"), where
             elif isinstance(node, ast.Call) and ast.unparse(node.func) == "open":

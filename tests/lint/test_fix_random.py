@@ -12,9 +12,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from urdftool.lint.fix_run import mend
+from urdftool.lint.fix_run import fix_description
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 FAULTS = {
@@ -109,9 +109,9 @@ def check(path, case):
     path.write_bytes(bad)
     os.chdir(path.parent)
     options = Options(Settings(select=(rule,)), fixes=True)
-    report = lint_file(path.name, options)
+    report = check_file(path.name, options)
     assert [f.code for f in report.findings] == [rule], report.findings
-    mended = mend(report, options, unsafe=True)
+    mended = fix_description(report, options, unsafe=True)
     assert not mended.broken
     fixed = mended.after[path.name]
     expat.ParserCreate().Parse(fixed, True)
@@ -121,7 +121,7 @@ def check(path, case):
         assert fixed.split() == good.split()
     assert not mended.report.findings
     path.write_bytes(fixed)
-    assert not mend(lint_file(path.name, options), options, unsafe=True).after
+    assert not fix_description(check_file(path.name, options), options, unsafe=True).after
 
 
 common = {

@@ -11,7 +11,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 BASE = "my_robot/urdf/robot_base_as_taught.urdf.xacro"
@@ -50,7 +50,7 @@ def robots(tmp_path, monkeypatch):
 
 def _findings(robot):
     settings = Settings(extend_select=("nonstandard-xmlns",))  # which is off by default
-    report = lint_file(robot, Options(settings))
+    report = check_file(robot, Options(settings))
     return {(f.location.path, f.location.line, f.code): f.name for f in report.findings}
 
 

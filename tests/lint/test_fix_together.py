@@ -8,7 +8,7 @@ import pytest
 from tests.conftest import XACRO
 from urdftool.lint import fix_run
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.rules import get_rule
 
@@ -34,14 +34,14 @@ def lints(monkeypatch):
 
     def counted(path, options):
         paths.append(str(path))
-        return lint_file(path, options)
+        return check_file(path, options)
 
     monkeypatch.setattr(fix_run, "lint_file", counted)
     return paths
 
 
 def fixed(paths):
-    return fix_run.apply_fixes([lint_file(path, OPTIONS) for path in paths], OPTIONS)
+    return fix_run.apply_fixes([check_file(path, OPTIONS) for path in paths], OPTIONS)
 
 
 def test_many_fixes_of_one_file_are_proved_at_once(write, lints):
@@ -95,7 +95,7 @@ def _broken_for(monkeypatch, wrong):
     from urdftool.rules.fix import remove_element, replace_element, safe
 
     def fixer(problem, context):
-        dynamics = context.joint(problem).dynamics
+        dynamics = context.get_joint(problem).dynamics
         if wrong(problem.name):
             return safe(
                 "break it",
@@ -110,7 +110,7 @@ def test_one_bad_fix_among_many_is_found_by_halves(write, lints, monkeypatch):
     _broken_for(monkeypatch, lambda name: name == "j17")
     path = write("r.urdf", chain(64))
     options = Options(Settings(select=("empty-dynamics", "not-a-number")), fixes=True)
-    done = fix_run.apply_fixes([lint_file(path, options)], options)
+    done = fix_run.apply_fixes([check_file(path, options)], options)
     assert done.applied == {"empty-dynamics": 63}
     assert "damping" in done.broken["empty-dynamics"]
     after = done.after[path].decode()
@@ -124,7 +124,7 @@ def test_a_bad_fix_of_one_description_costs_the_others_nothing(write, lints, mon
     options = Options(Settings(select=("empty-dynamics", "not-a-number")), fixes=True)
     paths = [write(f"r{n}.urdf", chain(2)) for n in range(9)]
     paths.append(write("s.urdf", chain(4)))
-    done = fix_run.apply_fixes([lint_file(path, options) for path in paths], options)
+    done = fix_run.apply_fixes([check_file(path, options) for path in paths], options)
     assert done.applied == {"empty-dynamics": 9 * 2 + 3}
     assert [lints.count(path) for path in paths[:-1]] == [1] * 9
 
@@ -134,7 +134,7 @@ def test_what_would_make_another_description_worse_is_not_made(write, urdftool, 
     from urdftool.rules.fix import replace_element, safe
 
     def fixer(problem, context):
-        element = context.joint(problem).dynamics.element
+        element = context.get_joint(problem).dynamics.element
         return safe("write it", replace_element(element, ("<dynamics damping='${damping}'/>",)))
 
     monkeypatch.setattr(get_rule("empty-dynamics"), "make_fix", fixer)

@@ -12,7 +12,7 @@ from urdftool import check
 from urdftool.diagnostic import Severity
 from urdftool.finding import Cause, Finding, Group
 from urdftool.lint.group import NAMES, group
-from urdftool.rules import all_rules
+from urdftool.rules import get_all_rules
 from urdftool.source.location import Call, Place, SourceFile
 
 SEEN = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
@@ -315,7 +315,7 @@ def test_no_message_decides_what_is_grouped():
 
 
 def test_declared_groups_and_causes_are_of_rules():
-    rules = {rule.name: rule for rule in all_rules()}
+    rules = {rule.name: rule for rule in get_all_rules()}
     grouped = {name for name, rule in rules.items() if rule.group}
     assert {
         "missing-collision",

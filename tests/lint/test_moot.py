@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool import check
-from urdftool.lint.moot import in_singular
+from urdftool.lint.moot import convert_to_singular
 
 LINK = (
     '<link name="{0}"><inertial><mass value="1"/>'
@@ -59,7 +59,7 @@ def test_without_another_defect_all_is_said(write):
     ],
 )
 def test_a_verb_in_singular(several, one):
-    assert in_singular(several) == one
+    assert convert_to_singular(several) == one
 
 
 def test_drake_loads_nothing_of_a_file_with_a_comma(write):

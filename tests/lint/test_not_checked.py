@@ -133,10 +133,10 @@ def test_a_baseline_does_not_know_it(stopped, urdftool, write):
     assert "not written, because a robot could not be checked" in result.err
     assert not Path("old.json").exists()
     finding = check(path)[0]
-    from urdftool.lint.baseline import Baseline, baseline_of, to_text
+    from urdftool.lint.baseline import Baseline, make_baseline, to_text
 
-    Path("old.json").write_text(to_text(baseline_of("old.json", [finding], {})))
-    assert Baseline("old.json").entry(finding).rule == rule
+    Path("old.json").write_text(to_text(make_baseline("old.json", [finding], {})))
+    assert Baseline("old.json").get_entry(finding).rule == rule
     result = urdftool("lint", path, "--baseline", "old.json")
     assert result.code == 2
     assert rule in result.out

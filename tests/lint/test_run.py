@@ -6,7 +6,7 @@ from tests.conftest import CORPUS, ROOT, XACRO
 from urdftool import Severity, check, load
 from urdftool.lint.discover import find_descriptions
 from urdftool.lint.outcome import Options
-from urdftool.lint.parallel import lint_files
+from urdftool.lint.parallel import check_files
 from urdftool.rules import get_rule
 
 WHEEL = """<xacro:macro name="wheel" params="side">
@@ -168,8 +168,8 @@ def test_json_is_as_its_schema_says(write, urdftool, xacro_file):
 
 def test_several_processes_say_the_same(write):
     paths = [write(f"r{i}.urdf", f'<robot><link name="l{i}"/></robot>') for i in range(5)]
-    alone = [[str(f) for f in r.findings] for r in lint_files(paths, Options(), 1)]
-    together = [[str(f) for f in r.findings] for r in lint_files(paths, Options(), 2)]
+    alone = [[str(f) for f in r.findings] for r in check_files(paths, Options(), 1)]
+    together = [[str(f) for f in r.findings] for r in check_files(paths, Options(), 2)]
     assert alone == together
     assert all(alone)
 
@@ -197,7 +197,7 @@ def test_the_whole_corpus_is_checked_without_a_broken_rule():
     paths = find_descriptions([str(CORPUS)])
     assert len(paths) > 100
     options = Options(package_paths=(str(CORPUS),))
-    for report in lint_files(paths, options):
+    for report in check_files(paths, options):
         assert report.error is None, report.path
         assert not report.failed_rules, report.path
 

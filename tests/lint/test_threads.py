@@ -10,7 +10,7 @@ from tests.conftest import FIXTURES
 from urdftool.lint.fix_run import apply_fixes
 from urdftool.lint.merge import gather
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.report.findings_json import to_json
 from urdftool.workspace import Workspace
@@ -26,12 +26,12 @@ ALL = Settings(select=("all",))
 
 
 def check(path, workspace):
-    return to_json(gather([lint_file(path, Options(ALL, fixes=True, workspace=workspace))]))
+    return to_json(gather([check_file(path, Options(ALL, fixes=True, workspace=workspace))]))
 
 
 def fix(path, workspace):
     options = Options(ALL, fixes=True, workspace=workspace)
-    done = apply_fixes([lint_file(path, options)], options, unsafe=True, meshes=True)
+    done = apply_fixes([check_file(path, options)], options, unsafe=True, meshes=True)
     return to_json(gather(done.reports)), done.after, done.applied, done.broken, done.unmade
 
 

@@ -4,20 +4,20 @@ import numpy as np
 import pytest
 
 from tests.mechanics.bodies import move
-from urdftool.inertia.solids import box, cylinder
+from urdftool.inertia.solids import compute_box, compute_cylinder
 from urdftool.mechanics.tensor import (
-    consistency,
-    diagonal_of,
-    diagonal_tensor,
+    from_matrix,
+    get_diagonal,
+    make_diagonal_tensor,
+    measure_consistency,
     rotate_tensor,
-    tensor_of_matrix,
 )
 from urdftool.mechanics.typo_detection import infer_intended_tensor
 from urdftool.model.bounds import Bounds
-from urdftool.model.pose import rotation_of_rpy
+from urdftool.model.pose import rotation_from_rpy
 
 SIZE = (0.1, 0.2, 0.4)
-BODY = box(SIZE, mass=2.0)
+BODY = compute_box(SIZE, mass=2.0)
 AROUND = Bounds((-0.05, -0.1, -0.2), (0.05, 0.1, 0.2))
 TURNED = move(BODY, xyz=(0.02, 0.03, 0.05), rpy=(0.3, 0.2, 0.4))
 
@@ -72,7 +72,7 @@ def test_order_of_the_six_numbers():
 
 
 def test_axes_exchanged():
-    found = asked(diagonal_tensor(*np.roll(np.diag(BODY.inertia), 1).tolist()))
+    found = asked(make_diagonal_tensor(*np.roll(np.diag(BODY.inertia), 1).tolist()))
     assert found is not None
     assert found.kind == "axes"
     np.testing.assert_allclose(found.tensor, BODY.tensor)
@@ -87,7 +87,7 @@ def test_about_the_origin():
 
 
 def test_frame_of_the_inertial():
-    rotation = rotation_of_rpy((0.4, 1.0, 0.7))
+    rotation = rotation_from_rpy((0.4, 1.0, 0.7))
     found = asked(rotate_tensor(TURNED.tensor, rotation), TURNED, rotation=rotation)
     assert found is not None
     assert found.kind == "frame"
@@ -95,18 +95,18 @@ def test_frame_of_the_inertial():
 
 
 def test_one_value_copied_to_all_axes():
-    body = box((1, 1, 0.5), mass=1024)
-    found = asked(diagonal_tensor(170.667, 170.667, 170.667), body)
+    body = compute_box((1, 1, 0.5), mass=1024)
+    found = asked(make_diagonal_tensor(170.667, 170.667, 170.667), body)
     assert found is not None
     assert found.kind == "copied"
-    assert diagonal_of(found.tensor) == pytest.approx((106.667, 106.667, 170.667), abs=5e-4)
+    assert get_diagonal(found.tensor) == pytest.approx((106.667, 106.667, 170.667), abs=5e-4)
     assert "106.667, 106.667, 170.667" in found.sentence
 
 
 def test_box_alone_is_enough_where_only_one_repair_is_possible():
     # the triangle inequality leaves izz no other power of ten
     found = infer_intended_tensor(
-        2.0, (0.0, 0.0, 0.0), diagonal_tensor(0.0333, 0.0283, 833.0), box=AROUND
+        2.0, (0.0, 0.0, 0.0), make_diagonal_tensor(0.0333, 0.0283, 833.0), box=AROUND
     )
     assert found is not None
     assert found.tensor[5] == pytest.approx(0.00833)
@@ -116,7 +116,7 @@ def test_box_alone_is_enough_where_only_one_repair_is_possible():
 
 @pytest.mark.parametrize(
     "tensor",
-    [BODY.tensor, scaled(BODY.tensor, 1.2), cylinder(0.09, 0.4, mass=2.0).tensor],
+    [BODY.tensor, scaled(BODY.tensor, 1.2), compute_cylinder(0.09, 0.4, mass=2.0).tensor],
     ids=["right", "heavier outside", "another shape"],
 )
 def test_what_fits_is_left_alone(tensor):
@@ -125,7 +125,7 @@ def test_what_fits_is_left_alone(tensor):
 
 @pytest.mark.parametrize(
     "tensor",
-    [diagonal_tensor(1.0, 2.0, 40.0), (np.nan,) * 6, (0.0,) * 6],
+    [make_diagonal_tensor(1.0, 2.0, 40.0), (np.nan,) * 6, (0.0,) * 6],
     ids=["nonsense", "nan", "zero"],
 )
 def test_no_explanation_no_proposal(tensor):
@@ -133,15 +133,15 @@ def test_no_explanation_no_proposal(tensor):
 
 
 def test_without_geometry_nothing_is_proposed():
-    assert infer_intended_tensor(1.0, (0.0, 0.0, 0.0), diagonal_tensor(1.0, 1.0, 30.0)) is None
+    assert infer_intended_tensor(1.0, (0.0, 0.0, 0.0), make_diagonal_tensor(1.0, 1.0, 30.0)) is None
 
 
 def test_a_proposal_is_always_possible():
     random = np.random.default_rng(1)
     for _ in range(300):
         wrong = random.normal(size=(3, 3)) * 10.0 ** random.integers(-4, 1)
-        found = asked(tensor_of_matrix(wrong + wrong.T), box=AROUND)
+        found = asked(from_matrix(wrong + wrong.T), box=AROUND)
         if found is not None:
-            judged = consistency(found.tensor)
+            judged = measure_consistency(found.tensor)
             assert judged.excess <= 0.01
             assert judged.negativity <= 1e-6

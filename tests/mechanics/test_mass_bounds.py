@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.inertia.solids import box
-from urdftool.mechanics.mass_bounds import misfit_of_com, misfit_of_spread, spread_ratio
+from urdftool.inertia.solids import compute_box
+from urdftool.mechanics.mass_bounds import check_com, check_spread, spread_ratio
 from urdftool.mechanics.spatial_inertia import SpatialInertia, combine
 from urdftool.model.bounds import Bounds
 
@@ -30,26 +30,26 @@ def test_two_lumps_in_opposite_corners_reach_it():
 
 
 def test_a_solid_box_has_a_third():
-    body = box((1, 2, 3), mass=4)
+    body = compute_box((1, 2, 3), mass=4)
     around = Bounds((-0.5, -1.0, -1.5), (0.5, 1.0, 1.5))
     assert ratio(body, around, rounding=0.0) == pytest.approx(1 / 3)
 
 
 def test_square_millimeters_and_a_center_outside():
-    body = box((0.1, 0.1, 0.1), mass=1)
+    body = compute_box((0.1, 0.1, 0.1), mass=1)
     around = Bounds((-0.05,) * 3, (0.05,) * 3)
     wrong = SpatialInertia(1.0, body.com, tuple(1e6 * value for value in body.tensor))
     assert ratio(wrong, around) > 30
     assert ratio(wrong, around, rounding=0.0) > 1e4
-    assert misfit_of_com(around, (1.0, 0.0, 0.0), False).axis == 0
-    assert misfit_of_com(around, (0.0, 0.0, 0.0), False) is None
+    assert check_com(around, (1.0, 0.0, 0.0), False).axis == 0
+    assert check_com(around, (0.0, 0.0, 0.0), False) is None
 
 
 def _bar(length, center, spread):
     """Judge a bar along x: its length, its center of mass, and the standard deviation [m]."""
     box = Bounds((0.0, -0.01, -0.01), (length, 0.01, 0.01))
     variance = spread * spread
-    return misfit_of_spread(box, 1.0, (center, 0, 0), (0, 0, 0, variance, 0, variance), rough=False)
+    return check_spread(box, 1.0, (center, 0, 0), (0, 0, 0, variance, 0, variance), rough=False)
 
 
 @pytest.mark.parametrize("center", [0.5, 0.3, 0.02])

@@ -4,39 +4,48 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.mechanics.repair import box_tensor, nearest_consistent, sphere_tensor
-from urdftool.mechanics.tensor import consistency, diagonal_of, diagonal_tensor, rotate_tensor
-from urdftool.model.pose import rotation_of_rpy
+from urdftool.mechanics.repair import (
+    compute_box_tensor,
+    compute_sphere_tensor,
+    find_nearest_consistent,
+)
+from urdftool.mechanics.tensor import (
+    get_diagonal,
+    make_diagonal_tensor,
+    measure_consistency,
+    rotate_tensor,
+)
+from urdftool.model.pose import rotation_from_rpy
 
-TURN = rotation_of_rpy((0.3, -0.8, 1.9))
+TURN = rotation_from_rpy((0.3, -0.8, 1.9))
 
 
 def test_a_rod_that_is_too_thin_is_raised_to_its_least():
-    lifted = nearest_consistent(diagonal_tensor(1.0, 1.0, 3.0))
+    lifted = find_nearest_consistent(make_diagonal_tensor(1.0, 1.0, 3.0))
     # second moments 1.5, 1.5, -0.5: without the last, the body is flat
-    assert lifted == pytest.approx(diagonal_tensor(1.5, 1.5, 3.0))
-    rotated = nearest_consistent(rotate_tensor(diagonal_tensor(1.0, 1.0, 3.0), TURN))
+    assert lifted == pytest.approx(make_diagonal_tensor(1.5, 1.5, 3.0))
+    rotated = find_nearest_consistent(rotate_tensor(make_diagonal_tensor(1.0, 1.0, 3.0), TURN))
     assert rotated == pytest.approx(rotate_tensor(lifted, TURN))
 
 
 def test_a_consistent_tensor_stays():
-    tensor = rotate_tensor(diagonal_tensor(1.0, 2.0, 2.5), TURN)
-    assert nearest_consistent(tensor) == pytest.approx(tensor)
+    tensor = rotate_tensor(make_diagonal_tensor(1.0, 2.0, 2.5), TURN)
+    assert find_nearest_consistent(tensor) == pytest.approx(tensor)
 
 
 @given(st.tuples(*[st.floats(-1, 1)] * 6))
 def test_the_nearest_consistent_tensor_is_consistent(tensor):
     if max(map(abs, tensor)) < 1e-6:
         return
-    lifted = nearest_consistent(tensor, margin=1e-12)
-    assert consistency(lifted).excess <= 1e-11
-    if consistency(tensor).excess < -1e-6:
+    lifted = find_nearest_consistent(tensor, margin=1e-12)
+    assert measure_consistency(lifted).excess <= 1e-11
+    if measure_consistency(tensor).excess < -1e-6:
         assert lifted == pytest.approx(tensor, rel=1e-9, abs=1e-10)
 
 
 def test_a_sphere_keeps_the_mean():
-    assert diagonal_of(sphere_tensor(diagonal_tensor(1.0, 1.0, 4.0))) == (2, 2, 2)
+    assert get_diagonal(compute_sphere_tensor(make_diagonal_tensor(1.0, 1.0, 4.0))) == (2, 2, 2)
 
 
 def test_a_box():
-    assert diagonal_of(box_tensor(12.0, (1.0, 2.0, 3.0))) == pytest.approx((13, 10, 5))
+    assert get_diagonal(compute_box_tensor(12.0, (1.0, 2.0, 3.0))) == pytest.approx((13, 10, 5))

@@ -12,7 +12,7 @@ from urdftool.mechanics.typo_detection import (
     is_consistent,
 )
 from urdftool.model.bounds import Bounds
-from urdftool.model.pose import rotation_of_rpy
+from urdftool.model.pose import rotation_from_rpy
 
 BOX = Bounds((-0.05, -0.1, -0.2), (0.05, 0.1, 0.2))
 SOLID = (1 / 30, 0.0, 0.0, 17 / 600, 0.0, 1 / 120)
@@ -91,7 +91,7 @@ def test_a_small_moment_is_not_taken_for_near_because_it_is_small():
 
 
 def test_turned_twice():
-    rotation = rotation_of_rpy((0.4, 1.0, 0.7))
+    rotation = rotation_from_rpy((0.4, 1.0, 0.7))
     wrong = rotate_tensor(SOLID, rotation)
     found = infer_intended_tensor(2.0, ORIGIN, wrong, solid=SOLID, rotation=rotation)
     assert found is not None

@@ -14,7 +14,7 @@ from urdftool.collision.cache import key_of
 from urdftool.collision.compute import Task
 from urdftool.formats.mjcf.cache import convert_all
 from urdftool.lint.run import check
-from urdftool.model.gltf_axes import gltf_note
+from urdftool.model.gltf_axes import describe_gltf_axes
 from urdftool.model.load import load
 
 SHAPE = (
@@ -169,18 +169,20 @@ def test_mujoco_gets_what_is_up_turned(urdftool, parts):
 
 def test_the_picture_says_how_it_is_drawn(urdftool, tmp_path):
     file = robot(tmp_path, "one.glb")
-    assert gltf_note(load(file)).startswith("'one.glb' is glTF and read with Y up")
-    assert "--gltf-up z" in gltf_note(load(file))
-    assert gltf_note(load(file, gltf_up="z")) == ""
+    assert describe_gltf_axes(load(file)).startswith("'one.glb' is glTF and read with Y up")
+    assert "--gltf-up z" in describe_gltf_axes(load(file))
+    assert describe_gltf_axes(load(file, gltf_up="z")) == ""
     done = urdftool("view", file, "--picture", tmp_path / "p.png", "--size", "64x48")
     assert done.code == 0
     assert "note: 'one.glb' is glTF" in done.err
-    assert gltf_note(load(robot(tmp_path, "one.glb", "two.glb"))).startswith("2 meshes are glTF")
+    assert describe_gltf_axes(load(robot(tmp_path, "one.glb", "two.glb"))).startswith(
+        "2 meshes are glTF"
+    )
 
 
 def test_other_meshes_have_no_two_ways_up(urdftool, tmp_path):
     file = robot(tmp_path, "one.stl")
-    assert gltf_note(load(file)) == ""
+    assert describe_gltf_axes(load(file)) == ""
 
 
 def test_a_collision_that_is_off_may_be_a_matter_of_axes(tmp_path):

@@ -6,7 +6,7 @@ import pytest
 
 from tests.graph.robots import robot, tree
 from urdftool.errors import ModelError
-from urdftool.model.kinematics import check_positions, limits_of, link_poses, with_mimics
+from urdftool.model.kinematics import add_mimic_positions, check_positions, get_limits, link_poses
 
 TURN = "0 0 1.5707963267948966"
 
@@ -48,20 +48,20 @@ def test_joints_turn_about_and_slide_along_their_axes():
 
 
 def test_mimics_are_followed_along_their_chain():
-    assert with_mimics(robot(ARM), {"turn": 1}) == {"turn": 1, "slide": 2.5, "last": -2.5}
-    assert with_mimics(robot(ARM), {"turn": 1, "slide": 0})["last"] == 0
+    assert add_mimic_positions(robot(ARM), {"turn": 1}) == {"turn": 1, "slide": 2.5, "last": -2.5}
+    assert add_mimic_positions(robot(ARM), {"turn": 1, "slide": 0})["last"] == 0
 
 
 def test_a_loop_of_mimics_ends():
     loop = ARM.replace('<axis xyz="0 0 2"/>', '<axis xyz="0 0 2"/><mimic joint="last"/>')
-    assert set(with_mimics(robot(loop), {})) == {"turn", "slide", "last"}
+    assert set(add_mimic_positions(robot(loop), {})) == {"turn", "slide", "last"}
 
 
 def test_limits():
     arm = robot(ARM)
-    assert limits_of(arm.joint["turn"]) == (-1, 2)
-    assert limits_of(arm.joint["slide"]) == (0, 2)
-    assert limits_of(arm.joint["last"]) == (-math.inf, math.inf)
+    assert get_limits(arm.joint["turn"]) == (-1, 2)
+    assert get_limits(arm.joint["slide"]) == (0, 2)
+    assert get_limits(arm.joint["last"]) == (-math.inf, math.inf)
 
 
 @pytest.mark.parametrize(

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from tests.build import arm, joint, robot
-from urdftool.compare.links import shape_facts
+from urdftool.compare.links import describe_shape
 from urdftool.formats import registry
 from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.sdf.options import Options as SdfOptions
 from urdftool.geometry.penetration import convex_of, overlap
 from urdftool.geometry.tessellate import tessellate
-from urdftool.inertia.pieces import _primitive
+from urdftool.inertia.pieces import _get_primitive
 from urdftool.info.counts import count
-from urdftool.model.bounds import bounds_at
+from urdftool.model.bounds import compute_bounds_at
 from urdftool.model.elements import Box, Cone, Dynamics, Ellipsoid, Plane, UnknownShape
-from urdftool.model.kinematics import link_poses, with_mimics
+from urdftool.model.kinematics import add_mimic_positions, link_poses
 from urdftool.model.load import load
 from urdftool.model.mechanism import (
     Base,
@@ -29,10 +29,10 @@ from urdftool.model.mechanism import (
     JointActuator,
     MountedSensor,
 )
-from urdftool.model.pose import IDENTITY, Pose, rotation_of_rpy
-from urdftool.model.shapes import shape_name
+from urdftool.model.pose import IDENTITY, Pose, rotation_from_rpy
+from urdftool.model.shapes import get_shape_name
 
-TURNED = Pose(rotation_of_rpy((0.4, -0.7, 1.9)), (1.0, 2.0, 3.0))
+TURNED = Pose(rotation_from_rpy((0.4, -0.7, 1.9)), (1.0, 2.0, 3.0))
 
 
 @pytest.mark.parametrize(
@@ -44,14 +44,14 @@ TURNED = Pose(rotation_of_rpy((0.4, -0.7, 1.9)), (1.0, 2.0, 3.0))
     ids=["ellipsoid", "cone"],
 )
 def test_the_box_of_a_turned_shape_is_that_of_its_surface(shape, size):
-    vertices, faces = tessellate(shape_name(shape), size, 96)
+    vertices, faces = tessellate(get_shape_name(shape), size, 96)
     points = vertices @ np.array(TURNED.rotation).T + TURNED.translation
-    bounds = bounds_at(shape, TURNED)
+    bounds = compute_bounds_at(shape, TURNED)
     assert np.allclose(bounds.low, points.min(axis=0), atol=1e-3)
     assert np.allclose(bounds.high, points.max(axis=0), atol=1e-3)
     corners = vertices[faces]
     volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
-    assert volume == pytest.approx(_primitive(shape)[0].mass, rel=0.01)
+    assert volume == pytest.approx(_get_primitive(shape)[0].mass, rel=0.01)
 
 
 def test_a_cone_touches_with_its_tip():
@@ -72,10 +72,10 @@ def test_an_ellipsoid_reaches_as_far_as_its_radii():
 
 
 def test_shapes_are_named_without_an_element():
-    assert shape_facts(Ellipsoid(radii=(1, 2, 3))) == {"shape": "ellipsoid", "radii": (1, 2, 3)}
-    assert shape_facts(Plane(size=(1.0, 2.0))) == {"shape": "plane", "size": (1.0, 2.0)}
-    assert shape_facts(UnknownShape(tag="heightmap")) == {"shape": "heightmap"}
-    assert bounds_at(Plane(), IDENTITY) is None
+    assert describe_shape(Ellipsoid(radii=(1, 2, 3))) == {"shape": "ellipsoid", "radii": (1, 2, 3)}
+    assert describe_shape(Plane(size=(1.0, 2.0))) == {"shape": "plane", "size": (1.0, 2.0)}
+    assert describe_shape(UnknownShape(tag="heightmap")) == {"shape": "heightmap"}
+    assert compute_bounds_at(Plane(), IDENTITY) is None
 
 
 def test_a_screw_turns_and_advances():
@@ -86,7 +86,7 @@ def test_a_screw_turns_and_advances():
     pose = link_poses(made, {"s": math.pi / 2})["nut"]
     assert pose.translation == pytest.approx((0.0, 0.0, 0.0025))
     assert pose.transform((1.0, 0.0, 0.0)) == pytest.approx((0.0, 1.0, 0.0025))
-    assert with_mimics(made, {}) == {"s": 0.0}
+    assert add_mimic_positions(made, {}) == {"s": 0.0}
 
 
 def test_a_ball_joint_has_three_degrees_of_freedom():

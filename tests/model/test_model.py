@@ -169,14 +169,14 @@ def close(a, b):
 
 @given(vectors)
 def test_rpy_and_back(rpy):
-    rotation = pose.rotation_of_rpy(rpy)
-    assert close(pose.rotation_of_rpy(pose.rpy_of_rotation(rotation)), rotation)
-    assert close(pose.rotation_of_quaternion(pose.quaternion_of_rpy(rpy)), rotation)
+    rotation = pose.rotation_from_rpy(rpy)
+    assert close(pose.rotation_from_rpy(pose.rpy_from_rotation(rotation)), rotation)
+    assert close(pose.rotation_from_quaternion(pose.quaternion_from_rpy(rpy)), rotation)
 
 
 @given(vectors, vectors, vectors)
 def test_a_pose_and_its_inverse_cancel(rpy, xyz, point):
-    there = pose.Pose(pose.rotation_of_rpy(rpy), xyz)
+    there = pose.Pose(pose.rotation_from_rpy(rpy), xyz)
     assert close([(there.inverse() @ there).transform(point)], [point])
     assert close([there.inverse().transform(there.transform(point))], [point])
 
@@ -184,8 +184,8 @@ def test_a_pose_and_its_inverse_cancel(rpy, xyz, point):
 def test_rpy_turns_about_fixed_axes_in_order():
     x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     quarter = math.pi / 2
-    assert close([pose.rotate(pose.rotation_of_rpy((quarter, 0, 0)), y)], [z])
-    assert close([pose.rotate(pose.rotation_of_rpy((0, quarter, 0)), z)], [x])
-    assert close([pose.rotate(pose.rotation_of_rpy((0, 0, quarter)), x)], [y])
+    assert close([pose.rotate(pose.rotation_from_rpy((quarter, 0, 0)), y)], [z])
+    assert close([pose.rotate(pose.rotation_from_rpy((0, quarter, 0)), z)], [x])
+    assert close([pose.rotate(pose.rotation_from_rpy((0, 0, quarter)), x)], [y])
     # roll first, then yaw, both about the axes of the parent: y goes to z and stays there
-    assert close([pose.rotate(pose.rotation_of_rpy((quarter, 0, quarter)), y)], [z])
+    assert close([pose.rotate(pose.rotation_from_rpy((quarter, 0, quarter)), y)], [z])

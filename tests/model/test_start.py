@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.model.load import load
-from urdftool.model.start import allowed_positions, start_positions
+from urdftool.model.start import compute_allowed_range, start_positions
 
 
 def robot(write, *joints):
@@ -41,8 +41,8 @@ def test_a_follower_beyond_its_limits_moves_its_leader(write):
     found, clamped = start_positions(made)
     assert found == pytest.approx({"lead": -0.2, "follow": 0.5})
     assert clamped == {"lead": pytest.approx(-0.2)}
-    assert allowed_positions(made, "lead") == pytest.approx((-0.95, -0.2))
-    assert allowed_positions(made, "follow") == (-float("inf"), float("inf"))
+    assert compute_allowed_range(made, "lead") == pytest.approx((-0.95, -0.2))
+    assert compute_allowed_range(made, "follow") == (-float("inf"), float("inf"))
 
 
 def test_a_follower_that_cannot_be_where_it_is_led_is_at_its_limit(write):

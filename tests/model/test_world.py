@@ -6,7 +6,7 @@ import pytest
 
 from tests.simulation.robots import inertial
 from urdftool.model.load import load
-from urdftool.model.world import with_world
+from urdftool.model.world import add_world
 
 LINK = (
     f'<link name="arm">{inertial(1, 0.0142, 0.0142, 0.00167, "0 0 0.2")}'
@@ -31,7 +31,7 @@ def robot(write):
 
 def test_the_robot_stays_as_it_is(robot):
     read = load(robot)
-    whole, joint = with_world(read)
+    whole, joint = add_world(read)
     assert joint is read.joint["j"]
     assert [link.name for link in read.links] == ["arm"]
     assert whole.tree.root.name == "world"
@@ -49,7 +49,7 @@ def test_the_robot_stays_as_it_is(robot):
 )
 def test_any_other_robot_has_no_world(write, text):
     read = load(write("r.urdf", text))
-    assert with_world(read) == (read, None)
+    assert add_world(read) == (read, None)
 
 
 @pytest.mark.parametrize(

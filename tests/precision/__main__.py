@@ -33,7 +33,7 @@ from urdftool.finding import Finding
 from urdftool.lint.discover import find_descriptions
 from urdftool.lint.group import group
 from urdftool.lint.outcome import Options
-from urdftool.lint.parallel import lint_files
+from urdftool.lint.parallel import check_files
 
 PAGE = ROOT / "docs" / "lint-precision.md"
 KEPT = Path(__file__).with_name("verdicts.jsonl")
@@ -84,7 +84,7 @@ def draw(
     named = descriptions(only_robots)
     sample = f"{by} {seed}, robots" if only_robots else f"{by} {seed}"
     found: list[tuple[str, Finding]] = []
-    reports = lint_files(list(named.values()), Options())
+    reports = check_files(list(named.values()), Options())
     for name, report in zip(named, reports, strict=True):
         found += [(name, finding) for finding in group(report.findings)]
     chance = random.Random(seed)

@@ -7,7 +7,13 @@ import pytest
 
 from urdftool.diagnostic import FileRewrite, Fix, Severity
 from urdftool.finding import Finding
-from urdftool.report.findings_screen import MANY, SCREEN, advice, by_weight, screen
+from urdftool.report.findings_screen import (
+    MANY,
+    SCREEN,
+    format_advice,
+    format_screen,
+    sort_by_severity,
+)
 from urdftool.source.location import Place, SourceFile
 
 FILES = [SourceFile(path, b"<robot>\n" + b"<link/>\n" * 400) for path in ("a.urdf", "b.urdf")]
@@ -22,7 +28,7 @@ def fact(rule, severity, line, file=0, fix=None):
 
 
 def shown(findings, style="concise", **more):
-    return list(screen(findings, style, **more))
+    return list(format_screen(findings, style, **more))
 
 
 def headlines(lines):
@@ -46,7 +52,7 @@ def test_errors_come_first_in_a_file_and_rules_are_together():
         "info missing-collision",
         "error zero-axis",
     ]
-    assert [f.location.path for f in by_weight(facts)] == ["a.urdf"] * 5 + ["b.urdf"]
+    assert [f.location.path for f in sort_by_severity(facts)] == ["a.urdf"] * 5 + ["b.urdf"]
 
 
 @pytest.mark.parametrize("style", ["full", "concise"])
@@ -134,7 +140,7 @@ def test_the_summary_names_three_rules_and_what_to_do():
     facts += [fact("name-style", INFO, line) for line in range(2)]
     facts += [fact("unused-arg", INFO, 1)]
     assert len(facts) > MANY
-    assert list(advice(facts)) == [
+    assert list(format_advice(facts)) == [
         "rules with the most findings:",
         "     4  zero-axis   --fix, or --ignore zero-axis",
         "     3  zero-mass   --fix --unsafe-fixes, or --ignore zero-mass",
@@ -142,16 +148,16 @@ def test_the_summary_names_three_rules_and_what_to_do():
         "--fix --diff shows 4 safe fixes",
         "--fix --unsafe-fixes --diff shows 3 unsafe fixes as well",
     ]
-    assert list(advice(facts[:MANY])) == []
+    assert list(format_advice(facts[:MANY])) == []
     rewrite = fix._replace(rewrites=(FileRewrite("a.stl", "a.stl", "binary STL"),))
     meshes = [fact("ascii-stl", INFO, line, fix=rewrite) for line in range(MANY + 1)]
-    assert list(advice(meshes)) == [
+    assert list(format_advice(meshes)) == [
         "rules with the most findings:",
         "     9  ascii-stl  --fix --fix-meshes, or --ignore ascii-stl",
         "--fix-meshes adds 9 fixes of mesh files",
     ]
     rules = "abcdefghi"
-    assert list(advice([fact(rule, INFO, n) for n, rule in enumerate(rules)])) == []
+    assert list(format_advice([fact(rule, INFO, n) for n, rule in enumerate(rules)])) == []
 
 
 def test_the_summary_has_it_on_stderr_and_only_for_people(many, urdftool):

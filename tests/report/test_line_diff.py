@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.report.line_diff import unified_lines
+from urdftool.report.line_diff import format_unified_lines
 
 FEW = st.lists(st.sampled_from(["<link>\n", "</link>\n", "a\n", "b\n", "c\n"]), max_size=30)
 
@@ -31,7 +31,7 @@ def applied(old, diff):
 
 @given(FEW, FEW, st.integers(0, 4))
 def test_a_diff_makes_the_new_of_the_old(old, new, around):
-    diff = list(unified_lines(old, new, "a", "b", around=around))
+    diff = list(format_unified_lines(old, new, "a", "b", around=around))
     assert applied(old, diff) == new
     assert bool(diff) == (old != new)
 
@@ -45,7 +45,7 @@ def test_changes_among_lines_that_repeat_are_all_that_is_shown():
         for n in range(300)
         for line in ([old[6 * n], old[6 * n + 5]] if n % 3 == 0 else old[6 * n : 6 * n + 6])
     ]
-    diff = list(unified_lines(old, new, "a", "a"))
+    diff = list(format_unified_lines(old, new, "a", "a"))
     changed = [line for line in diff[2:] if line[0] in "+-"]
     assert len(changed) == 100 * 4
     assert {line[0] for line in changed} == {"-"}
@@ -56,6 +56,6 @@ def test_patch_takes_it(tmp_path):
     old = ["a\n", "b\n", "c\n", "d\n", "e\n", "f\n", "g\n", "h\n", "i\n"]
     new = ["new\n", *old[:4], *old[5:], "z\n"]
     (tmp_path / "a").write_text("".join(old))
-    diff = "".join(unified_lines(old, new, "a", "a", around=1))
+    diff = "".join(format_unified_lines(old, new, "a", "a", around=1))
     subprocess.run(["patch", "-p0", "-s"], cwd=tmp_path, input=diff, text=True, check=True)
     assert (tmp_path / "a").read_text() == "".join(new)

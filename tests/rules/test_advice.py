@@ -8,7 +8,7 @@ import pytest
 from tests.conftest import FIXTURES
 from urdftool import check
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 MOVING = """<robot name="r">
@@ -368,7 +368,7 @@ def test_an_inertia_that_a_mesh_makes_doubtful_is_not_recomputed(
     box = {"arm": (1.0, (0.0, 0.0, 0.0), (0.0017, 0.0, 0.0, 0.0017, 0.0, 0.0017))}
     settings = Settings(select=("inertia-exceeds-geometry",))
     options = Options(settings, fixes=True, compute_inertia=lambda robot, names: box)
-    (found,) = lint_file(path, options).findings
+    (found,) = check_file(path, options).findings
     assert found.severity.label == severity
     assert (found.fix is not None) is has_fix
 

@@ -4,7 +4,7 @@ import pytest
 
 from urdftool.lint.run import check
 from urdftool.mechanics.spatial_inertia import combine_links
-from urdftool.model.attached import attached_links, is_fixed_to_world
+from urdftool.model.attached import find_attached_links, is_fixed_to_world
 from urdftool.model.load import load
 
 HEAD = '<?xml version="1.0"?>\n<robot name="r">\n'
@@ -119,12 +119,14 @@ def test_poses_of_attached_links_go_up_and_down(tmp_path):
     text += joint("c", "far", kind="continuous")
     path.write_text(f"{HEAD}{text}</robot>")
     robot = load(path)
-    found = {one.name: pose.translation for one, pose in attached_links(robot, robot.link["a"])}
+    found = {
+        one.name: pose.translation for one, pose in find_attached_links(robot, robot.link["a"])
+    }
     assert found.keys() == {"a", "b", "top", "c"}
     assert found["b"] == pytest.approx((0, 2, 0))
     assert found["top"] == pytest.approx((0, 1, 0))
     assert found["c"] == pytest.approx((0, 1, 3))
-    assert [one.name for one, _ in attached_links(robot, robot.link["world"])] == ["world"]
+    assert [one.name for one, _ in find_attached_links(robot, robot.link["world"])] == ["world"]
     assert is_fixed_to_world(robot, robot.link["b"])
     assert not is_fixed_to_world(robot, robot.link["far"])
 
@@ -134,7 +136,7 @@ def test_a_circle_of_fixed_joints_ends(tmp_path):
     text = "".join(map(link, "ab")) + joint("a", "b") + joint("b", "a")
     path.write_text(f"{HEAD}{text}</robot>")
     robot = load(path)
-    assert [one.name for one, _ in attached_links(robot, robot.link["a"])] == ["a", "b"]
+    assert [one.name for one, _ in find_attached_links(robot, robot.link["a"])] == ["a", "b"]
     assert not is_fixed_to_world(robot, robot.link["a"])
 
 
@@ -152,7 +154,7 @@ def test_combined_inertia_is_that_of_pinocchio(tmp_path):
         + "</robot>"
     )
     robot = load(path)
-    ours = combine_links(attached_links(robot, robot.link["a"]))
+    ours = combine_links(find_attached_links(robot, robot.link["a"]))
     theirs = pinocchio.buildModelFromUrdf(str(path)).inertias[0]
     assert ours.mass == pytest.approx(theirs.mass)
     assert ours.com == pytest.approx(theirs.lever)

@@ -7,9 +7,9 @@ import pytest
 from tests.conftest import FIXTURES
 from urdftool import check
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
-from urdftool.report.json_text import json_text
+from urdftool.report.json_text import format_json
 
 MASS = (
     '<inertial><mass value="1"/>'
@@ -200,10 +200,10 @@ def test_a_plugin_in_an_attribute_is_a_sign_of_gazebo_classic(write):
     line = Settings(select=("no-effect-in-gz", "missing-control-plugin"))
     moved = swing(LIMIT.format(0, 1)).removesuffix("</robot>")
     write("package.xml", "<package><name>p</name><build_type>ament_cmake</build_type></package>")
-    report = lint_file(write("r.urdf", f"{moved}{kp}{OLD}</robot>"), Options(line))
+    report = check_file(write("r.urdf", f"{moved}{kp}{OLD}</robot>"), Options(line))
     assert "gazebo-classic" in report.targets
     assert report.findings == []
-    report = lint_file(write("s.urdf", f"{moved}{kp}</robot>"), Options(line))
+    report = check_file(write("s.urdf", f"{moved}{kp}</robot>"), Options(line))
     assert [(f.code, f.severity.label) for f in report.findings] == [
         ("missing-control-plugin", "warning"),
         ("no-effect-in-gz", "info"),
@@ -280,7 +280,7 @@ def test_a_binary_stl_by_another_ending_is_renamed(write):
 
 
 def test_json_has_no_control_character():
-    text = json_text({"name": "a\u0085b\u009bc\u202ed\x7f", "plain": "é"})
+    text = format_json({"name": "a\u0085b\u009bc\u202ed\x7f", "plain": "é"})
     assert text.isprintable()
     assert "é" in text
     assert json.loads(text) == {"name": "a\u0085b\u009bc\u202ed\x7f", "plain": "é"}

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 INERTIAL = """<inertial><mass value="1"/>
@@ -32,7 +32,7 @@ def _found(tmp_path, text, rule, *targets):
     path = tmp_path / "r.urdf"
     path.write_text(text)
     settings = Settings(select=(rule,), targets=frozenset(targets))
-    return lint_file(path, Options(settings)).findings
+    return check_file(path, Options(settings)).findings
 
 
 def _levels(tmp_path, text, rule, *targets):

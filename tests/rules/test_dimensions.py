@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 ROBOT = """<?xml version="1.0"?>
@@ -33,6 +33,6 @@ def test_what_mujoco_rejects_is_an_error(tmp_path, shape, kind, mujoco):
     path = tmp_path / "r.urdf"
     path.write_text(text)
     settings = Settings(select=("non-positive-dimension",))
-    (found,) = lint_file(path, Options(settings)).findings
+    (found,) = check_file(path, Options(settings)).findings
     assert found.severity.label == expected
     assert f"in a {kind} of link 'a'" in found.message

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 INERTIAL = """<inertial><mass value="{mass}"/>
@@ -39,7 +39,7 @@ def found(tmp_path, rule, text):
     """Give the only finding of a rule."""
     path = tmp_path / "r.urdf"
     path.write_text(text)
-    (finding,) = lint_file(path, Options(Settings(select=(rule,)))).findings
+    (finding,) = check_file(path, Options(Settings(select=(rule,)))).findings
     return finding
 
 
@@ -218,13 +218,13 @@ def test_links_far_apart_in_the_chain_do_not_say_that_limits_are_too_wide(tmp_pa
     path = tmp_path / "r.urdf"
     path.write_text(robot.replace("</robot>", f"{wrist}{ends}</joint></robot>"))
     settings = Settings(select=("self-collision-in-range",))
-    assert lint_file(path, Options(settings)).findings == []
+    assert check_file(path, Options(settings)).findings == []
 
 
 def _finds(tmp_path, rule, text):
     path = tmp_path / "r.urdf"
     path.write_text(text)
-    return len(lint_file(path, Options(Settings(select=(rule,)))).findings)
+    return len(check_file(path, Options(Settings(select=(rule,)))).findings)
 
 
 @pytest.mark.parametrize(("kind", "count"), [("fixed", 0), ("revolute", 1)])
@@ -307,5 +307,5 @@ def test_links_of_mass_zero_are_lumped_by_the_names_of_joints(tmp_path, joint, k
     )
     path = tmp_path / "r.urdf"
     path.write_text(_robot(NOTHING, kind="fixed", first=more))
-    findings = lint_file(path, Options(Settings(select=("zero-mass",)))).findings
+    findings = check_file(path, Options(Settings(select=("zero-mass",)))).findings
     assert {key for finding in findings for key in finding.effects} == keys

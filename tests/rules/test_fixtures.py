@@ -16,7 +16,7 @@ import pytest
 
 from tests import rule_table
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.rules import FAMILY_OF, get_rule
 from urdftool.rules.rule import Rule
@@ -34,7 +34,7 @@ def _name(path):
 
 def _findings(path):
     options = Options(Settings(extend_select=(path.parent.name,)))
-    report = lint_file(path, options)
+    report = check_file(path, options)
     assert report.error is None
     assert not report.failed_rules
     for library in report.skipped_rules.values():

@@ -4,7 +4,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 ARM = FIXTURES / "robots" / "ros2_arm" / "urdf" / "robot2_base_inertia.urdf.xacro"
@@ -20,7 +20,7 @@ MESH = '<mesh filename="part.stl"/>'
 
 
 def messages(path):
-    report = lint_file(path, Options(Settings(select=("inertia",))))
+    report = check_file(path, Options(Settings(select=("inertia",))))
     assert not report.failed_rules
     return {finding.code: finding.message for finding in report.findings}
 
@@ -109,7 +109,7 @@ def test_no_command_is_named_that_refuses_the_file(tmp_path):
     def hints(head):
         path = tmp_path / "r.urdf"
         path.write_text(head + LINK.format(1, 0, 0, 1, 0, 1, xyz="0 0 0", rpy="0 0 0", shape=BOX))
-        report = lint_file(path, Options(Settings(select=("placeholder-inertia",))))
+        report = check_file(path, Options(Settings(select=("placeholder-inertia",))))
         return [f.hint for f in report.findings if f.code == "placeholder-inertia"]
 
     (hint,) = hints('<?xml version="1.0"?>\n')

@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import check, lint_file
+from urdftool.lint.run import check, check_file
 from urdftool.lint.settings import Settings
 
 ARM = '<link name="base"/><link name="arm"/>'
@@ -16,7 +16,7 @@ def _messages(tmp_path, inside, rule, *targets):
     path = tmp_path / "r.urdf"
     path.write_text(f'<robot name="r">{inside}</robot>')
     settings = Settings(select=(rule,), targets=frozenset(targets))
-    return [finding.message for finding in lint_file(path, Options(settings)).findings]
+    return [finding.message for finding in check_file(path, Options(settings)).findings]
 
 
 def _joint(kind="revolute", more=""):
@@ -167,7 +167,7 @@ def test_a_robot_without_elements_needs_no_name(tmp_path):
     def said(text):
         path = tmp_path / "part.urdf"
         path.write_text(text)
-        found = lint_file(path, Options(Settings(select=("missing-name",)))).findings
+        found = check_file(path, Options(Settings(select=("missing-name",)))).findings
         return [finding.message for finding in found]
 
     assert not said("<robot/>")

@@ -6,7 +6,7 @@ from itertools import combinations
 import pytest
 
 import urdftool
-from urdftool.rules.collision.pieces import Pieces
+from urdftool.rules.collision.convex_bodies import ConvexBodies
 
 LINK = (
     '<link name="l{0}"><collision><origin xyz="{1} {2} {3}"/><geometry><sphere radius="{4}"/>'
@@ -27,13 +27,13 @@ def test_the_sweep_finds_the_pairs_that_are_near(write, spread):
     ]
     joints = [JOINT.format(n, numbers.randrange(n)) for n in range(1, 40)]
     path = write("r.urdf", f"<robot name='r'>{''.join(links + joints)}</robot>")
-    known = Pieces(urdftool.load(path))
-    found, all_of_them = known.strangers(1000)
+    known = ConvexBodies(urdftool.load(path))
+    found, all_of_them = known.find_candidate_pairs(1000)
     assert all_of_them
     all_pairs = {
         frozenset(pair)
         for pair in combinations(known.bodies, 2)
-        if frozenset(pair) not in known.neighbors and known.near(*pair)
+        if frozenset(pair) not in known.neighbors and known.is_near(*pair)
     }
     assert len(found) > 10
     assert {frozenset(pair) for pair in found} == all_pairs

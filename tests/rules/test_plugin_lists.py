@@ -1,7 +1,7 @@
 """Elements of plugins that name several joints: some plugins take lists, others one name each."""
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 ROBOT = """<?xml version="1.0"?>
@@ -25,7 +25,7 @@ GZ = "gz-sim-joint-state-publisher-system"
 def _found(tmp_path, library, element):
     path = tmp_path / "r.urdf"
     path.write_text(ROBOT.format(name="p", library=library, element=element))
-    report = lint_file(path, Options(Settings(select=("plugin-unknown-entity",))))
+    report = check_file(path, Options(Settings(select=("plugin-unknown-entity",))))
     return path, [finding.message for finding in report.findings]
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool import check, load
-from urdftool.rules.sides import sides
+from urdftool.rules.symmetry import get_sides
 
 LINK = '<link name="{0}"/>\n'
 JOINT = (
@@ -26,7 +26,7 @@ def test_a_finger_whose_name_is_like_a_side_is_no_left_one(write):
         for side, sign in (("L", ""), ("R", "-"))
         for n, finger in enumerate(("ff", "rf", "lf"))
     ]
-    found = sides(load(write("hands.urdf", robot(*fingers))))
+    found = get_sides(load(write("hands.urdf", robot(*fingers))))
     assert {(pair.left.name, pair.right.name) for pair in found.pairs} == {
         (f"L_{finger}_l1", f"R_{finger}_l1") for finger in ("ff", "rf", "lf")
     }
@@ -114,7 +114,7 @@ def test_of_two_pairings_the_places_choose(write):
         for jaw, x in (("left", "0.02"), ("right", "-0.05")):
             name = f"{side}_{jaw}_jaw"
             parts.append((name, f"{side}_claw", f"{x} 0 0.1", "revolute", "0 1 0"))
-    found = sides(load(write("claws.urdf", robot(*parts))))
+    found = get_sides(load(write("claws.urdf", robot(*parts))))
     assert {(pair.left.name, pair.right.name) for pair in found.pairs} == {
         ("left_claw", "right_claw"),
         ("left_left_jaw", "right_left_jaw"),

@@ -9,7 +9,7 @@ import math
 import pytest
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 ROBOT = """<?xml version="1.0"?>
@@ -117,7 +117,7 @@ def _found(tmp_path, robot, *targets, select=("tiny-moving-inertia",)):
     path = tmp_path / "linted.urdf"
     path.write_text(robot)
     settings = Settings(select=select, targets=frozenset(targets))
-    return [finding.code for finding in lint_file(path, Options(settings)).findings]
+    return [finding.code for finding in check_file(path, Options(settings)).findings]
 
 
 @pytest.mark.parametrize("inertia", [1e-6, 5e-8, 1e-11, 1e-13])

@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from tests.conftest import FIXTURES
-from urdftool.drawing.gif_file import gif
-from urdftool.drawing.shapes import robot_shapes
+from urdftool.drawing.gif_file import encode_gif
+from urdftool.drawing.shapes import read_robot_shapes
 from urdftool.model.kinematics import link_poses as poses_at
 from urdftool.model.load import load
 from urdftool.simulation.animation import MOST, link_poses, render_animation, render_final_state
@@ -26,7 +26,7 @@ MIRA = ROBOTS / "mira_description" / "urdf" / "mira.urdf"
 def collapse():
     robot = load(ROBOTS / "ros2_arm" / "urdf" / "robot2_sound.urdf.xacro")
     (run,) = simulate(robot, Settings(hold="none", duration=1.6), engine="mujoco")
-    return robot, run, robot_shapes(robot)
+    return robot, run, read_robot_shapes(robot)
 
 
 def test_links_are_where_the_joints_put_them(collapse):
@@ -70,14 +70,14 @@ def test_a_film_moves_and_ends_where_the_run_does(collapse):
 def test_what_stands_still_is_drawn_once():
     robot = load(MIRA)
     (run,) = simulate(robot, Settings(duration=1.0), engine="mujoco")
-    data = render_animation(run, robot_shapes(robot), size=(96, 72))
+    data = render_animation(run, read_robot_shapes(robot), size=(96, 72))
     with Image.open(io.BytesIO(data)) as seen:
         assert seen.n_frames < 8
 
 
 def test_pictures_are_given_back_as_they_were():
     frames = [np.full((8, 10, 3), shade, np.uint8) for shade in (0, 120, 255)]
-    with Image.open(io.BytesIO(gif(frames, [0.05, 0.1, 0.5]))) as seen:
+    with Image.open(io.BytesIO(encode_gif(frames, [0.05, 0.1, 0.5]))) as seen:
         times = []
         for number, frame in enumerate(frames):
             seen.seek(number)

@@ -45,7 +45,7 @@ def test_words(urdftool):
 )
 def test_the_engine_that_is_there_simulates(monkeypatch, there, engine):
     monkeypatch.setattr(registry, "is_installed", lambda name: name in there)
-    assert registry.default_engine() == engine
+    assert registry.choose_default_engine() == engine
 
 
 def test_json_is_as_its_schema_says(urdftool, write):

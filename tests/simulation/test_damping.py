@@ -45,7 +45,7 @@ def test_what_a_joint_moves_is_what_the_engine_says(chain, tmp_path):
     p = import_pybullet()
     motors = PyBulletWorld(p, bodies, settings, tmp_path).motors
     try:
-        assert motors._added_inertias() == pytest.approx(motors._inertias(), rel=1e-6)
+        assert motors._compute_added_inertias() == pytest.approx(motors._get_inertias(), rel=1e-6)
     finally:
         p.disconnect()
 

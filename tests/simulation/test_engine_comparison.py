@@ -10,7 +10,7 @@ import pytest
 
 from tests.conftest import FIXTURES, ROOT
 from urdftool.model.load import load
-from urdftool.report.simulate import comparison_text
+from urdftool.report.simulate import format_comparison_text
 from urdftool.simulation.engine_comparison import (
     MOST_CAUSES,
     Difference,
@@ -79,7 +79,7 @@ def test_a_root_without_mass_is_the_first_cause(write):
     assert comparison.differences
     assert "link 'base' has no mass" in comparison.causes[0]
     assert 1 < len(comparison.causes) <= MOST_CAUSES
-    for fault in comparison.faults(robot):
+    for fault in comparison.report_faults(robot):
         assert (fault.code, fault.fails) == ("engines-differ", True)
         assert fault.cause == "; ".join(comparison.causes)
 
@@ -89,7 +89,7 @@ def test_engines_that_agree_have_no_difference_and_no_cause(write):
     _, first, second = _both(robot)
     comparison = compare_engines(first, second)
     assert comparison.differences == comparison.causes == ()
-    assert comparison_text(comparison) == "\nthe engines agree\n"
+    assert format_comparison_text(comparison) == "\nthe engines agree\n"
 
 
 @pytest.fixture(scope="module")
@@ -122,8 +122,8 @@ def test_only_one_that_rests_is_the_only_difference(hanging):
     moving = replace(hanging[1], rest=replace(hanging[1].rest, settled=None))
     (part,) = compare(hanging[0], moving)
     assert (part.unit, part.excess) == ("s", math.inf)
-    assert part.value(part.one).startswith("after ")
-    assert part.value(part.other) == "not in the time"
+    assert part.write_value(part.one).startswith("after ")
+    assert part.write_value(part.other) == "not in the time"
 
 
 def test_the_table_has_a_row_for_each_value():
@@ -131,7 +131,7 @@ def test_the_table_has_a_row_for_each_value():
         Difference("tilt of link 'a'", "link", "a", 1.0, 5.25, 1.0, "°", 2),
         Difference("it comes to rest", "link", "[b]", 1.5, math.nan, 1.0, "s", 3),
     )
-    said = comparison_text(EngineComparison(("A 1", "B 2"), parts, ("mass: \x1b[2J",)))
+    said = format_comparison_text(EngineComparison(("A 1", "B 2"), parts, ("mass: \x1b[2J",)))
     rows = [line.split() for line in said.splitlines()]
     assert ["trial", "value", "A", "1", "B", "2", "allowed"] in rows
     assert ["2", "tilt", "of", "link", "'a'", "1", "°", "5.25", "°", "1", "°"] in rows

@@ -33,8 +33,8 @@ def test_each_package_has_its_engine(name):
 
 def test_both_are_the_first_two_engines(monkeypatch):
     monkeypatch.setitem(registry.REGISTRY, "third", "third")
-    assert registry.engine_names(registry.BOTH) == NAMES[:2]
-    assert registry.engine_names("third") == ("third",)
+    assert registry.get_engine_names(registry.BOTH) == NAMES[:2]
+    assert registry.get_engine_names("third") == ("third",)
 
 
 def test_finding_an_engine_imports_no_library(monkeypatch):
@@ -46,8 +46,10 @@ def test_finding_an_engine_imports_no_library(monkeypatch):
 
 
 def test_the_other_engine_is_named_where_it_suits():
-    assert registry.alternatives("pybullet", lambda known: known.closes_loops) == "--engine mujoco"
-    assert registry.alternatives("mujoco", lambda known: known.closes_loops) == ""
+    assert (
+        registry.name_alternative("pybullet", lambda known: known.closes_loops) == "--engine mujoco"
+    )
+    assert registry.name_alternative("mujoco", lambda known: known.closes_loops) == ""
 
 
 @pytest.mark.parametrize(("count", "other"), [(121, "; --engine mujoco takes more"), (120, None)])

@@ -16,7 +16,7 @@ from tests.conftest import FIXTURES, ROOT
 from urdftool.errors import UrdftoolError
 from urdftool.formats.defects import Refused
 from urdftool.parallel import terminate_gracefully
-from urdftool.simulation.fleet import Row, in_parallel
+from urdftool.simulation.fleet import Row, run_in_parallel
 
 ROBOTS = FIXTURES / "robots"
 MIRA = ROBOTS / "mira_description" / "urdf"
@@ -50,7 +50,7 @@ def _work(path):
 
 def test_each_robot_has_a_row_whatever_becomes_of_the_others():
     paths = ["a", "error", "bug", "refused", "dies", "hangs", "b"]
-    rows = {row.path: row for row in in_parallel(paths, _work, jobs=3, limit=2.0)}
+    rows = {row.path: row for row in run_in_parallel(paths, _work, jobs=3, limit=2.0)}
     assert set(rows) == set(paths)
     assert rows["a"].stands
     assert rows["b"].stands
@@ -63,7 +63,7 @@ def test_each_robot_has_a_row_whatever_becomes_of_the_others():
 
 
 def test_what_the_system_does_not_give_is_said():
-    rows = {row.path: row for row in in_parallel(["no files", "no memory"], _work, jobs=2)}
+    rows = {row.path: row for row in run_in_parallel(["no files", "no memory"], _work, jobs=2)}
     assert rows["no files"].error.message == "Too many open files"
     assert rows["no memory"].error.message == "there is not enough memory"
 
@@ -71,7 +71,7 @@ def test_what_the_system_does_not_give_is_said():
 @pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals are not held back")
 def test_who_is_ended_as_soon_as_it_starts_ends_quietly(capfd):
     for _ in range(20):
-        rows = in_parallel(["a", "hangs", "hangs"], _work, jobs=3)
+        rows = run_in_parallel(["a", "hangs", "hangs"], _work, jobs=3)
         with terminate_gracefully():
             next(rows)
             rows.close()
@@ -80,20 +80,20 @@ def test_who_is_ended_as_soon_as_it_starts_ends_quietly(capfd):
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals are not held back")
 def test_a_worker_takes_signals_again():
-    (row,) = in_parallel(["mask"], _work, jobs=1)
+    (row,) = run_in_parallel(["mask"], _work, jobs=1)
     assert row.name == "[]"
 
 
 def test_who_does_not_hear_that_the_time_is_over_is_killed():
     began = time.monotonic()
-    (row,) = in_parallel(["deaf"], _work, jobs=1, limit=0.5)
+    (row,) = run_in_parallel(["deaf"], _work, jobs=1, limit=0.5)
     assert "was not done" in row.error.message
     assert time.monotonic() - began < 10
 
 
 @pytest.mark.program("ps")
 def test_whoever_stops_early_leaves_no_process():
-    rows = in_parallel(["hangs", "a", "hangs"], _work, jobs=3)
+    rows = run_in_parallel(["hangs", "a", "hangs"], _work, jobs=3)
     assert next(rows).path == "a"
     rows.close()
     time.sleep(0.1)

@@ -10,7 +10,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.model.load import load
-from urdftool.simulation.hull_cache import get_or_compute, using_cache
+from urdftool.simulation.hull_cache import get_or_compute, use_cache
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 from urdftool.storage import cache_folder
@@ -129,13 +129,13 @@ def test_where_nothing_can_be_kept_work_goes_on(mesh, monkeypatch, tmp_path):
 
 def test_where_it_is_kept_can_be_said(mesh, tmp_path):
     make = Maker()
-    with using_cache(tmp_path / "here"):
+    with use_cache(tmp_path / "here"):
         get_or_compute(mesh, ["pieces"], make)
         get_or_compute(mesh, ["pieces"], make)
     assert make.times == 1
     assert [path for path in (tmp_path / "here").rglob("*") if len(path.name) == 64]
     assert not entries()
-    with using_cache(None):
+    with use_cache(None):
         get_or_compute(mesh, ["pieces"], make)
         get_or_compute(mesh, ["pieces"], make)
     assert make.times == 3

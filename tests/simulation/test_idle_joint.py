@@ -3,7 +3,7 @@
 import pytest
 
 from tests.simulation.robots import inertial, runs
-from urdftool.simulation.checks.joints import _why_idle
+from urdftool.simulation.checks.joints import _explain_why_idle
 
 BOX = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
 
@@ -20,4 +20,4 @@ def test_why_a_joint_is_idle(write, largest, said):
         '<limit lower="-1" upper="1" effort="9" velocity="9"/></joint></robot>'
     )
     (run,) = runs(write("r.urdf", text), duration=0.01)
-    assert said in _why_idle(run, 0)
+    assert said in _explain_why_idle(run, 0)

@@ -47,17 +47,17 @@ def test_a_mesh_is_read_once_for_all_trials(robot):
 
 def test_another_robot_is_read_anew(robot, tmp_path):
     geometry = robot.link["a"].visuals[0].geometry
-    points = mesh_cache.outermost_points(robot, geometry)
+    points = mesh_cache.get_outermost_points(robot, geometry)
     assert np.ptp(points, axis=0) == pytest.approx([2, 2, 2])
     (tmp_path / "two.urdf").write_text(TWO.replace('"2 2 2"', '"3 3 3"'))
     again = load(tmp_path / "two.urdf")
-    points = mesh_cache.outermost_points(again, again.link["a"].visuals[0].geometry)
+    points = mesh_cache.get_outermost_points(again, again.link["a"].visuals[0].geometry)
     assert np.ptp(points, axis=0) == pytest.approx([3, 3, 3])
 
 
 def test_a_missing_mesh_is_said_to_who_needs_it(robot, tmp_path):
     (tmp_path / "cube.stl").unlink()
     geometry = robot.link["a"].visuals[0].geometry
-    assert mesh_cache.outermost_points(robot, geometry) is None
+    assert mesh_cache.get_outermost_points(robot, geometry) is None
     with pytest.raises(UrdftoolError, match=r"cube\.stl"):
         prepare(robot, Settings())

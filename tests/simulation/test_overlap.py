@@ -13,11 +13,11 @@ from urdftool.model.load import load
 from urdftool.model.pose import Pose
 from urdftool.simulation.overlap import (
     Surface,
-    _distinct,
-    _inside,
-    _nearest_squared,
-    penetration_depth,
-    primitive_triangles,
+    _compute_nearest_squared,
+    _measure_inside,
+    _sort_distinct,
+    measure_penetration_depth,
+    tessellate_primitive_triangles,
 )
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
@@ -50,7 +50,7 @@ def depth(tmp_path):
         robot = load(path)
         bodies = prepare(robot, Settings())
         poses = np.array([[0, 0, 0, 0, 0, 0, 1], [*map(float, xyz.split()), *turned(rpy)]])
-        return penetration_depth(robot, StateSnapshot(bodies, poses), "a", "b", least)
+        return measure_penetration_depth(robot, StateSnapshot(bodies, poses), "a", "b", least)
 
     return found
 
@@ -79,13 +79,13 @@ def test_what_is_deep_enough_is_found_as_deep(depth, least):
 @pytest.mark.parametrize("shift", [(0.5, 0.1, 0.2), (0.3, -0.4, 0.5)])
 def test_it_is_the_deepest_of_all_points_that_are_inside(shift):
     """A fine ball in a box, whose inside needs no winding numbers."""
-    ball = primitive_triangles(Collision(None, None, None, Sphere(None, 0.5)))
-    box = primitive_triangles(Collision(None, None, None, Box(None, (1.0, 1.0, 1.0))))
+    ball = tessellate_primitive_triangles(Collision(None, None, None, Sphere(None, 0.5)))
+    box = tessellate_primitive_triangles(Collision(None, None, None, Box(None, (1.0, 1.0, 1.0))))
     one, other = Surface(ball), Surface(box)
     points = one.points + shift
     points = points[(np.abs(points) < 0.5).all(axis=1)]
-    wanted = math.sqrt(_nearest_squared(points, other.points).max())
-    assert _inside(one, other, Pose(translation=shift), 0.0) == pytest.approx(wanted)
+    wanted = math.sqrt(_compute_nearest_squared(points, other.points).max())
+    assert _measure_inside(one, other, Pose(translation=shift), 0.0) == pytest.approx(wanted)
 
 
 def test_what_is_not_deep_enough_is_nothing(depth):
@@ -97,9 +97,9 @@ def test_the_nearest_is_that_of_all_pairs():
     chance = np.random.default_rng(0)
     points, others = chance.random((200, 3)) + 5, chance.random((300, 3)) + 5
     wanted = ((points[:, None] - others) ** 2).sum(axis=2).min(axis=1)
-    assert _nearest_squared(points, others) == pytest.approx(wanted, abs=1e-12)
+    assert _compute_nearest_squared(points, others) == pytest.approx(wanted, abs=1e-12)
 
 
 def test_distinct_points_are_those_of_numpy():
     points = np.random.default_rng(0).integers(0, 4, (200, 3)).astype(float)
-    assert _distinct(points).tolist() == np.unique(points, axis=0).tolist()
+    assert _sort_distinct(points).tolist() == np.unique(points, axis=0).tolist()

@@ -73,7 +73,7 @@ def test_what_is_seen_is_read(robot):
     with prefetch(robot, lambda _: None):
         pass
     with mock.patch.object(mesh_cache, "read_convex_points", side_effect=AssertionError):
-        assert len(mesh_cache.outermost_points(robot, robot.links[0].visuals[0].geometry)) == 8
+        assert len(mesh_cache.get_outermost_points(robot, robot.links[0].visuals[0].geometry)) == 8
 
 
 def test_what_fails_is_left_to_who_asks(robot):

@@ -7,7 +7,7 @@ import pytest
 
 from tests.simulation.robots import body, inertial, kinds, runs
 from urdftool.model.load import load
-from urdftool.simulation.checks.final_state import final_state
+from urdftool.simulation.checks.final_state import measure_final_state
 from urdftool.simulation.checks.support import check_support
 from urdftool.simulation.recording import Contact
 from urdftool.simulation.run import Run, simulate
@@ -50,7 +50,7 @@ def _judged(write, text, **settings):
 
 def _support(run, robot, **changes):
     altered = Run(run.settings, run.bodies, replace(run.recording, **changes))
-    return list(check_support(robot, altered, final_state(altered)))
+    return list(check_support(robot, altered, measure_final_state(altered)))
 
 
 def _moved(contacts, along):

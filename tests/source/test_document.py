@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from urdftool.errors import SourceError, XmlError
 from urdftool.source.document import parse, read_file
 from urdftool.source.location import SourceFile
-from urdftool.source.well_formed import MAX_DEPTH, mend
+from urdftool.source.well_formed import MAX_DEPTH, repair
 
 
 def document(text):
@@ -131,10 +131,10 @@ def test_files_that_cannot_be_read(write, tmp_path):
 
 def test_lax_readers_see_the_mended_file_at_the_same_bytes():
     text = b"<!-- (c) -- all -->\n<?xml version='1.0'?>\n<robot name='r'/>"
-    mended = mend(SourceFile("r.urdf", text))
+    mended = repair(SourceFile("r.urdf", text))
     assert len(mended.data) == len(text)
     assert parse(mended).root.start == text.index(b"<robot")
-    assert mend(SourceFile("r.urdf", b"<robot/>")) is None
+    assert repair(SourceFile("r.urdf", b"<robot/>")) is None
 
 
 names = st.text("abzAZé_", min_size=1, max_size=6)

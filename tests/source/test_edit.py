@@ -11,15 +11,15 @@ from urdftool.source.edit import (
     Source,
     apply,
     insert_child,
-    literal,
-    parsed,
+    parse_source,
+    read_literal,
     set_attribute,
 )
 from urdftool.source.location import SourceFile
 
 
 def source_of(text):
-    return parsed(SourceFile("r.urdf", text.encode() if isinstance(text, str) else text))
+    return parse_source(SourceFile("r.urdf", text.encode() if isinstance(text, str) else text))
 
 
 def link(source):
@@ -109,8 +109,8 @@ def test_what_an_attribute_may_not_hold_is_escaped():
 
 def test_the_literal_value():
     source = source_of('<robot><link name="a &lt; ${b}"/></robot>')
-    assert literal(link(source), "name") == "a < ${b}"
-    assert literal(link(source), "mass") is None
+    assert read_literal(link(source), "name") == "a < ${b}"
+    assert read_literal(link(source), "mass") is None
 
 
 def test_edits_that_overlap_are_refused():

@@ -4,7 +4,7 @@ import pytest
 
 from urdftool.errors import PackageNotFound
 from urdftool.source.install_rules import read_install_rules
-from urdftool.source.packages import Packages, own_package
+from urdftool.source.packages import Packages, find_own_package
 from urdftool.workspace import Workspace
 
 
@@ -29,7 +29,7 @@ def test_the_files_own_package_is_found_by_its_name_not_its_folder(tmp_path):
     home = package(tmp_path / "src" / "folder", "my_robot")
     file = robot(home / "urdf")
     assert Packages(file).find("my_robot") == home
-    assert own_package(file) == ("my_robot", home)
+    assert find_own_package(file) == ("my_robot", home)
 
 
 def test_packages_beside_and_below_the_workspace_are_found(tmp_path):

@@ -10,8 +10,8 @@ import pytest
 
 from urdftool import expand
 from urdftool.errors import UrdftoolError
-from urdftool.source import patience
-from urdftool.source.reach import TRUST
+from urdftool.source import limits
+from urdftool.source.sandbox import TRUST
 
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
 
@@ -291,7 +291,7 @@ LOOPS = [
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
 @pytest.mark.parametrize("text", LOOPS)
 def test_a_loop_without_end_is_ended(evaluate, monkeypatch, text):
-    monkeypatch.setattr(patience, "SECONDS", 0.3)
+    monkeypatch.setattr(limits, "SECONDS", 0.3)
     with pytest.raises(UrdftoolError, match="CPU time"):
         evaluate(text)
     assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
@@ -299,7 +299,7 @@ def test_a_loop_without_end_is_ended(evaluate, monkeypatch, text):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
 def test_an_expansion_of_many_slow_expressions_is_ended(evaluate, monkeypatch):
-    monkeypatch.setattr(patience, "TOTAL_SECONDS", 0.3)
+    monkeypatch.setattr(limits, "TOTAL_SECONDS", 0.3)
     slow = "${len([0 for x in python.range(900000)])} "
     with pytest.raises(UrdftoolError, match=r"more than 0\.3 s"):
         evaluate(slow * 400)
@@ -308,7 +308,7 @@ def test_an_expansion_of_many_slow_expressions_is_ended(evaluate, monkeypatch):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
 def test_memory_is_bounded_too(evaluate, monkeypatch):
-    monkeypatch.setattr(patience, "MEMORY", 200 << 20)
+    monkeypatch.setattr(limits, "MEMORY", 200 << 20)
     with pytest.raises(UrdftoolError, match=r"of memory|longer than"):
         evaluate("${[a := [0] * 100000, [a.extend(a) for _ in python.range(12)]]}")
 

@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdftool.model.elements import Inertia, Inertial, Origin
-from urdftool.model.pose import pose_of
+from urdftool.model.pose import make_pose
 from urdftool.source.document import Element
 from urdftool.source.location import SourceFile
-from urdftool.viewer.equal_box import equal_box
+from urdftool.viewer.inertia_box import compute_inertia_box
 
 NOWHERE = Element("inertial", {}, None, SourceFile("-", b""), 0, ())
 EDGE = st.floats(0.01, 5)
@@ -27,7 +27,7 @@ def of_box(mass, x, y, z):
 @given(st.floats(0.01, 50), EDGE, EDGE, EDGE, ANGLE, ANGLE, ANGLE)
 def test_the_box_of_a_box_is_that_box(mass, x, y, z, roll, pitch, yaw):
     body = inertial(mass, of_box(mass, x, y, z), (roll, pitch, yaw), (1.0, 2.0, 3.0))
-    box = equal_box(body)
+    box = compute_inertia_box(body)
     assert box is not None
     assert box.possible
     assert sorted(box.size) == pytest.approx(sorted((x, y, z)), rel=1e-6)
@@ -35,7 +35,7 @@ def test_the_box_of_a_box_is_that_box(mass, x, y, z, roll, pitch, yaw):
     # its corners are those of the box that was meant, as sets of points
     corners = [
         pose.transform(tuple(s * e / 2 for s, e in zip(signs, size, strict=True)))
-        for pose, size in ((box.pose, box.size), (pose_of(body.origin), (x, y, z)))
+        for pose, size in ((box.pose, box.size), (make_pose(body.origin), (x, y, z)))
         for signs in [(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
     ]
     for corner in corners[:8]:
@@ -43,7 +43,7 @@ def test_the_box_of_a_box_is_that_box(mass, x, y, z, roll, pitch, yaw):
 
 
 def test_a_tensor_that_no_body_has_is_flat_and_said():
-    box = equal_box(inertial(1.0, (0.1, 0.1, 1.0)))
+    box = compute_inertia_box(inertial(1.0, (0.1, 0.1, 1.0)))
     assert box is not None
     assert not box.possible
     assert min(box.size) == 0.0
@@ -63,4 +63,4 @@ def test_a_tensor_that_no_body_has_is_flat_and_said():
     ],
 )
 def test_there_is_no_box_without_numbers(body):
-    assert equal_box(body) is None
+    assert compute_inertia_box(body) is None

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
-from urdftool.drawing.shapes import robot_shapes
-from urdftool.viewer.looks import box_around, looks_of
+from urdftool.drawing.shapes import read_robot_shapes
+from urdftool.viewer.render_mesh import compute_link_boxes, list_render_meshes
 
 from .robots import ARM, link, read, urdf
 
@@ -16,8 +16,8 @@ def triangles(vertices, faces):
 
 
 def test_the_triangles_are_those_of_the_shapes(tmp_path):
-    shapes = robot_shapes(read(tmp_path / "r.urdf", ARM))
-    looks = list(looks_of(shapes))
+    shapes = read_robot_shapes(read(tmp_path / "r.urdf", ARM))
+    looks = list(list_render_meshes(shapes))
     assert {name for name, _ in looks} == {"base", "upper", "lower", "finger", "thumb"}
     assert sum(len(look.faces) for _, look in looks) == len(shapes)
     for name, look in looks:
@@ -30,7 +30,7 @@ def test_the_triangles_are_those_of_the_shapes(tmp_path):
 def test_edges_are_sharp_and_round_surfaces_share_points(tmp_path):
     round_one = '<visual><geometry><cylinder radius="1" length="1"/></geometry></visual>'
     robot = read(tmp_path / "r.urdf", urdf(link("box"), link("round", round_one)))
-    looks = dict(looks_of(robot_shapes(robot)))
+    looks = dict(list_render_meshes(read_robot_shapes(robot)))
     assert len(looks["box"].vertices) == 24  # each corner once for each of its three sides
     assert len(looks["round"].vertices) < 1.2 * len(looks["round"].faces)
 
@@ -42,7 +42,10 @@ def test_a_colour_is_a_mesh(tmp_path):
         '<visual><geometry><sphere radius="1"/></geometry></visual>'
     )
     looks = [
-        look for _, look in looks_of(robot_shapes(read(tmp_path / "r.urdf", urdf(link("a", both)))))
+        look
+        for _, look in list_render_meshes(
+            read_robot_shapes(read(tmp_path / "r.urdf", urdf(link("a", both))))
+        )
     ]
     assert {(look.rgb, round(look.opacity, 2)) for look in looks} >= {((255, 0, 0), 0.5)}
     assert len(looks) == 2
@@ -52,8 +55,8 @@ def test_an_image_comes_as_gltf_that_others_read(tmp_path):
     trimesh = pytest.importorskip("trimesh")
     mesh = FIXTURES / "meshes" / "textured.obj"
     inside = f'<visual><geometry><mesh filename="file://{mesh}"/></geometry></visual>'
-    shapes = robot_shapes(read(tmp_path / "r.urdf", urdf(link("a", inside))))
-    packed = [look for _, look in looks_of(shapes) if look.glb is not None]
+    shapes = read_robot_shapes(read(tmp_path / "r.urdf", urdf(link("a", inside))))
+    packed = [look for _, look in list_render_meshes(shapes) if look.glb is not None]
     assert packed, shapes.problems
     loaded = trimesh.load(io.BytesIO(packed[0].glb), file_type="glb", force="mesh", process=False)
     assert len(loaded.faces) == len(packed[0].faces)
@@ -65,6 +68,6 @@ def test_an_image_comes_as_gltf_that_others_read(tmp_path):
 
 
 def test_the_box_around_a_link(tmp_path):
-    low, high = box_around(robot_shapes(read(tmp_path / "r.urdf", ARM)))["upper"]
+    low, high = compute_link_boxes(read_robot_shapes(read(tmp_path / "r.urdf", ARM)))["upper"]
     assert low.tolist() == pytest.approx([-0.05, -0.05, -0.1])
     assert high.tolist() == pytest.approx([0.05, 0.05, 0.1])

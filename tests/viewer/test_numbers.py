@@ -2,25 +2,29 @@ from tests.conftest import FIXTURES
 from urdftool.lint.run import check
 from urdftool.model.load import load
 from urdftool.viewer import panels
-from urdftool.viewer.marks import by_link, counted, worst
-from urdftool.viewer.numbers import joint_rows, link_rows, safe, shortened, table
+from urdftool.viewer.marks import find_highest_severity, format_counts, group_by_link
+from urdftool.viewer.properties import format_table, link_rows, list_joint_rows, safe, shorten_name
 
 from .robots import ARM, joint, limit, link, read, urdf
 
 
 def test_nothing_that_a_file_says_is_markup():
     hostile = "<script>alert(1)</script>\"'&{x}"
-    for text in (safe(hostile), table([(hostile, hostile)]), panels.notices([hostile])):
+    for text in (
+        safe(hostile),
+        format_table([(hostile, hostile)]),
+        panels.format_notices([hostile]),
+    ):
         assert "<script" not in text
         assert "&lt;script&gt;alert(1)&lt;/script&gt;&quot;&#x27;&amp;{x}" in text
 
 
 def test_names_are_short_and_visible():
     long = "a" * 500 + "b" * 500
-    assert len(shortened(long)) <= 60
-    assert shortened(long).startswith("aaa")
-    assert shortened(long).endswith("bbb")
-    assert shortened("left\u202eright\n") == "left\\u202eright\\n"
+    assert len(shorten_name(long)) <= 60
+    assert shorten_name(long).startswith("aaa")
+    assert shorten_name(long).endswith("bbb")
+    assert shorten_name("left\u202eright\n") == "left\\u202eright\\n"
 
 
 def test_the_numbers_of_a_joint_and_a_link(tmp_path):
@@ -39,7 +43,7 @@ def test_the_numbers_of_a_joint_and_a_link(tmp_path):
     assert rows["ixx iyy izz"] == "1 2 3 kg·m²"
     assert rows["children"] == "b"
     assert rows["parent"] == "none (root link)"
-    moved = dict(joint_rows(robot.joint["j"]))
+    moved = dict(list_joint_rows(robot.joint["j"]))
     assert moved["limits"] == "-1.5708 … 0 rad (−90° … 0°)"
     assert moved["axis"] == "0 1 0"
     assert moved["parent"] == "a"
@@ -50,7 +54,7 @@ def test_the_numbers_of_a_joint_and_a_link(tmp_path):
 def test_a_finding_is_on_the_links_it_is_about():
     robot = load(FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro")
     findings = check(robot)
-    found = by_link(robot, findings)
+    found = group_by_link(robot, findings)
     rules = {link: {finding.code for finding in those} for link, those in found.items()}
     # a joint's finding is on its child; of one macro called thrice each instance is on its link
     assert "unknown-attribute" in rules["forearm"]
@@ -58,26 +62,26 @@ def test_a_finding_is_on_the_links_it_is_about():
     for name in ("shoulder", "upper_arm", "forearm"):
         assert "inertia-triangle-inequality" in rules[name]
     assert set(found) <= set(robot.link)
-    text = panels.list_of(findings, found)
+    text = panels.format_findings(findings, found)
     assert all(safe(finding.message) in text for finding in findings)
 
 
 def test_counts():
     robot = load(FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro")
     findings = check(robot)
-    assert counted(findings).startswith("3 errors, ")
-    assert counted([]) == ""
-    assert worst([]) is None
+    assert format_counts(findings).startswith("3 errors, ")
+    assert format_counts([]) == ""
+    assert find_highest_severity([]) is None
 
 
 def test_all_parts_of_three_hundred_joints_are_there(tmp_path):
     from .robots import chain
 
-    text = panels.all_parts(read(tmp_path / "r.urdf", chain(300)), {})
+    text = panels.format_parts(read(tmp_path / "r.urdf", chain(300)), {})
     assert text.count("<details>") == 601
 
 
 def test_arm_is_summed_up(tmp_path):
-    assert "5 links · 4 joints (4 moving) · 0 kg" in panels.summary(
+    assert "5 links · 4 joints (4 moving) · 0 kg" in panels.format_summary(
         read(tmp_path / "r.urdf", ARM), None
     )

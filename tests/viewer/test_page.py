@@ -4,12 +4,12 @@ import os
 
 import pytest
 
-from urdftool.drawing.shapes import robot_shapes
+from urdftool.drawing.shapes import read_robot_shapes
 from urdftool.errors import ModelError
 from urdftool.lint.run import check
-from urdftool.model.kinematics import link_poses, with_mimics
+from urdftool.model.kinematics import add_mimic_positions, link_poses
 from urdftool.model.load import load
-from urdftool.model.pose import Pose, rotation_of_quaternion
+from urdftool.model.pose import Pose, rotation_from_quaternion
 from urdftool.viewer import server
 
 from .robots import ARM, chain, joint, limit, link, read, urdf
@@ -28,7 +28,7 @@ def running():
 @pytest.fixture
 def show(running, tmp_path):
     """Put the text of a robot on a page; gives the page and its file."""
-    from urdftool.viewer.page import Page, worthy
+    from urdftool.viewer.page import Page, require_viewable
 
     def put(text, **options):
         path = tmp_path / "r.urdf"
@@ -37,9 +37,9 @@ def show(running, tmp_path):
         running.scene.reset()
         page = Page(
             running,
-            worthy(load(path)),
+            require_viewable(load(path)),
             lambda: load(path),
-            lambda robot, kind: robot_shapes(robot, show=kind),
+            lambda robot, kind: read_robot_shapes(robot, show=kind),
             options.pop("check", None),
             **options,
         )
@@ -56,7 +56,7 @@ def seen_poses(page):
         pose = Pose()
         for depth in range(1, len(parts) + 1):
             node = page.server.scene.get_handle_by_name("/" + "/".join(parts[:depth]))
-            turn = rotation_of_quaternion(tuple(node.wxyz))
+            turn = rotation_from_quaternion(tuple(node.wxyz))
             pose = pose @ Pose(turn, tuple(node.position))
         found[name] = pose
     return found
@@ -83,7 +83,7 @@ def test_links_are_where_the_joints_put_them(show):
     page, _ = show(ARM)
     for wanted in ({}, {"shoulder": 0.7, "elbow": -2.0}, {"grip": 0.03}, {"shoulder": 0.0}):
         page.joints.move(wanted)
-        positions = with_mimics(page.robot, {**page.joints.positions})
+        positions = add_mimic_positions(page.robot, {**page.joints.positions})
         wanted_poses = link_poses(page.robot, positions)
         assert all(same(pose, wanted_poses[name]) for name, pose in seen_poses(page).items())
     assert page.joints.positions["grip_mirror"] == -0.03
@@ -301,11 +301,11 @@ def test_numbers_that_are_none(show):
 
 
 def test_a_loop_is_refused(tmp_path):
-    from urdftool.viewer.page import worthy
+    from urdftool.viewer.page import require_viewable
 
     loop = urdf(link("a"), link("b"), joint("j", "fixed", "a", "b"), joint("k", "fixed", "b", "a"))
     with pytest.raises(ModelError, match="no root link"):
-        worthy(read(tmp_path / "r.urdf", loop))
+        require_viewable(read(tmp_path / "r.urdf", loop))
 
 
 def test_what_fails_is_said_and_the_page_goes_on(show):

@@ -2,14 +2,14 @@ import math
 
 import pytest
 
-from urdftool.viewer.sliders import in_words, sliders_of, unmovable
+from urdftool.viewer.sliders import create_sliders, explain_unmovable, format_value
 
 from .robots import ARM, joint, limit, link, read, urdf
 
 
 def one(tmp_path, kind, inside="", **options):
     text = urdf(link("a"), link("b"), joint("j", kind, "a", "b", inside))
-    (slider,) = sliders_of(read(tmp_path / "r.urdf", text), **options)
+    (slider,) = create_sliders(read(tmp_path / "r.urdf", text), **options)
     return slider
 
 
@@ -67,7 +67,7 @@ def test_a_start_beyond_the_limits_widens_them(tmp_path):
 
 
 def test_a_mimic_is_locked_and_reaches_where_it_is_led(tmp_path):
-    by_name = {slider.name: slider for slider in sliders_of(read(tmp_path / "r.urdf", ARM))}
+    by_name = {slider.name: slider for slider in create_sliders(read(tmp_path / "r.urdf", ARM))}
     mirror = by_name["grip_mirror"]
     assert mirror.follows
     assert mirror.locked
@@ -82,7 +82,9 @@ def test_mimics_of_each_other_end(tmp_path):
         joint("j", "continuous", "a", "b", '<mimic joint="k"/>'),
         joint("k", "continuous", "b", "c", '<mimic joint="j"/>'),
     )  # fmt: skip
-    assert [slider.locked for slider in sliders_of(read(tmp_path / "r.urdf", text))] == [True] * 2
+    assert [slider.locked for slider in create_sliders(read(tmp_path / "r.urdf", text))] == [
+        True
+    ] * 2
 
 
 def test_floating_and_planar_are_said_and_have_no_slider(tmp_path):
@@ -91,8 +93,8 @@ def test_floating_and_planar_are_said_and_have_no_slider(tmp_path):
         joint("f", "floating", "a", "b"), joint("p", "planar", "b", "c"),
     )  # fmt: skip
     robot = read(tmp_path / "r.urdf", text)
-    assert sliders_of(robot) == []
-    assert [line.partition(" and ")[0] for line in unmovable(robot)] == [
+    assert create_sliders(robot) == []
+    assert [line.partition(" and ")[0] for line in explain_unmovable(robot)] == [
         "joint 'f' is floating",
         "joint 'p' is planar",
     ]
@@ -110,7 +112,7 @@ def test_floating_and_planar_are_said_and_have_no_slider(tmp_path):
     ],
 )
 def test_words(value, turns, words):
-    assert in_words(value, turns) == words
+    assert format_value(value, turns) == words
 
 
 def test_what_is_shown_is_what_is_meant(tmp_path):

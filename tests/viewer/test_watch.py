@@ -1,6 +1,6 @@
 import os
 
-from urdftool.model.files import sources
+from urdftool.model.files import list_sources
 from urdftool.viewer.watch import Watch
 
 from .robots import read, urdf
@@ -65,5 +65,5 @@ def test_sources_are_includes_meshes_and_images(tmp_path):
         '<material name="m"><texture filename="wood.png"/></material></visual></link>',
     ).replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"')
     robot = read(tmp_path / "r.urdf.xacro", text)
-    names = {os.path.basename(path) for path in sources(robot)}
+    names = {os.path.basename(path) for path in list_sources(robot)}
     assert names == {"r.urdf.xacro", "inner.xacro", "missing.obj", "missing.mtl", "wood.png"}

@@ -61,12 +61,12 @@ def export_sdf(
     from ..errors import ConfigError
     from ..formats.export import finish_export
     from ..formats.registry import format_named
-    from ..formats.sdf.options import VERSIONS, Options, folder_and_file
+    from ..formats.sdf.options import VERSIONS, Options, get_folder_and_file
 
     if version and version not in VERSIONS.get(target, ()):
         known = ", ".join(VERSIONS.get(target, ()))
         raise ConfigError(f"'{target}' does not read SDF {version}; it reads {known or 'nothing'}")
-    folder, file = folder_and_file(output or robot.name or "robot")
+    folder, file = get_folder_and_file(output or robot.name or "robot")
     config = None if actuator_config is None else Path(actuator_config)
     options = Options(
         target,
@@ -244,12 +244,12 @@ def measure_overlap(
     """
     from ..model.elements import Mesh
     from ..model.kinematics import link_poses
-    from ..simulation.overlap import triangle_penetration
+    from ..simulation.overlap import measure_triangle_penetration
 
     shapes = [*robot.link[one].collisions, *robot.link[other].collisions]
     if not any(isinstance(shape.geometry, Mesh) for shape in shapes):
         return None
-    return triangle_penetration(robot, link_poses(robot, positions), one, other)
+    return measure_triangle_penetration(robot, link_poses(robot, positions), one, other)
 
 
 def _gltf_up(robot: Robot) -> GltfUp:

@@ -48,9 +48,9 @@ def fix(
         ConfigError: A rule, target or option is unknown.
         OutputError: A file cannot be written, or was changed by another program.
     """
-    from ..lint.fix_run import mend
+    from ..lint.fix_run import fix_description
     from ..lint.outcome import Options
-    from ..lint.run import lint_file
+    from ..lint.run import check_file
     from ..lint.settings import Settings, check_selectors, check_targets
 
     chosen = Settings(
@@ -65,10 +65,10 @@ def fix(
         from ..rules.inertia.solids import DENSITY
 
         options.compute_inertia = Scales(DENSITY)
-    report = lint_file(path, options)
+    report = check_file(path, options)
     if report.error is not None:
         raise report.error
-    mended = mend(report, options, unsafe=unsafe, meshes=meshes)
+    mended = fix_description(report, options, unsafe=unsafe, meshes=meshes)
     if write and mended.after:
         from ..output import rewrite
 

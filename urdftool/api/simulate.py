@@ -32,12 +32,12 @@ def simulate(
     from ..errors import ConfigError
     from ..extras import require
     from ..simulation.checks.interpenetration import precompute_overlaps
-    from ..simulation.engines.registry import REGISTRY, check_engines, default_engine
+    from ..simulation.engines.registry import REGISTRY, check_engines, choose_default_engine
     from ..simulation.run import simulate as run
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
 
-    engine = engine or default_engine()
+    engine = engine or choose_default_engine()
     if engine not in REGISTRY:
         raise ConfigError(f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}")
     check_engines((engine,))

@@ -14,8 +14,8 @@ from ..geometry.load import FARTHEST
 from ..geometry.mesh import Points
 from ..geometry.tessellate import tessellate
 from ..model.elements import Box, Capsule, Cone, Cylinder, Ellipsoid, Link, Mesh, Robot, Sphere
-from ..model.pose import Pose, pose_of
-from ..parallel import Loss, cores, map_tasks
+from ..model.pose import Pose, make_pose
+from ..parallel import Loss, count_cores, map_tasks
 from ..source.description import GltfUp
 from .convex import hull, planes, signed_distance
 from .links import Shape
@@ -108,7 +108,7 @@ def check_all(
             progress(done, len(looks), [look.link for look in now])
 
     found: list[Checked | None] = [None] * len(looks)
-    workers = jobs or cores()
+    workers = jobs or count_cores()
     for index, checked in map_tasks(
         check_link, looks, workers=workers, on_lost=_lost, on_progress=under_way
     ):
@@ -163,7 +163,7 @@ def shape_pieces(robot: Robot, shape: Shape) -> list[Piece]:
 
 def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
     """Yield a shape as written; nothing if its geometry is missing or unknown."""
-    geometry, pose = shape.geometry, pose_of(shape.origin)
+    geometry, pose = shape.geometry, make_pose(shape.origin)
     if isinstance(geometry, Box):
         yield Part(pose, "box", geometry.size)
     elif isinstance(geometry, Cylinder):

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import UrdftoolError
-from ..extras import missing
+from ..extras import make_missing_error
 from .compute import Task, attempt
 
 
@@ -29,7 +29,7 @@ def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes
     try:
         import distributed
     except ImportError as error:
-        raise missing("distributed", "--dask") from error
+        raise make_missing_error("distributed", "--dask") from error
     try:
         library: Any = distributed
         client: Any = library.Client(address, timeout=10)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..extras import missing
+from ..extras import make_missing_error
 from ..geometry.mesh import Faces, Points
 
 
@@ -27,7 +27,7 @@ def decompose(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[P
     try:
         import coacd
     except ModuleNotFoundError:
-        raise missing("coacd", "convex decomposition") from None
+        raise make_missing_error("coacd", "convex decomposition") from None
     coacd.set_log_level("error")
     parts = coacd.run_coacd(coacd.Mesh(vertices, faces), **options)
     return [np.asarray(points, dtype=np.float64) for points, _ in parts]

@@ -16,7 +16,7 @@ from ..model.elements import Mesh, Robot
 from ..source import edit
 from ..source.document import Element
 from ..source.location import SourceFile
-from ..source.packages import own_package, shown_path
+from ..source.packages import find_own_package, shorten_path
 from .compute import Result, Task
 from .links import LinkPlan
 from .rewrite import Layout, is_literal, link_edits, piece_blocks, rewritten
@@ -154,7 +154,7 @@ class _Xacro:
         source = self._open(element.file)
         if element.start not in source.elements:
             raise _Refused("its mesh is not written as an element of its own")
-        return edit.literal(source.elements[element.start], name) or ""
+        return edit.read_literal(source.elements[element.start], name) or ""
 
     def _source(self, element: Element) -> tuple[edit.Source, Element]:
         source = self._open(element.file)
@@ -166,11 +166,11 @@ class _Xacro:
     def _open(self, file: SourceFile) -> edit.Source:
         if file.path not in self.sources:
             path = self.description.packages.file
-            own = own_package(path)
+            own = find_own_package(path)
             root = str(own[1] if own else path.parent)
             if not os.path.abspath(file.path).startswith(root + os.sep):
-                raise _Refused(f"it is written in {file.path}, outside of {shown_path(root)}")
-            self.sources[file.path] = edit.parsed(file)
+                raise _Refused(f"it is written in {file.path}, outside of {shorten_path(root)}")
+            self.sources[file.path] = edit.parse_source(file)
         return self.sources[file.path]
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import ConfigError, MeshError, UrdftoolError
 from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
-from ..suggestions import did_you_mean
+from ..suggestions import suggest_name
 from .compute import Task
 from .settings import METHODS, QUALITIES, Settings
 
@@ -156,7 +156,7 @@ def check_names(robot: Robot, names: Iterable[str]) -> None:
     """Raise ConfigError for names that are not links of the robot."""
     for name in names:
         if name not in robot.link:
-            hint = did_you_mean(name, robot.link, 0.6)
+            hint = suggest_name(name, robot.link, 0.6)
             raise ConfigError(f"the robot has no link '{name}'{hint}")
 
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from ..geometry.mesh import Points
 from ..inertia.sampling import spread_points
-from ..inertia.winding import boxes_of, winding_numbers
+from ..inertia.winding import compute_winding_numbers, sort_into_boxes
 from . import convex, primitives
 from .distance import Surface, areas_of, largest, spread, with_corners
 from .exterior import COARSE, Exterior, flood
@@ -329,7 +329,7 @@ def _depth(points: Points, piece: Piece, near: float) -> Points:
 
 
 def _is_within(points: Points, corners: Points) -> npt.NDArray[np.bool_]:
-    return np.asarray(np.abs(winding_numbers(points, boxes_of(corners))) > 0.5)
+    return np.asarray(np.abs(compute_winding_numbers(points, sort_into_boxes(corners))) > 0.5)
 
 
 def volume_of(pieces: Sequence[Piece]) -> float:

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import MeshError, UrdftoolError
-from ..parallel import Loss, cores, map_tasks
+from ..parallel import Loss, count_cores, map_tasks
 from ..storage import DiskCache
 from .cache import key_of, known_result
 from .compute import Result, Task, attempt, result_of
@@ -62,7 +62,7 @@ def compute_all(
 
         outcomes = _counted(on_cluster(work, scheduler), work, under_way)
     else:
-        workers = jobs or cores()
+        workers = jobs or count_cores()
         # surplus cores are shared among the meshes
         each = partial(attempt, cores=max(1, workers // max(1, len(work))))
         outcomes = map_tasks(each, work, workers=workers, on_lost=_lost, on_progress=under_way)

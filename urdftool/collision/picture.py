@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ..drawing.camera import Camera
-from ..drawing.lettering import Words, lettered
 from ..drawing.picture import draw, view_of
 from ..drawing.png_file import png
-from ..drawing.shapes import Shapes, bare_shapes, robot_shapes
+from ..drawing.shapes import Shapes, make_bare_shapes, read_robot_shapes
+from ..drawing.text import Words, draw_text
 from ..errors import UrdftoolError
 from ..model.elements import Robot
 from ..model.kinematics import link_poses
-from ..model.pose import IDENTITY, Pose, pose_of
+from ..model.pose import IDENTITY, Pose, make_pose
 from .check import shape_pieces
 from .compute import Result, Task
 from .links import LinkPlan
@@ -45,7 +45,7 @@ _COLORS = (
 def mesh_picture(task: Task, result: Result) -> bytes:
     """Draw one mesh and its pieces as a PNG file."""
     surface = read_surface(task.path, task.scale, task.gltf_up)
-    left = bare_shapes([(surface.vertices, surface.faces, _GREY)])
+    left = make_bare_shapes([(surface.vertices, surface.faces, _GREY)])
     label = _label(result.pieces, [result.error])
     return side_by_side(left, {"": IDENTITY}, _colored(result.pieces), right_label=label)
 
@@ -70,14 +70,14 @@ def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task
             if use.task is None:
                 pieces += _readable(robot, use.shape)
                 continue
-            at = pose_of(use.shape.origin)
+            at = make_pose(use.shape.origin)
             rotation, xyz = np.array(at.rotation), np.array(at.translation)
             pieces += [piece.posed(rotation, xyz) for piece in results[use.task].pieces]
         at = poses[link.name]
         rotation, xyz = np.array(at.rotation), np.array(at.translation)
         right += [piece.posed(rotation, xyz) for piece in pieces]
     errors = [found.error for found in results.values()]
-    visuals = robot_shapes(robot)
+    visuals = read_robot_shapes(robot)
     if not len(visuals) and not right:
         raise UrdftoolError("the robot has nothing that could be drawn")
     return side_by_side(visuals, poses, _colored(right), right_label=_label(right, errors))
@@ -101,7 +101,7 @@ def side_by_side(
         Words(left_label, (_MARGIN, _MARGIN), width, _LETTERS),
         Words(right_label, (SIZE[0] + 2 + _MARGIN, _MARGIN), width, _LETTERS),
     ]
-    return png(lettered(image, labels))
+    return png(draw_text(image, labels))
 
 
 def _label(pieces: Sequence[Piece], errors: Sequence[float]) -> str:
@@ -114,7 +114,7 @@ def _label(pieces: Sequence[Piece], errors: Sequence[float]) -> str:
 
 def _colored(pieces: Sequence[Piece]) -> Shapes:
     """Color pieces differently."""
-    return bare_shapes(
+    return make_bare_shapes(
         (piece.vertices, piece.faces, (*_COLORS[number % len(_COLORS)], 1.0))
         for number, piece in enumerate(pieces)
     )

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
-from ..inertia.winding import boxes_of, winding_numbers
+from ..inertia.winding import compute_winding_numbers, sort_into_boxes
 from .convex import planes, signed_distance
 from .distance import Surface, areas_of, spread
 from .vec3 import bounds
@@ -111,7 +111,7 @@ def common(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces
     field = signed_distance(nodes, planes(vertices, faces))
     near = np.flatnonzero(field < side)
     off = Surface(solid, spread(solid, 20_000)).distance(nodes[near])
-    inside = winding_numbers(nodes[near], boxes_of(solid)) > 0.5
+    inside = compute_winding_numbers(nodes[near], sort_into_boxes(solid)) > 0.5
     field[near] = np.maximum(field[near], np.where(inside, -off, off))
     field = np.where(np.abs(field) < 1e-6 * side, 1e-6 * side, field)
     if not (field < 0).any():

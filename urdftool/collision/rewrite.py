@@ -13,12 +13,12 @@ import numpy as np
 
 from ..errors import SourceError
 from ..model.elements import Mesh, Robot
-from ..model.pose import Pose, pose_of, rpy_of_rotation
+from ..model.pose import Pose, make_pose, rpy_from_rotation
 from ..model.read import read_robot
 from ..source import edit
 from ..source.document import Element
 from ..source.location import SourceFile
-from ..source.packages import own_package
+from ..source.packages import find_own_package
 from .compute import Result, Task
 from .links import LinkPlan, Shape
 from .mesh_files import mesh_bytes
@@ -66,7 +66,7 @@ def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suff
         SourceError: ``package`` is requested but the folder is not in a package.
     """
     folder = Path(os.path.abspath(mesh_dir or target.parent / f"{_plain(target)}_collision"))
-    package = own_package(folder / "piece")
+    package = find_own_package(folder / "piece")
     whole = uri == "relative"
     if uri == "auto":
         names = [s.geometry.filename for _, s in robot.shapes if isinstance(s.geometry, Mesh)]
@@ -116,7 +116,7 @@ def uri_of(path: Path, layout: Layout) -> str:
     if layout.uri == "file":
         return path.as_uri()
     if layout.uri == "package":
-        package = own_package(path)
+        package = find_own_package(path)
         assert package is not None
         return f"package://{package[0]}/{path.relative_to(package[1]).as_posix()}"
     return Path(os.path.relpath(path, layout.target.parent)).as_posix()
@@ -136,7 +136,7 @@ def rewritten(
     file = robot.source.files[0]
     if robot.source.expansion is not None:
         file = SourceFile(file.path, robot.source.expansion.text.encode())
-    source = edit.parsed(file)
+    source = edit.parse_source(file)
     again = read_robot(source.document.root)
     edits = []
     gone: set[int] = set()
@@ -214,8 +214,8 @@ def _parts(piece: Piece, capsules: bool) -> list[Piece]:
 def _primitive_block(shape: Shape, piece: Piece) -> list[str]:
     x, y, z = piece.rotation.tolist()
     a, b, c = piece.centre.tolist()
-    pose = pose_of(shape.origin) @ Pose((tuple(x), tuple(y), tuple(z)), (a, b, c))
-    xyz, rpy = _numbers(pose.translation), _numbers(rpy_of_rotation(pose.rotation))
+    pose = make_pose(shape.origin) @ Pose((tuple(x), tuple(y), tuple(z)), (a, b, c))
+    xyz, rpy = _numbers(pose.translation), _numbers(rpy_from_rotation(pose.rotation))
     origin = "" if xyz == rpy == "0 0 0" else f'<origin xyz="{xyz}" rpy="{rpy}"/>'
     return _block(origin, geometry_tag(piece))
 

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Points
-from ..model.pose import pose_of
+from ..model.pose import make_pose
 from .compute import Result, Task
 from .distance import spread
 from .links import LinkPlan
@@ -142,7 +142,7 @@ def planner_spheres(
         for use in item.uses:
             if use.task is None:
                 continue
-            pose = pose_of(use.shape.origin)
+            pose = make_pose(use.shape.origin)
             rotation, shift = np.array(pose.rotation), np.array(pose.translation)
             for piece in results[use.task].pieces:
                 if piece.kind == "sphere":

@@ -19,14 +19,14 @@ CACHE_OPTIONS = (
 )
 
 
-def cache_options(function: F) -> F:
+def add_cache_options(function: F) -> F:
     """Add ``--cache-dir`` and ``--no-cache``."""
     for option in reversed(CACHE_OPTIONS):
         function = option(function)
     return function
 
 
-def cache_place(name: str, cache_dir: str | None, no_cache: bool) -> str | None:
+def choose_cache_folder(name: str, cache_dir: str | None, no_cache: bool) -> str | None:
     """Return the folder of the result cache, or None for no cache.
 
     Args:

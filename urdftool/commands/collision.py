@@ -9,15 +9,15 @@ import click
 
 from ..console import Console
 from .collision_options import (
+    add_settings_options,
     check_spheres_file,
-    one_thread_each,
+    limit_threads,
     require_libraries,
-    settings_options,
 )
 from .general_options import accept_general_options
 from .grouped_help import GroupedCommand
-from .options import gltf_option, jobs_option, package_options, split_arguments
-from .picture_file import checked_picture
+from .options import add_gltf_option, add_jobs_option, add_package_options, split_arguments
+from .picture_file import check_picture_name
 
 
 class _OrMesh(GroupedCommand):
@@ -60,7 +60,7 @@ _GROUPS = {
 @click.option("-o", "--output", metavar="OUT", help="Write a new URDF; for folders, a folder.")
 @click.option("--in-place", is_flag=True, help="Edit the collision geometry in the source files.")
 @click.option("--check", is_flag=True, help="Measure the existing collision geometry; write none.")
-@settings_options
+@add_settings_options
 @click.option(
     "--spheres-file",
     metavar="FILE",
@@ -103,10 +103,10 @@ _GROUPS = {
     show_default=True,
     help="Format of the new mesh files.",
 )
-@jobs_option
+@add_jobs_option
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler that runs the computation.")
-@gltf_option
-@package_options
+@add_gltf_option
+@add_package_options
 @click.pass_context
 def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int:
     """Replace the collision geometry of the robot IN by simple shapes of known error.
@@ -134,13 +134,13 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
         raise click.UsageError("standard input cannot be edited in place; use -o OUT")
     if check and values["scheduler"]:
         raise click.UsageError("--check does not support --scheduler")
-    checked_picture(values["picture"])
+    check_picture_name(values["picture"])
     check_spheres_file(values["spheres_file"], values["method"])
     require_libraries(values["method"], check=check)
-    one_thread_each()
+    limit_threads()
     from . import collision_robot as robots
 
     several = len(paths) > 1 or Path(paths[0]).is_dir()
     if several:
-        return robots.fleet(ctx, console, paths, arguments, values)
-    return robots.one(ctx, console, paths[0], arguments, values)
+        return robots.process_fleet(ctx, console, paths, arguments, values)
+    return robots.process_one(ctx, console, paths[0], arguments, values)

@@ -12,9 +12,9 @@ from ..collision.check import Checked, check_all, look_at
 from ..collision.links import check_names
 from ..console import Console
 from ..report import collision_check as report
-from ..report.counted import counted
+from ..report.counted import format_count
+from .load_strict import report_gltf_axes
 from .progress import Progress
-from .read_strict import say_gltf
 
 if TYPE_CHECKING:
     from ..collision.links import CollisionOptions
@@ -44,33 +44,37 @@ def check(
         path, limit = robot.source.path, options.settings.max_error
         results.append(report.as_dict(path, own, limit))
         if values["style"] == "table":
-            click.echo(report.table(own, limit), nl=False)
-        code = max(code, _tell(console, robot, options, path, own))
+            click.echo(report.format_table(own, limit), nl=False)
+        code = max(code, _report(console, robot, options, path, own))
     if values["style"] == "json":
         click.echo(json.dumps({"version": 1, "results": results}, indent=2))
     return code
 
 
-def _nothing(robot: Robot, options: CollisionOptions) -> str:
+def _explain_nothing(robot: Robot, options: CollisionOptions) -> str:
     """Explain why nothing was checked."""
     shapes = sum(bool(link.collisions) for link in robot.links)
     which = "none of the selected links" if options.only or options.skip else "no link"
-    have = f" ({counted(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} collisions)"
+    have = (
+        f" ({format_count(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} "
+        "collisions)"
+    )
     return f"{which} has visual geometry to compare with{have if shapes else ''}"
 
 
-def _tell(
+def _report(
     console: Console, robot: Robot, options: CollisionOptions, path: str, found: Sequence[Checked]
 ) -> int:
     limit = options.settings.max_error
-    for line in report.remarks(found, limit):
+    for line in report.format_remarks(found, limit):
         console.say(line)
     if not found:
-        console.say(f"{path}: nothing was checked, because {_nothing(robot, options)}")
+        console.say(f"{path}: nothing was checked, because {_explain_nothing(robot, options)}")
         return 2
-    say_gltf(console, robot)
+    report_gltf_axes(console, robot)
     bad = sum(not report.is_good(item, limit) for item in found)
     console.note(
-        f"{path}: {counted(len(found), 'link')} with visuals, {bad} with an error above {limit:.2%}"
+        f"{path}: {format_count(len(found), 'link')} with visuals, {bad} with an error above "
+        f"{limit:.2%}"
     )
     return int(bad > 0)

@@ -10,15 +10,15 @@ import click
 from ..console import Console
 from ..output import check_targets
 from .collision_options import (
-    cache_of,
-    one_thread_each,
+    add_settings_options,
+    limit_threads,
+    make_settings,
+    open_cache,
     require_libraries,
-    settings_of,
-    settings_options,
 )
 from .grouped_help import GroupedCommand
-from .options import gltf_option, gltf_up_for, scale_factors
-from .picture_file import checked_picture
+from .options import add_gltf_option, get_gltf_up, parse_scale
+from .picture_file import check_picture_name
 
 if TYPE_CHECKING:
     from ..collision.compute import Result
@@ -40,12 +40,12 @@ _GROUPS = {
 @click.option(
     "--scale",
     default="1",
-    callback=scale_factors,
+    callback=parse_scale,
     metavar="S | 'SX SY SZ'",
     help="Scale factors, as in <mesh scale>; negative factors mirror.",
 )
-@settings_options
-@gltf_option
+@add_settings_options
+@add_gltf_option
 @click.pass_obj
 def command(
     console: Console,
@@ -64,24 +64,24 @@ def command(
         urdftool collision mesh gripper.stl -o gripper_col.obj --method coacd --max-hulls 16
         urdftool collision mesh wheel.dae --method primitive
     """  # noqa: D301 -- \b is a character that click looks for
-    checked_picture(values["picture"])
+    check_picture_name(values["picture"])
     check_targets([output, values["picture"]], inputs=[file])
     if output is not None and not output.lower().endswith(SUFFIXES):
         raise click.UsageError(f"OUT must end in .stl or .obj, but is '{output}'")
     require_libraries(values["method"])
-    one_thread_each()
+    limit_threads()
     from ..collision.cache import key_of, known_result
     from ..collision.compute import Task, attempt, result_of
     from ..errors import UrdftoolError
-    from ..parallel import cores
+    from ..parallel import count_cores
     from ..report import collision as report
 
-    task = Task(Path(file), scale, settings_of(values), gltf_up_for(console, file))
-    cache = cache_of(values)
+    task = Task(Path(file), scale, make_settings(values), get_gltf_up(console, file))
+    cache = open_cache(values)
     key = key_of(task)
     result = known_result(cache, key) if key is not None else None
     if result is None:
-        outcome = attempt(task, cores())
+        outcome = attempt(task, count_cores())
         if isinstance(outcome, UrdftoolError):
             raise outcome
         result = result_of(outcome)
@@ -97,19 +97,19 @@ def command(
     if style == "json":
         text = report.as_json([found], timings=console.verbosity > 0)
     else:
-        text = report.table([row])
+        text = report.format_table([row])
     click.echo(text, nl=False)
     if values["picture"]:
         _draw(task, result, values["picture"], file)
     if style == "table":
         for piece in result.pieces:
             if piece.is_primitive:
-                click.echo(_primitive(piece))
-    for line in report.remarks([row]):
+                click.echo(_format_primitive(piece))
+    for line in report.format_remarks([row]):
         console.say(line)
-    for line in report.failures([row]):
+    for line in report.format_failures([row]):
         console.say(line)
-    for line in report.notes([row]):
+    for line in report.format_notes([row]):
         console.note(line, level=1)
     if len(files) > 1 and files[0] != files[1]:
         console.note(
@@ -120,13 +120,13 @@ def command(
     return 0
 
 
-def _primitive(piece: Any) -> str:
+def _format_primitive(piece: Any) -> str:
     from ..collision.rewrite import geometry_tag
-    from ..model.pose import rpy_of_rotation
+    from ..model.pose import rpy_from_rotation
 
     xyz = " ".join(f"{value:.6g}" for value in piece.centre)
     x, y, z = piece.rotation.tolist()
-    rpy = " ".join(f"{value + 0.0:.6g}" for value in rpy_of_rotation((x, y, z)))
+    rpy = " ".join(f"{value + 0.0:.6g}" for value in rpy_from_rotation((x, y, z)))
     return f'<origin xyz="{xyz}" rpy="{rpy}"/> <geometry>{geometry_tag(piece)}</geometry>'
 
 

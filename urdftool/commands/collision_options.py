@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from .cache_options import CACHE_OPTIONS, cache_place
+from .cache_options import CACHE_OPTIONS, choose_cache_folder
 
 if TYPE_CHECKING:
     from ..collision.settings import Settings
@@ -31,13 +31,15 @@ _NAMES = (
 )
 
 
-def _positive(ctx: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+def _check_positive(
+    ctx: click.Context, parameter: click.Parameter, value: float | None
+) -> float | None:
     if value is not None and not 0 < value < float("inf"):
         raise click.BadParameter(f"{value:g} is not greater than zero", ctx, parameter)
     return value
 
 
-def settings_options(function: F) -> F:
+def add_settings_options(function: F) -> F:
     """Add the options of :class:`Settings`, of the cache and of the output."""
     for option in reversed(_OPTIONS):
         function = option(function)
@@ -64,7 +66,7 @@ _OPTIONS = (
     click.option(
         "--max-error",
         type=float,
-        callback=_positive,
+        callback=_check_positive,
         metavar="E",
         help="Maximum distance between mesh and collision, as a fraction of the diagonal of the "
         "mesh's bounding box.  [default: 0.05; fast 0.08, tight 0.03]",
@@ -105,7 +107,7 @@ _OPTIONS = (
         type=float,
         default=120.0,
         show_default=True,
-        callback=_positive,
+        callback=_check_positive,
         metavar="S",
         help="Maximum total CPU time of CoACD per mesh [s].",
     ),
@@ -125,20 +127,20 @@ _OPTIONS = (
 )
 
 
-def settings_of(values: dict[str, Any]) -> Settings:
+def make_settings(values: dict[str, Any]) -> Settings:
     """Make the settings from the values of the options, by parameter name."""
     from ..collision.settings import Settings
 
     return Settings().changed({k: v for k in _NAMES if (v := values[k]) is not None})
 
 
-def given_names(ctx: click.Context) -> tuple[str, ...]:
+def list_given(ctx: click.Context) -> tuple[str, ...]:
     """Return the names of the settings that are given on the command line."""
     source = click.core.ParameterSource.COMMANDLINE
     return tuple(name for name in _NAMES if ctx.get_parameter_source(name) == source)
 
 
-def cache_of(values: dict[str, Any]) -> DiskCache:
+def open_cache(values: dict[str, Any]) -> DiskCache:
     """Open the result cache that the options choose.
 
     Raises:
@@ -146,7 +148,7 @@ def cache_of(values: dict[str, Any]) -> DiskCache:
     """
     from ..storage import DiskCache
 
-    return DiskCache(cache_place("collision", values["cache_dir"], values["no_cache"]))
+    return DiskCache(choose_cache_folder("collision", values["cache_dir"], values["no_cache"]))
 
 
 def check_spheres_file(path: str | None, method: str) -> None:
@@ -176,7 +178,7 @@ def require_libraries(method: str, *, check: bool = False) -> None:
     require("'urdftool collision'", *libraries)
 
 
-def one_thread_each() -> None:
+def limit_threads() -> None:
     """Limit the numerical libraries to one thread per worker process."""
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")

@@ -19,10 +19,10 @@ from ..console import Console
 from ..errors import UrdftoolError
 from ..lint.validate import require
 from ..report import collision as report
-from .collision_options import cache_of, given_names, settings_of
+from .collision_options import list_given, make_settings, open_cache
+from .load_tolerant import add_implicit_world
 from .picture_file import check_picture, write_picture
 from .progress import Progress
-from .read_lax import take_world
 from .read_other import read_any
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Job:
         return tasks_of(self.plans)
 
 
-def one(
+def process_one(
     ctx: click.Context, console: Console, path: str, arguments: dict[str, str], values: Values
 ) -> int:
     """Process one robot, and return the exit code.
@@ -69,12 +69,12 @@ def one(
         if values["picture"]:
             _draw(values["picture"], robot, [], {})
         return code
-    job = _planned(console, path, robot, options, values["output"], values)
-    cache = cache_of(values)
+    job = _make_job(console, path, robot, options, values["output"], values)
+    cache = open_cache(values)
     results = _compute(console, job.tasks, cache, values)
     _refuse_failed(console, job, results)
     done = {task: found for task, found in results.items() if not isinstance(found, UrdftoolError)}
-    _tell(console, [_write(console, job, done)], values)
+    _report(console, [_write(console, job, done)], values)
     if values["spheres_file"]:
         _write_spheres(console, values["spheres_file"], job, done)
     if values["picture"]:
@@ -86,12 +86,12 @@ def one(
 
 def _write_spheres(console: Console, path: str, job: Job, results: dict[Task, Result]) -> None:
     from ..collision.spheres import curobo_yaml, planner_spheres, pyroki_spheres
-    from ..model.files import sources
+    from ..model.files import list_sources
     from ..output import write_file
 
     spheres = planner_spheres(job.plans, results)
     text = pyroki_spheres(spheres) if path.lower().endswith(".json") else curobo_yaml(spheres)
-    write_file(path, text.encode(), inputs=sorted(sources(job.robot)))
+    write_file(path, text.encode(), inputs=sorted(list_sources(job.robot)))
     count = sum(map(len, spheres.values()))
     console.note(f"wrote {path}, {count} spheres of {len(spheres)} links")
 
@@ -104,7 +104,7 @@ def _draw(
     write_picture(robot_picture(robot, plans, results), picture, robot)
 
 
-def fleet(
+def process_fleet(
     ctx: click.Context,
     console: Console,
     paths: Sequence[str],
@@ -112,11 +112,11 @@ def fleet(
     values: Values,
 ) -> int:
     """Process several robots with one pool of workers; an error in one does not stop the others."""
-    from ..lint.discover import find_descriptions, nothing_below
+    from ..lint.discover import explain_nothing_found, find_descriptions
 
     files = find_descriptions(paths)
     if not files:
-        raise click.UsageError(nothing_below(paths))
+        raise click.UsageError(explain_nothing_found(paths))
     if values["picture"]:
         raise click.UsageError("--picture does not support several robots")
     root = os.path.commonpath([os.path.abspath(p) for p in paths])
@@ -135,7 +135,9 @@ def fleet(
                 checks.append((robot, options))
                 continue
             jobs.append(
-                _planned(console, path, robot, options, _beside(values, path, root), values)
+                _make_job(
+                    console, path, robot, options, _make_output_path(values, path, root), values
+                )
             )
         except UrdftoolError as error:
             console.error(error)
@@ -144,7 +146,7 @@ def fleet(
         from .collision_check import check
 
         return max(code, check(console, checks, values))
-    cache = cache_of(values)
+    cache = open_cache(values)
     results = _compute(console, [task for job in jobs for task in job.tasks], cache, values)
     reports = []
     for job in jobs:
@@ -155,14 +157,14 @@ def fleet(
         except UrdftoolError as error:
             console.error(error)
             code = 2
-    _tell(console, reports, values)
+    _report(console, reports, values)
     return code
 
 
 def _read(console: Console, path: str, arguments: dict[str, str], values: Values) -> Robot:
     named, edit = (path, arguments), "" if values["check"] else "'collision' without --check"
     robot = read_any(console, named, values["package"], values["package_path"], edit=edit)
-    return take_world(console, robot)
+    return add_implicit_world(console, robot)
 
 
 def _collision_options(
@@ -170,18 +172,18 @@ def _collision_options(
 ) -> CollisionOptions:
     configuration = find_configuration(path, console.config)
     return CollisionOptions(
-        settings_of(values),
+        make_settings(values),
         values["source"],
         values["only"],
         values["skip"],
         values["keep_primitives"],
         configuration.collision,
         configuration.path,
-        given_names(ctx),
+        list_given(ctx),
     )
 
 
-def _planned(
+def _make_job(
     console: Console,
     path: str,
     robot: Robot,
@@ -260,7 +262,7 @@ def _compute(
         )
 
 
-def _beside(values: Values, path: str, root: str) -> str | None:
+def _make_output_path(values: Values, path: str, root: str) -> str | None:
     """Return the output path of one of several robots, relative to the common input folder."""
     if values["output"] is None:
         return None
@@ -275,19 +277,19 @@ def _write(console: Console, job: Job, results: dict[Task, Result]) -> report.Re
         console.say(refusal)
     if job.place.bare:
         click.echo(written.text.decode("utf-8", "replace"), nl=False)
-    rows = report.rows_of(written, results)
+    rows = report.get_rows(written, results)
     return report.Report(job.path, job.output, rows, written.left(job.robot))
 
 
-def _tell(console: Console, reports: Sequence[report.Report], values: Values) -> None:
+def _report(console: Console, reports: Sequence[report.Report], values: Values) -> None:
     to_stderr = values["output"] == "-"
     if values["style"] == "json":
         click.echo(report.as_json(reports, timings=console.verbosity > 0), nl=False, err=to_stderr)
     for found in reports:
         if values["style"] == "table":
-            click.echo(report.table(found.rows), nl=False, err=to_stderr)
-        for line in (*report.remarks(found.rows), *report.failures(found.rows)):
+            click.echo(report.format_table(found.rows), nl=False, err=to_stderr)
+        for line in (*report.format_remarks(found.rows), *report.format_failures(found.rows)):
             console.say(line)
-        for line in report.notes(found.rows):
+        for line in report.format_notes(found.rows):
             console.note(line, level=1)
-        console.note(report.summary(found))
+        console.note(report.summarize(found))

@@ -26,11 +26,11 @@ def complete_text(
     if metavar.startswith(_PATHS):
         return [CompletionItem(incomplete, type="file")]
     before, comma, begun = incomplete.rpartition(",")
-    names = (name for name in _names(metavar) if name.startswith(begun))
+    names = (name for name in _collect_names(metavar) if name.startswith(begun))
     return [CompletionItem(f"{before}{comma}{name}") for name in names]
 
 
-def _names(metavar: str) -> list[str]:
+def _collect_names(metavar: str) -> list[str]:
     if metavar in ("RULE", "RULES"):
         from ..rules.table import RULES
 

@@ -11,7 +11,7 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import ASSIGN, output_option, package_options, split_arguments
+from .options import ASSIGN, add_package_options, make_output_option, split_arguments
 
 if TYPE_CHECKING:
     from ..compare.revision import Checkout
@@ -25,7 +25,7 @@ _GROUPS = {"Comparison": "tolerance", "Output": "style output"}
 
 @click.command("diff", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="A [name:=value ...] B [name:=value ...]")
-@output_option("Output file.  [default: standard output]")
+@make_output_option("Output file.  [default: standard output]")
 @click.option(
     "--tolerance",
     type=click.FloatRange(0.0),
@@ -40,7 +40,7 @@ _GROUPS = {"Comparison": "tolerance", "Output": "style output"}
     show_default=True,
     help="Output format.",
 )
-@package_options
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -64,12 +64,12 @@ def command(
 
     Exit code 1: the robots differ.
     """  # noqa: D301 -- click reads the escape
-    from ..compare.closeness import TOLERANCE
     from ..compare.differences import compare
+    from ..compare.tolerance import TOLERANCE
     from ..output import write_result
     from ..report import compare as report
 
-    one, two = _sides(words)
+    one, two = _split_sides(words)
     if one[0] == two[0] == "-":
         raise click.UsageError("only one of A and B can be standard input ('-')")
     limit = TOLERANCE if tolerance is None else tolerance
@@ -80,16 +80,16 @@ def command(
     if style == "json":
         text = report.to_json(names, changes, limit)
     elif style == "markdown":
-        text = report.markdown(names, changes)
+        text = report.format_markdown(names, changes)
     else:
-        text = report.text(changes, colors=console.colors(to_file=output not in (None, "-")))
+        text = report.format_text(changes, colors=console.colors(to_file=output not in (None, "-")))
     inputs = [file.path for robot in (a, b) if robot.source for file in robot.source.files]
     write_result(text, output, inputs=inputs)
-    console.note(report.summary(names, changes))
+    console.note(report.summarize(names, changes))
     return int(bool(changes))
 
 
-def _sides(words: tuple[str, ...]) -> tuple[Side, Side]:
+def _split_sides(words: tuple[str, ...]) -> tuple[Side, Side]:
     """Split the words into both files, each with its xacro arguments."""
     sides: list[list[str]] = []
     for word in words:
@@ -108,15 +108,15 @@ def _sides(words: tuple[str, ...]) -> tuple[Side, Side]:
 def _read(
     console: Console, side: Side, package: dict[str, Path], package_path: tuple[str, ...]
 ) -> Robot:
-    from ..compare.revision import checked_out, named
-    from .read_lax import read_lax
+    from ..compare.revision import check_out, named
+    from .load_tolerant import load_tolerant
 
     path, arguments = side
     revision = None if path == "-" else named(path)
     if revision is None:
-        return read_lax(console, path, arguments, package, package_path)
-    with checked_out(revision) as checkout, _at_revision(checkout):
-        robot = read_lax(
+        return load_tolerant(console, path, arguments, package, package_path)
+    with check_out(revision) as checkout, _restore_error_paths(checkout):
+        robot = load_tolerant(
             console,
             str(checkout.path),
             arguments,
@@ -129,7 +129,7 @@ def _read(
 
 
 @contextmanager
-def _at_revision(checkout: Checkout) -> Iterator[None]:
+def _restore_error_paths(checkout: Checkout) -> Iterator[None]:
     """Replace the temporary folder by the revision in the paths of errors."""
     from ..errors import UrdftoolError
 

@@ -8,7 +8,7 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import output_option, package_options, robot_argument
+from .options import add_package_options, add_robot_argument, make_output_option
 
 _GROUPS = {
     "What to do": "output check deps list_args",
@@ -17,8 +17,8 @@ _GROUPS = {
 
 
 @click.command("expand", cls=GroupedCommand, groups=_GROUPS)
-@robot_argument
-@output_option("Output file.  [default: standard output]")
+@add_robot_argument
+@make_output_option("Output file.  [default: standard output]")
 @click.option("--deps", is_flag=True, help="Print the files that are read, instead of the URDF.")
 @click.option("--depfile", metavar="OUT.d", help="Write a make rule with the dependencies of OUT.")
 @click.option(
@@ -32,7 +32,7 @@ _GROUPS = {
     metavar="FILE",
     help="Write the source position of each element as JSON ('-': standard output).",
 )
-@package_options
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -77,18 +77,18 @@ def command(
         configured=find_configuration(path, console.config).packages,
     )
     expansion = expand_xacro(file, arguments, packages)
-    for line in report.warnings(expansion, arguments):
+    for line in report.format_warnings(expansion, arguments):
         console.note(line)
-    inputs = [] if file.path == STDIN else report.files_read(expansion)
+    inputs = [] if file.path == STDIN else report.format_files_read(expansion)
     check_targets((None if check else output, source_map, depfile), inputs=inputs)
     if source_map:
-        write_result(report.source_map(expansion), source_map, inputs=inputs)
+        write_result(report.format_source_map(expansion), source_map, inputs=inputs)
     if deps:
         write_result("".join(f"{name}\n" for name in inputs), output, inputs=inputs)
     elif list_args:
-        write_result(report.argument_list(expansion), output, inputs=inputs)
+        write_result(report.format_argument_list(expansion), output, inputs=inputs)
     elif check:
-        return _check(console, report.stale(expansion, check), check)
+        return _check(console, report.diff_with_committed(expansion, check), check)
     elif not (source_map == "-" and output is None):
         write_result(expansion.text, output, inputs=inputs)
     if depfile and output:

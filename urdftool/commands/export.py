@@ -6,7 +6,7 @@ from importlib import import_module
 
 import click
 
-from ..formats.registry import writable_formats
+from ..formats.registry import get_writable_formats
 from .general_options import accept_general_options
 
 
@@ -15,7 +15,7 @@ class Formats(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return their names."""
-        return [target.name for target in writable_formats()]
+        return [target.name for target in get_writable_formats()]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Return the command of a format; None for another name."""

@@ -9,13 +9,13 @@ from typing import Any
 import click
 
 from ..console import Console
-from .export_options import export_options, fix_inertia_option
+from .export_options import add_fix_inertia_option, make_export_options
 from .grouped_help import GroupedCommand
-from .options import gltf_option, name_numbers, package_options, robot_argument
-from .read_strict import read_strict, say_gltf
+from .load_strict import load_strict, report_gltf_axes
+from .options import add_gltf_option, add_package_options, add_robot_argument, parse_name_numbers
 
 
-def _pose(
+def _parse_pose(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> tuple[str, dict[str, float]]:
     """Parse the name of an SRDF group state, and joint positions by name."""
@@ -25,7 +25,7 @@ def _pose(
             f"{' and '.join(names)}: only one group state is possible", ctx, parameter
         )
     positions = tuple(value for value in values if "=" in value)
-    return "".join(names), name_numbers(ctx, parameter, positions)
+    return "".join(names), parse_name_numbers(ctx, parameter, positions)
 
 
 _GROUPS = {
@@ -37,7 +37,7 @@ _GROUPS = {
 
 
 @click.command("mjcf", cls=GroupedCommand, groups=_GROUPS)
-@robot_argument
+@add_robot_argument
 @click.option(
     "-o",
     "--output",
@@ -72,7 +72,7 @@ _GROUPS = {
     "--pose",
     multiple=True,
     metavar="JOINT=VALUE|NAME",
-    callback=_pose,
+    callback=_parse_pose,
     help="Home position of a joint [rad or m], or name of an SRDF group state. Repeatable.",
 )
 @click.option(
@@ -112,17 +112,17 @@ _GROUPS = {
     is_flag=True,
     help="Keep joints with lower = upper, held by an equality (default: weld their links).",
 )
-@fix_inertia_option
+@add_fix_inertia_option
 @click.option("--decompose", is_flag=True, help="Decompose collision meshes into convex pieces.")
-@export_options(
+@make_export_options(
     mesh_dir="assets",
     verify=(
         "Compile the result in MuJoCo and compare it with IN: tree, masses, limits, base, "
         "contacts, friction, gravity, springs, actuators, sensors, visuals, home position."
     ),
 )
-@gltf_option
-@package_options
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -152,13 +152,13 @@ def command(
     from ..api.export import cut_meshes, measure_overlap
     from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
-    from ..model.load import robot_of
+    from ..model.load import make_robot
     from .export_report import run_export
 
     mjcf, place = format_named("mjcf"), output or "-"
-    description = read_strict(console, robot, package, package_path)
-    model = robot_of(description)
-    say_gltf(console, model)
+    description = load_strict(console, robot, package, package_path)
+    model = make_robot(description)
+    report_gltf_axes(console, model)
     options = Options(
         mesh_dir="" if mesh_dir == "." else mesh_dir,
         file=Path(place).name if mjcf.has_suffix(place) else "",

@@ -13,7 +13,7 @@ from ..formats.common.inertia_repair import REPAIRS
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
+def make_export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
     """Make a decorator that adds the options of meshes, strictness, verification and output.
 
     Args:
@@ -26,7 +26,7 @@ def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
             metavar="DIR",
             default=mesh_dir,
             show_default=True,
-            callback=_beside,
+            callback=_parse_mesh_folder,
             help="Folder of the mesh files, relative to the model.",
         ),
         click.option("--overwrite", is_flag=True, help="Overwrite files not written by urdftool."),
@@ -57,7 +57,7 @@ def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
     return decorate
 
 
-def fix_inertia_option(function: F) -> F:
+def add_fix_inertia_option(function: F) -> F:
     """Add ``--fix-inertia``, the repair of physically inconsistent inertia tensors."""
     return click.option(
         "--fix-inertia",
@@ -69,7 +69,7 @@ def fix_inertia_option(function: F) -> F:
     )(function)
 
 
-def _beside(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
+def _parse_mesh_folder(ctx: click.Context, parameter: click.Parameter, value: str) -> str:
     """Return a folder relative to the model, with single slashes.
 
     Raises:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from ..report.counted import counted
-from ..terminal import visible
+from ..report.counted import format_count
+from ..terminal import escape_controls
 
 if TYPE_CHECKING:
     from ..finding import Finding
@@ -29,8 +29,8 @@ def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
         click.echo(to_json(None, (), findings, ()), nl=False)
     report = list(format_lines(findings))
     for line in report:
-        click.echo(visible(line), err=True)
-    click.echo(f"urdftool: no file was written: {counted(len(report), 'error')}", err=True)
+        click.echo(escape_controls(line), err=True)
+    click.echo(f"urdftool: no file was written: {format_count(len(report), 'error')}", err=True)
     return 2
 
 
@@ -67,7 +67,7 @@ def run_export(
     Raises:
         OutputError: The output cannot be written; existing files are unchanged.
     """
-    from ..formats.common.loss_report import losses_as_errors
+    from ..formats.common.loss_report import raise_losses_as_errors
     from ..formats.defects import Refused
     from ..formats.export import finish_export
 
@@ -75,7 +75,7 @@ def run_export(
         written = target.write(robot, options)
         if more_checks is not None:
             written.losses += more_checks(robot)
-        if strict and (lost := losses_as_errors(written.losses)):
+        if strict and (lost := raise_losses_as_errors(written.losses)):
             raise Refused(lost)
     except Refused as refused:
         return report_refused(refused.findings, as_json=as_json)
@@ -144,11 +144,13 @@ def report_written(
         if checks:
             from ..report.exports import check_table
 
-            click.echo(visible(check_table(checks, not_compared)), nl=False, err=output == "-")
+            click.echo(
+                escape_controls(check_table(checks, not_compared)), nl=False, err=output == "-"
+            )
     if output != "-":
-        more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""
+        more = f", {format_count(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:
             console.note(f"{output}: warning: {sentence}")
-        facts = [written.main, counted(len(written.files), "file"), *written.summary]
+        facts = [written.main, format_count(len(written.files), "file"), *written.summary]
         console.note(f"{output}: {', '.join(facts)}{more}")
     return 0 if is_faithful(checks) else 1

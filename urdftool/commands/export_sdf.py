@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
-from .export_options import export_options, fix_inertia_option
+from .export_options import add_fix_inertia_option, make_export_options
 from .grouped_help import GroupedCommand
-from .options import gltf_option, package_options, robot_argument
-from .read_strict import read_strict, say_gltf
+from .load_strict import load_strict, report_gltf_axes
+from .options import add_gltf_option, add_package_options, add_robot_argument
 
 if TYPE_CHECKING:
     from ..formats.sdf.options import Options
@@ -26,7 +26,7 @@ _GROUPS = {
 
 
 @click.command("sdf", cls=GroupedCommand, groups=_GROUPS)
-@robot_argument
+@add_robot_argument
 @click.option(
     "-o",
     "--output",
@@ -70,16 +70,16 @@ _GROUPS = {
     help='TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
     "the same file as for export mjcf.",
 )
-@fix_inertia_option
-@export_options(
+@add_fix_inertia_option
+@make_export_options(
     mesh_dir="meshes",
     verify=(
         "Read the result and compare it with IN: tree, masses, limits, base, contacts, friction, "
         "flags, springs, sensors, plugins, visuals."
     ),
 )
-@gltf_option
-@package_options
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -105,13 +105,13 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..api.export import check_plugins
     from ..formats.registry import format_named
-    from ..model.load import robot_of
+    from ..model.load import make_robot
     from .export_report import run_export
 
     place = output or "-"
-    options = _options(place, choices)
-    model = robot_of(read_strict(console, robot, package, package_path))
-    say_gltf(console, model)
+    options = _make_options(place, choices)
+    model = make_robot(load_strict(console, robot, package, package_path))
+    report_gltf_axes(console, model)
     return run_export(
         console,
         format_named("sdf"),
@@ -126,15 +126,15 @@ def command(
     )
 
 
-def _options(output: str, choices: dict[str, Any]) -> Options:
+def _make_options(output: str, choices: dict[str, Any]) -> Options:
     """Make the options of the writer from those of the command line and the output path."""
-    from ..formats.sdf.options import MODEL, VERSIONS, Options, folder_and_file
+    from ..formats.sdf.options import MODEL, VERSIONS, Options, get_folder_and_file
 
     target, version = choices["target"], choices.pop("version") or ""
     if version and version not in VERSIONS[target]:
         known = ", ".join(VERSIONS[target])
         raise click.UsageError(f"{target} supports SDF {known}, not {version}")
-    folder, file = folder_and_file(MODEL if output == "-" else output)
+    folder, file = get_folder_and_file(MODEL if output == "-" else output)
     config = choices.pop("actuator_config")
     choices = {name: value or "" if value is None else value for name, value in choices.items()}
     if output == "-" and not choices["uri"]:

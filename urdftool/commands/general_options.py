@@ -13,11 +13,11 @@ def accept_general_options(command: click.Command) -> click.Command:
     """Add the general options to a command; its help does not list them."""
     known = {name for parameter in command.params for name in parameter.opts}
     if "--debug" not in known:
-        command.params.extend(general_options(hidden=True))
+        command.params.extend(make_general_options(hidden=True))
     return command
 
 
-def general_options(*, hidden: bool) -> list[click.Option]:
+def make_general_options(*, hidden: bool) -> list[click.Option]:
     """Make the options; each one changes the :class:`Console` of the context when parsed."""
 
     def option(*names: str, **more: Any) -> click.Option:
@@ -66,6 +66,6 @@ def _set_debug(ctx: click.Context, parameter: click.Parameter, value: bool) -> N
 
 def _set_trust(ctx: click.Context, parameter: click.Parameter, value: bool) -> None:
     if value:
-        from ..source.reach import trust_descriptions
+        from ..source.sandbox import disable_sandbox
 
-        trust_descriptions()
+        disable_sandbox()

@@ -11,7 +11,7 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import output_option, package_options, robot_argument
+from .options import add_package_options, add_robot_argument, make_output_option
 
 if TYPE_CHECKING:
     from ..graph.faults import Fault
@@ -23,8 +23,8 @@ PICTURES = (".pdf", ".svg", ".png")
 
 
 @click.command("graph", cls=GroupedCommand, groups={"Output": "output style fold_fixed linted"})
-@robot_argument
-@output_option(
+@add_robot_argument
+@make_output_option(
     "Output file: .gv, .dot, .pdf, .svg, .png, .mmd (Mermaid) or .json; '-' prints a tree.  "
     "[default: ROBOT.gv and ROBOT.pdf]"
 )
@@ -36,7 +36,7 @@ PICTURES = (".pdf", ".svg", ".png")
 )
 @click.option("--fold-fixed", is_flag=True, help="Draw links with fixed joints as one node.")
 @click.option("--lint", "linted", is_flag=True, help="Mark links and joints with lint findings.")
-@package_options
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -60,39 +60,41 @@ def command(
 
     Exit code 1: the links are not a tree, or --lint finds an error or a warning.
     """  # noqa: D301 -- click reads the escape
-    suffix = _suffix(output)
+    suffix = _get_suffix(output)
     if suffix in (None, "", *PICTURES):
         from ..extras import is_installed, require
-        from ..graph.draw import Artist
+        from ..graph.graphviz import GraphvizWorker
 
         if suffix in PICTURES:
             require(f"a graph as {suffix}", "pygraphviz")
         can_draw = is_installed("pygraphviz")
-        artist: AbstractContextManager[Artist | None] = Artist() if can_draw else nullcontext()
+        artist: AbstractContextManager[GraphvizWorker | None] = (
+            GraphvizWorker() if can_draw else nullcontext()
+        )
     else:
         artist = nullcontext()
     with artist as pencil:
-        from ..graph.faults import find_faults, first_of_each
+        from ..graph.faults import find_faults, group_by_message
         from .graph_write import write_one, write_pair
-        from .read_lax import read_lax
+        from .load_tolerant import load_tolerant
 
         path, arguments = robot
-        model = read_lax(console, path, arguments, package, package_path)
+        model = load_tolerant(console, path, arguments, package, package_path)
         faults = list(find_faults(model))
         drawn_style = style or (
             "ros" if suffix in (None, "", ".gv", ".dot", *PICTURES) else "detailed"
         )
-        figure = _figure(console, model, faults, drawn_style, fold_fixed, linted)
+        figure = _make_figure(console, model, faults, drawn_style, fold_fixed, linted)
         if suffix in (None, ""):
             write_pair(console, model, figure, path, output, pencil)
         else:
             write_one(console, model, figure, faults, output or "-", suffix, pencil)
-    for fault in first_of_each(faults):
+    for fault in group_by_message(faults):
         console.note(f"{fault.location}: {fault.message}")
     return int(bool(faults) or (linted and _is_marked(figure)))
 
 
-def _suffix(output: str | None) -> str | None:
+def _get_suffix(output: str | None) -> str | None:
     """Return the output format; ``-`` for the terminal, empty for the stem of two files."""
     if output is None or output == "-":
         return output
@@ -104,7 +106,7 @@ def _suffix(output: str | None) -> str | None:
     return suffix
 
 
-def _figure(
+def _make_figure(
     console: Console, model: Robot, faults: list[Fault], style: str, fold: bool, linted: bool
 ) -> Figure:
     from ..errors import ModelError
@@ -115,7 +117,7 @@ def _figure(
     if style == "ros":
         from ..graph.ros import ros_figure as figure_of
     else:
-        from ..graph.detailed import detailed_figure as figure_of
+        from ..graph.detailed import create_detailed_figure as figure_of
     figure = figure_of(model)
     mark_faults(figure, faults)
     if linted:

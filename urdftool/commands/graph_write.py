@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from ..extras import missing
+from ..extras import make_missing_error
 from ..output import check_targets, write_file, write_result
 
 if TYPE_CHECKING:
-    from ..graph.draw import Artist
     from ..graph.faults import Fault
     from ..graph.figure import Figure
+    from ..graph.graphviz import GraphvizWorker
     from ..model.elements import Robot
 
 
@@ -26,7 +26,7 @@ def write_pair(
     figure: Figure,
     source: str,
     output: str | None,
-    artist: Artist | None,
+    artist: GraphvizWorker | None,
 ) -> None:
     """Write NAME.gv and NAME.pdf, and print the messages of ``urdf_to_graphiz``.
 
@@ -42,10 +42,10 @@ def write_pair(
         MissingDependency: pygraphviz is not installed; NAME.gv is written.
     """
     from ..graph.dot import to_dot
-    from ..graph.words import file_name
+    from ..graph.formatting import make_file_name
 
     stem = "robot" if source == "-" else Path(source).name.partition(".")[0] or "robot"
-    name = output or file_name(model.name, stem)
+    name = output or make_file_name(model.name, stem)
     text = to_dot(figure)
     files = {f"{name}.gv": text.encode("utf-8")}
     if artist is not None:
@@ -56,7 +56,7 @@ def write_pair(
         if not console.quiet:
             click.echo(f"Created file {path}")
     if artist is None:
-        raise missing("pygraphviz", f"{name}.pdf")
+        raise make_missing_error("pygraphviz", f"{name}.pdf")
 
 
 def write_one(
@@ -66,16 +66,16 @@ def write_one(
     faults: Sequence[Fault],
     output: str,
     suffix: str,
-    artist: Artist | None,
+    artist: GraphvizWorker | None,
 ) -> None:
     """Write one file of the format of its suffix, or print a tree for ``-``."""
     if suffix == "-":
         import shutil
 
-        from ..report.graph_tree import tree_text
+        from ..report.graph_tree import format_tree_text
 
         width = shutil.get_terminal_size().columns
-        write_result(tree_text(model, figure, colors=console.colors(), width=width), None)
+        write_result(format_tree_text(model, figure, colors=console.colors(), width=width), None)
         return
     folder = os.path.dirname(output) or "."
     if suffix == ".json":
@@ -83,12 +83,12 @@ def write_one(
 
         data = to_json(model, figure, faults).encode("utf-8")
     elif suffix == ".mmd":
-        from ..graph.mermaid import to_mermaid, too_large
+        from ..graph.mermaid import explain_size, to_mermaid
 
         text = to_mermaid(figure)
-        if too_large(figure, text):
+        if explain_size(figure, text):
             console.note(
-                f"{output}: warning: the graph has {too_large(figure, text)}; try --fold-fixed"
+                f"{output}: warning: the graph has {explain_size(figure, text)}; try --fold-fixed"
             )
         data = text.encode("utf-8")
     else:

@@ -28,9 +28,9 @@ class Kinds(click.Group):
         shape = find_shape(cmd_name)
         if shape is None:
             return None
-        from .inertia_shape import shape_command
+        from .inertia_shape import make_shape_command
 
-        return accept_general_options(shape_command(shape))
+        return accept_general_options(make_shape_command(shape))
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -38,9 +38,9 @@ class Kinds(click.Group):
         """Resolve the command as click does; suggest the nearest name for an unknown one."""
         names = self.list_commands(ctx)
         if args and args[0] not in names and not args[0].startswith("-"):
-            from ..suggestions import did_you_mean
+            from ..suggestions import suggest_name
 
-            hint = did_you_mean(args[0], names, 0.6) or f"; choose one of {', '.join(names)}"
+            hint = suggest_name(args[0], names, 0.6) or f"; choose one of {', '.join(names)}"
             if args[0].lower().endswith((".urdf", ".xacro")):
                 hint = f"; for a robot use 'urdftool inertia robot {args[0]}'"
             ctx.fail(f"'{args[0]}' is not a shape{hint}")
@@ -62,14 +62,16 @@ def command(ctx: click.Context) -> int:
     """  # noqa: D301 -- \b is a character that click looks for
     if ctx.invoked_subcommand is not None:
         return 0
-    from .inertia_ask import at_terminal, choose_shape
-    from .inertia_shape import shape_command
+    from .inertia_ask import choose_shape, is_at_terminal
+    from .inertia_shape import make_shape_command
 
-    if not at_terminal():
+    if not is_at_terminal():
         raise click.UsageError(
             "missing subcommand: " + ", ".join((ctx.command).list_commands(ctx))  # type: ignore[attr-defined]
         )
     console: Console = ctx.obj
-    with shape_command(choose_shape()).make_context(None, [], parent=ctx, obj=console) as inner:
+    with make_shape_command(choose_shape()).make_context(
+        None, [], parent=ctx, obj=console
+    ) as inner:
         result: int = inner.command.invoke(inner)
     return result

@@ -10,7 +10,7 @@ import click
 from ..inertia.shapes import SHAPES, Shape, Size
 
 
-def at_terminal() -> bool:
+def is_at_terminal() -> bool:
     """Tell whether standard input is a terminal."""
     return sys.stdin is not None and sys.stdin.isatty()
 

@@ -9,8 +9,8 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .inertia_options import amount_options, check_amount, check_pose, result_options
-from .options import gltf_option, gltf_up_for, scale_factors
+from .inertia_options import add_amount_options, add_result_options, check_amount, check_pose
+from .options import add_gltf_option, get_gltf_up, parse_scale
 
 if TYPE_CHECKING:
     from ..inertia.bodies import MeshBody
@@ -49,19 +49,19 @@ _GROUPS = {
 
 @click.command("mesh", cls=_Scaled, groups=_GROUPS)
 @click.argument("file", metavar="FILE")
-@amount_options
+@add_amount_options
 @click.option(
     "--scale",
     default="1",
-    callback=scale_factors,
+    callback=parse_scale,
     metavar="S | SX SY SZ",
     help="Scale factors, as in <mesh scale>; negative factors mirror.",
 )
 @click.option(
     "--surface", is_flag=True, help="Treat the mesh as a thin shell; --density is in kg/m²."
 )
-@result_options
-@gltf_option
+@add_result_options
+@add_gltf_option
 @click.pass_obj
 def command(
     console: Console,
@@ -88,23 +88,23 @@ def command(
     check_pose(origin_xyz, origin_rpy)
     if mass is None and density is None:
         raise click.UsageError("missing option: --mass M [kg] or --density D [kg/m³]")
-    from ..inertia.bodies import mesh_body, weighed
+    from ..inertia.bodies import integrate_mesh_body, scale_to_mass
     from ..inertia.rounding import round_properties
-    from ..model.pose import Pose, rotation_of_rpy
+    from ..model.pose import Pose, rotation_from_rpy
     from ..output import write_result
 
-    up = gltf_up_for(console, file)
-    body = mesh_body(Path(file), surface=surface, gltf_up=up).scaled(scale)
-    alone = weighed(body.unit, "mesh", mass=mass, density=density)
-    pose = Pose(rotation_of_rpy(origin_rpy), origin_xyz)
-    result = round_properties(alone.moved(pose), "the mesh")
-    text = _text(style, file, result, body, alone.mass / body.measure, scale)
+    up = get_gltf_up(console, file)
+    body = integrate_mesh_body(Path(file), surface=surface, gltf_up=up).scale(scale)
+    alone = scale_to_mass(body.unit, "mesh", mass=mass, density=density)
+    pose = Pose(rotation_from_rpy(origin_rpy), origin_xyz)
+    result = round_properties(alone.transform(pose), "the mesh")
+    text = _format_text(style, file, result, body, alone.mass / body.measure, scale)
     write_result(text, output, inputs=[file])
-    _say(console, file, body, result, style)
+    _report(console, file, body, result, style)
     return 0
 
 
-def _text(
+def _format_text(
     style: str, file: str, result: Any, body: MeshBody, density: float, scale: tuple[float, ...]
 ) -> str:
     from ..inertia.rounding import round_number
@@ -123,19 +123,21 @@ def _text(
         rows = {
             "area" if body.surface else "volume": f"{body.measure:.6g} {unit}",
             "density": f"{density:.6g} kg/{unit}",
-            "method": _method(body),
+            "method": _format_method(body),
         }
-        return report.table(file, result, rows)
+        return report.format_table(file, result, rows)
     if style == "xacro":
-        from ..inertia.macros import mass_macro
+        from ..inertia.macros import get_mass_macro
 
         name = "".join(c if c.isalnum() and c.isascii() else "_" for c in Path(file).stem)
-        return mass_macro(name if name[:1].isalpha() else f"mesh_{name}", result)
-    text: str = {"urdf": report.urdf, "sdf": report.sdf, "mjcf": report.mjcf}[style](result)
+        return get_mass_macro(name if name[:1].isalpha() else f"mesh_{name}", result)
+    text: str = {"urdf": report.format_urdf, "sdf": report.format_sdf, "mjcf": report.format_mjcf}[
+        style
+    ](result)
     return text
 
 
-def _method(body: MeshBody) -> str:
+def _format_method(body: MeshBody) -> str:
     if body.method == "exact":
         return "exact"
     if body.surface:
@@ -146,12 +148,12 @@ def _method(body: MeshBody) -> str:
     return f"{body.method}{error}{hull}{sure}"
 
 
-def _say(console: Console, file: str, body: MeshBody, result: Any, style: str) -> None:
-    from ..report.inertia import summary
+def _report(console: Console, file: str, body: MeshBody, result: Any, style: str) -> None:
+    from ..report.inertia import format_summary
 
     if style != "table":
-        console.note(summary(file, result))
-        console.note(f"  method: {_method(body)}")
+        console.note(format_summary(file, result))
+        console.note(f"  method: {_format_method(body)}")
     for note in body.note_texts:
         console.note(f"  {note}")
     if not body.reliable:

@@ -12,7 +12,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 FORMATS = ("urdf", "sdf", "mjcf", "xacro", "json", "table")
 
 
-def amount_options(function: F) -> F:
+def add_amount_options(function: F) -> F:
     """Add ``--mass`` and ``--density``."""
     function = click.option(
         "--density", type=float, metavar="D", help="Density [kg/m³]; excludes --mass."
@@ -20,7 +20,7 @@ def amount_options(function: F) -> F:
     return click.option("--mass", type=float, metavar="M", help="Mass [kg].")(function)
 
 
-def result_options(function: F) -> F:
+def add_result_options(function: F) -> F:
     """Add ``--origin-xyz``, ``--origin-rpy``, ``--format`` and ``-o``."""
     for option in (
         click.option(

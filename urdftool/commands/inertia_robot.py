@@ -9,7 +9,7 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import gltf_option, jobs_option, package_options, robot_argument
+from .options import add_gltf_option, add_jobs_option, add_package_options, add_robot_argument
 from .progress import Progress
 from .read_other import read_any
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
 
 
-def _pairs(
+def _parse_pairs(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
     """Parse ``NAME=NUMBER`` values."""
@@ -46,7 +46,7 @@ _GROUPS = {
 
 
 @click.command("robot", cls=GroupedCommand, groups=_GROUPS)
-@robot_argument
+@add_robot_argument
 @click.option(
     "-o",
     "--output",
@@ -63,7 +63,7 @@ _GROUPS = {
     "--mass",
     "masses",
     multiple=True,
-    callback=_pairs,
+    callback=_parse_pairs,
     metavar="LINK=KG",
     help="Mass of a link [kg]. Repeatable.",
 )
@@ -92,7 +92,7 @@ _GROUPS = {
 @click.option(
     "--pose",
     multiple=True,
-    callback=_pairs,
+    callback=_parse_pairs,
     metavar="JOINT=VALUE",
     help="With --lump: position of a joint [rad or m]. Repeatable.",
 )
@@ -104,9 +104,9 @@ _GROUPS = {
     show_default=True,
     help="Output format.",
 )
-@jobs_option
-@gltf_option
-@package_options
+@add_jobs_option
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -150,7 +150,7 @@ def command(
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
     from ..lint.validate import require
-    from .read_lax import take_world
+    from .load_tolerant import add_implicit_world
 
     path = robot[0]
     if write and path == "-" and output is None:
@@ -158,18 +158,22 @@ def command(
     by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
     edit = "--write" if write else "--diff" if diff else ""
     read = read_any(console, robot, package, package_path, edit=edit)
-    model = take_world(console, require(read, "links"))
+    model = add_implicit_world(console, require(read, "links"))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
     amounts = Masses(by_link, density, total, all_links)
     with Progress(console, "meshes") as progress:
         found = review(
-            model, _reader(model.source, jobs, progress), masses=amounts, source=source, only=only
+            model,
+            _make_reader(model.source, jobs, progress),
+            masses=amounts,
+            source=source,
+            only=only,
         )
     if lump:
         return _lump(console, model, found, pose, style, output)
     if diff:
-        return _diff(console, model, found, amounts)
+        return _print_diff(console, model, found, amounts)
     if write:
         return _write(console, model, found, amounts, style, output)
     return _show(console, model, found, style, output)
@@ -195,7 +199,7 @@ def _check_options(
         raise click.UsageError(f"the output is a table; add --write to write the robot to {output}")
 
 
-def _reader(description: Any, jobs: int | None, progress: Progress) -> Any:
+def _make_reader(description: Any, jobs: int | None, progress: Progress) -> Any:
     from ..inertia.mesh_files import read_meshes
 
     return lambda names: read_meshes(description, names, jobs=jobs, progress=progress)
@@ -212,11 +216,11 @@ def _show(
     if style == "json":
         text = report.as_json(report.as_dict(found, model.name, model.source.path))
     else:
-        text = report.table(found, colors=colors)
-        remarks = [f"{line}\n" for line in report.remarks(found, colors=colors)]
+        text = report.format_table(found, colors=colors)
+        remarks = [f"{line}\n" for line in report.format_remarks(found, colors=colors)]
         text += "".join(["\n", *remarks] if remarks else [])
     write_result(text, output, inputs=[file.path for file in model.source.files])
-    console.note(report.summary(found))
+    console.note(report.summarize(found))
     return int(any(item.status == "wrong" for item in found))
 
 
@@ -234,7 +238,7 @@ def _lump(
 
     assert model.source is not None
     lumped = lump(model, found, pose)
-    text = report.as_json(lumped, model) if style == "json" else report.table(lumped)
+    text = report.as_json(lumped, model) if style == "json" else report.format_table(lumped)
     write_result(text, output, inputs=[file.path for file in model.source.files])
     for line in lumped.notes:
         console.note(line)
@@ -249,35 +253,37 @@ def _write(
     style: str,
     output: str | None,
 ) -> int:
-    from ..inertia.fill_check import checked_filling
+    from ..inertia.fill_check import plan_checked_filling
     from ..output import write_result
     from ..report import inertia_fill as report
     from .inertia_write import write_files
 
     assert model.source is not None
-    filling, edited = checked_filling(model, found, amounts, single=output is not None)
+    filling, edited = plan_checked_filling(model, found, amounts, single=output is not None)
     files = write_files(model, edited, output)
-    text = report.as_json(filling, model) if style == "json" else report.text(filling)
+    text = report.as_json(filling, model) if style == "json" else report.format_text(filling)
     if output == "-":
         click.echo(text, err=True, nl=False)
     else:
         write_result(text, None)
-    for line in report.remarks(filling):
+    for line in report.format_remarks(filling):
         console.say(line)
-    console.note(report.summary(filling, files))
+    console.note(report.summarize(filling, files))
     return int(bool(filling.refused) or filling.still_wrong)
 
 
-def _diff(console: Console, model: Robot, found: list[LinkReview], amounts: Masses) -> int:
+def _print_diff(console: Console, model: Robot, found: list[LinkReview], amounts: Masses) -> int:
     """Print the changes as a unified diff; return 1 if there are any."""
-    from ..inertia.fill_check import checked_filling
+    from ..inertia.fill_check import plan_checked_filling
     from ..report import inertia_fill as report
-    from ..report.file_diff import file_diff
+    from ..report.file_diff import format_file_diff
 
     assert model.source is not None
-    filling, edited = checked_filling(model, found, amounts)
+    filling, edited = plan_checked_filling(model, found, amounts)
     before = {file.path: file.data for file in model.source.files}
-    click.echo("".join(file_diff(path, before[path], edited[path]) for path in edited), nl=False)
-    for line in report.remarks(filling):
+    click.echo(
+        "".join(format_file_diff(path, before[path], edited[path]) for path in edited), nl=False
+    )
+    for line in report.format_remarks(filling):
         console.say(line)
     return int(bool(edited) or bool(filling.refused) or filling.still_wrong)

@@ -9,35 +9,35 @@ import click
 from ..console import Console
 from ..inertia.shapes import THICKNESS, Shape, Size
 from .grouped_help import GroupedCommand
-from .inertia_options import amount_options, check_amount, check_pose, result_options
+from .inertia_options import add_amount_options, add_result_options, check_amount, check_pose
 
 _INPUT = "mass density size radius length radii thickness closed origin_xyz origin_rpy"
 _GROUPS = {"Input": _INPUT, "Output": "style output"}
 
 
-def shape_command(shape: Shape) -> click.Command:
+def make_shape_command(shape: Shape) -> click.Command:
     """Make the command of a shape."""
 
     @click.pass_obj
     def callback(console: Console, /, **given: Any) -> int:
         return _run(console, shape, given)
 
-    callback.__doc__ = _help(shape)
-    function: Any = result_options(callback)
+    callback.__doc__ = _format_help(shape)
+    function: Any = add_result_options(callback)
     if shape.ends:
         function = click.option(
             "--closed", is_flag=True, help="Hollow: add end plates, as thick as the wall."
         )(function)
     if shape.hollow:
-        function = _size_option(THICKNESS, "Hollow: thickness ")(function)
+        function = _make_size_option(THICKNESS, "Hollow: thickness ")(function)
     for size in reversed(shape.sizes):
-        function = _size_option(size, f"{size.name.capitalize()} ")(function)
+        function = _make_size_option(size, f"{size.name.capitalize()} ")(function)
     made = click.command(shape.name, cls=GroupedCommand, groups=_GROUPS)
-    command: click.Command = made(amount_options(function))
+    command: click.Command = made(add_amount_options(function))
     return command
 
 
-def _help(shape: Shape) -> str:
+def _format_help(shape: Shape) -> str:
     article = "an" if shape.name.startswith("e") else "a"
     return (
         f"Compute the mass properties of {article} {shape.name} ({shape.what}).\n\n"
@@ -46,7 +46,7 @@ def _help(shape: Shape) -> str:
     )
 
 
-def _size_option(size: Size, label: str) -> Any:
+def _make_size_option(size: Size, label: str) -> Any:
     return click.option(
         f"--{size.name}",
         type=float,
@@ -64,43 +64,45 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
     check_pose(given["origin_xyz"], given["origin_rpy"])
     if closed and thickness is None:
         raise click.UsageError("--closed requires --thickness; a solid body has no end plates")
-    mass = _asked_mass(shape, mass, density)
-    sizes = {size.name: _asked_size(shape, size, given[size.name]) for size in shape.sizes}
+    mass = _get_mass(shape, mass, density)
+    sizes = {size.name: _get_size(shape, size, given[size.name]) for size in shape.sizes}
 
     from ..inertia.rounding import round_properties
-    from ..inertia.shapes import shape_properties
-    from ..model.pose import Pose, rotation_of_rpy
+    from ..inertia.shapes import compute_shape_properties
+    from ..model.pose import Pose, rotation_from_rpy
     from ..output import write_result
 
     def properties(**amount: float | None) -> Any:
-        return shape_properties(shape, sizes, thickness=thickness, closed=closed, **amount)
+        return compute_shape_properties(shape, sizes, thickness=thickness, closed=closed, **amount)
 
     alone = properties(mass=mass, density=density)
     what = shape.name if thickness is None else f"hollow {shape.name}"
-    pose = Pose(rotation_of_rpy(given["origin_rpy"]), given["origin_xyz"])
-    result = round_properties(alone.moved(pose), f"the {what}")
+    pose = Pose(rotation_from_rpy(given["origin_rpy"]), given["origin_xyz"])
+    result = round_properties(alone.transform(pose), f"the {what}")
     facts: dict[str, Any] = {"shape": shape.name, **sizes}
     if thickness is not None:
         facts |= {"thickness": thickness} | ({"closed": closed} if shape.ends else {})
     volume = properties(density=1.0).mass
     facts |= {"volume": volume, "density": alone.mass / volume}
     facts |= {"origin": {"xyz": given["origin_xyz"], "rpy": given["origin_rpy"]}}
-    text = _text(given["style"], what, result, facts)
+    text = _format_text(given["style"], what, result, facts)
     if text is None:
-        from ..inertia.macros import shape_call, shape_macro
+        from ..inertia.macros import get_shape_call, get_shape_macro
 
         place = {"xyz": given["origin_xyz"], "rpy": given["origin_rpy"]}
-        text = shape_macro(shape, hollow=thickness is not None)
-        text += shape_call(shape, sizes, alone.mass, thickness=thickness, closed=closed, **place)
+        text = get_shape_macro(shape, hollow=thickness is not None)
+        text += get_shape_call(
+            shape, sizes, alone.mass, thickness=thickness, closed=closed, **place
+        )
     write_result(text, given["output"])
     if given["style"] != "table":
-        from ..report.inertia import summary
+        from ..report.inertia import format_summary
 
-        console.note(summary(what, result))
+        console.note(format_summary(what, result))
     return 0
 
 
-def _text(style: str, what: str, result: Any, facts: dict[str, Any]) -> str | None:
+def _format_text(style: str, what: str, result: Any, facts: dict[str, Any]) -> str | None:
     """Format the result; None for xacro."""
     from ..inertia.rounding import round_number
     from ..report import inertia as report
@@ -110,28 +112,30 @@ def _text(style: str, what: str, result: Any, facts: dict[str, Any]) -> str | No
         return report.as_json(result, {**facts, "volume": volume, "density": density})
     if style == "table":
         shown = {"volume": f"{volume:.6g} m³", "density": f"{density:.6g} kg/m³"}
-        return report.table(what, result, shown)
+        return report.format_table(what, result, shown)
     if style == "xacro":
         return None
-    text: str = {"urdf": report.urdf, "sdf": report.sdf, "mjcf": report.mjcf}[style](result)
+    text: str = {"urdf": report.format_urdf, "sdf": report.format_sdf, "mjcf": report.format_mjcf}[
+        style
+    ](result)
     return text
 
 
-def _asked_mass(shape: Shape, mass: float | None, density: float | None) -> float | None:
-    from .inertia_ask import ask_mass, at_terminal
+def _get_mass(shape: Shape, mass: float | None, density: float | None) -> float | None:
+    from .inertia_ask import ask_mass, is_at_terminal
 
     if mass is not None or density is not None:
         return mass
-    if at_terminal():
+    if is_at_terminal():
         return ask_mass()
     raise click.UsageError(f"{shape.title} requires --mass M [kg] or --density D [kg/m³]")
 
 
-def _asked_size(shape: Shape, size: Size, value: Any) -> Any:
-    from .inertia_ask import ask_size, at_terminal
+def _get_size(shape: Shape, size: Size, value: Any) -> Any:
+    from .inertia_ask import ask_size, is_at_terminal
 
     if value is not None:
         return value
-    if at_terminal():
+    if is_at_terminal():
         return ask_size(size)
     raise click.UsageError(f"{shape.title} requires --{size.name} {size.metavar}: {size.what}")

@@ -8,13 +8,13 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import gltf_option, output_option, package_options, robot_argument
+from .options import add_gltf_option, add_package_options, add_robot_argument, make_output_option
 from .progress import Progress
 
 
 @click.command("info", cls=GroupedCommand, groups={"Output": "style output"})
-@robot_argument
-@output_option("Output file.  [default: standard output]")
+@add_robot_argument
+@make_output_option("Output file.  [default: standard output]")
 @click.option(
     "--format",
     "style",
@@ -23,8 +23,8 @@ from .progress import Progress
     show_default=True,
     help="Output format.",
 )
-@gltf_option
-@package_options
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -48,10 +48,10 @@ def command(
     from ..lint.validate import validate
     from ..output import write_result
     from ..report import info as report
-    from .read_lax import read_lax
+    from .load_tolerant import load_tolerant
 
     path, arguments = robot
-    model = read_lax(console, path, arguments, package, package_path)
+    model = load_tolerant(console, path, arguments, package, package_path)
     for finding in validate(model, "links"):
         console.note(f"{finding.location}: {finding.message}")
     with Progress(console, "meshes") as progress:
@@ -61,7 +61,7 @@ def command(
         text = report.to_json(model, counts, measured)
     else:
         colors = console.colors(to_file=output not in (None, "-"))
-        text = report.table(model, counts, measured, colors=colors)
+        text = report.format_table(model, counts, measured, colors=colors)
     inputs = [file.path for file in model.source.files] if model.source else []
     write_result(text, output, inputs=inputs)
     return 0

@@ -7,9 +7,9 @@ from pathlib import Path
 import click
 
 from ..console import Console
-from .cache_options import cache_options, cache_place
+from .cache_options import add_cache_options, choose_cache_folder
 from .grouped_help import GroupedCommand
-from .options import gltf_option, jobs_option, package_options, split_arguments
+from .options import add_gltf_option, add_jobs_option, add_package_options, split_arguments
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 _WITH_FIXES = ("full", "json", "sarif", "html")
@@ -86,12 +86,12 @@ _GROUPS = {
 )
 @click.option("--baseline", metavar="FILE", help="Ignore the findings that are listed in FILE.")
 @click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE as a baseline.")
-@jobs_option
-@cache_options
+@add_jobs_option
+@add_cache_options
 @click.option("--explain", metavar="RULE", help="Print the documentation of a rule and exit.")
 @click.option("--list-rules", is_flag=True, help="Print all rules and exit.")
-@gltf_option
-@package_options
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -138,13 +138,13 @@ def command(
     findings that remain; with --diff: something would be fixed). Exit code 2, with all options: a
     robot could not be read or expanded, and was not checked.
     """  # noqa: D301 -- click reads the escape
-    from ..lint.discover import find_descriptions, nothing_below
+    from ..lint.discover import explain_nothing_found, find_descriptions
     from ..lint.outcome import Options
-    from ..lint.parallel import lint_files
+    from ..lint.parallel import check_files
     from ..lint.settings import Settings, check_selectors, check_targets
-    from ..lint.skipped import with_parts, without_excluded
+    from ..lint.skipped import add_skipped_parts, exclude_files
     from ..workspace import Workspace
-    from .lint_report import Wanted, report
+    from .lint_report import OutputOptions, report
 
     if explain or list_rules:
         return _show_rules(explain)
@@ -153,9 +153,9 @@ def command(
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
     files = find_descriptions(paths)
     if not files:
-        raise click.UsageError(nothing_below(paths))
+        raise click.UsageError(explain_nothing_found(paths))
     workspace = Workspace()
-    files, excluded = without_excluded(files, paths, console.config, workspace)
+    files, excluded = exclude_files(files, paths, console.config, workspace)
     settings = Settings(
         select=check_selectors(select) if select else None,
         extend_select=check_selectors(extend_select),
@@ -165,7 +165,7 @@ def command(
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):
             raise click.UsageError(f"{option} requires --fix or --diff")
-    folder = cache_place("lint", cache_dir, no_cache)
+    folder = choose_cache_folder("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up, options.workspace = console.gltf_up, workspace
     if folder is not None:
@@ -174,7 +174,9 @@ def command(
 
         options.cache = Cache(DiskCache(folder))
     options.fixes = style is None or style in _WITH_FIXES
-    output = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
+    output = OutputOptions(
+        style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline
+    )
     output.paths, output.whole = paths, whole
     if fix or diff:
         from .lint_fix import Kinds, fix_files
@@ -183,7 +185,7 @@ def command(
         return fix_files(
             console, files, options, settings, output, jobs=jobs, kinds=kinds, diff=diff
         )
-    reports = with_parts(lint_files(files, options, jobs), paths)
+    reports = add_skipped_parts(check_files(files, options, jobs), paths)
     return report(console, [*reports, *excluded], settings, output)
 
 
@@ -191,7 +193,7 @@ def _show_rules(explain: str | None) -> int:
     from ..report import rule_pages
 
     if explain is None:
-        click.echo(rule_pages.rule_list(), nl=False)
+        click.echo(rule_pages.format_rule_list(), nl=False)
     else:
-        click.echo(rule_pages.page(explain), nl=False)
+        click.echo(rule_pages.format_page(explain), nl=False)
     return 0

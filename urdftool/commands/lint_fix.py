@@ -10,13 +10,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..console import Console
-from ..extras import missing
+from ..extras import make_missing_error
 
 if TYPE_CHECKING:
     from ..lint.fix_run import FixResult
     from ..lint.outcome import Options, Report
     from ..lint.settings import Settings
-    from .lint_report import Wanted
+    from .lint_report import OutputOptions
 
 _MOST = 6
 
@@ -38,7 +38,7 @@ def fix_files(
     files: Sequence[str],
     options: Options,
     settings: Settings,
-    output: Wanted,
+    output: OutputOptions,
     *,
     jobs: int | None,
     kinds: Kinds,
@@ -50,8 +50,8 @@ def fix_files(
     """
     from ..inertia.scales import Scales
     from ..lint.fix_run import apply_fixes
-    from ..lint.parallel import lint_files
-    from ..lint.skipped import with_parts
+    from ..lint.parallel import check_files
+    from ..lint.skipped import add_skipped_parts
     from ..rules.inertia.solids import DENSITY
     from ..workspace import STDIN
     from .lint_report import report
@@ -61,21 +61,21 @@ def fix_files(
     given = sys.stdin.buffer.read() if "-" in files else b""
     if "-" in files:
         options.workspace = options.workspace.with_overlay({STDIN: given})
-    reports = list(lint_files(files, options, jobs))
+    reports = list(check_files(files, options, jobs))
     done = apply_fixes(reports, options, unsafe=kinds.unsafe, meshes=kinds.meshes)
-    _say_broken(console, done)
+    _report_broken_fixes(console, done)
     code = 0 if diff else _write(console, done, reports, options)
-    _say_what_is_left(console, done.reports, kinds)
+    _report_unfixed(console, done.reports, kinds)
     if diff:
         return _show(console, done, output)
-    _say(console, "Fixed", done)
-    _say_where(console, done, files)
+    _report_count(console, "Fixed", done)
+    _report_files(console, done, files)
     if "-" in files:
         output.to_stderr = output.output_file is None
         sys.stdout.flush()
         sys.stdout.buffer.write(done.after.get(STDIN, given))
         sys.stdout.buffer.flush()
-    whole = with_parts(done.reports, output.paths)
+    whole = add_skipped_parts(done.reports, output.paths)
     return max(report(console, whole, settings, output), code)
 
 
@@ -87,7 +87,7 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
     """
     from ..errors import OutputError
     from ..lint.fix_run import concerns
-    from ..lint.run import lint_file
+    from ..lint.run import check_file
     from ..output import rewrite
     from ..workspace import STDIN
 
@@ -105,11 +105,11 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
     options = replace(options, workspace=options.workspace.unread())
     for number, report in enumerate(reports):
         if concerns(report, failed) or concerns(done.reports[number], failed):
-            done.reports[number] = lint_file(report.path, options)
+            done.reports[number] = check_file(report.path, options)
     return 2
 
 
-def _say_broken(console: Console, done: FixResult) -> None:
+def _report_broken_fixes(console: Console, done: FixResult) -> None:
     for rule, how in done.broken.items():
         console.say(
             f"the fix of {rule} was not applied, because it would introduce a defect: {how}. "
@@ -119,7 +119,7 @@ def _say_broken(console: Console, done: FixResult) -> None:
         console.note(f"not fixed [{rule}]: {how}")
 
 
-def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds) -> None:
+def _report_unfixed(console: Console, reports: Sequence[Report], kinds: Kinds) -> None:
     """Print which fixes could not be applied, and which options enable others."""
     outside: Counter[str] = Counter()
     for report in reports:
@@ -132,7 +132,7 @@ def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds)
         console.note(f"{what} not applied to {where}")
     skipped = {rule: name for report in reports for rule, name in report.skipped_fixes.items()}
     for rule, library in skipped.items():
-        console.note(str(missing(library, f"not fixed [{rule}]: the fix")))
+        console.note(str(make_missing_error(library, f"not fixed [{rule}]: the fix")))
     left: dict[str, set[tuple[str, str, int]]] = {}
     for finding in (f for report in reports for f in report.findings):
         if finding.fix is None:
@@ -157,7 +157,7 @@ _KINDS = {
 }
 
 
-def _say(console: Console, did: str, done: FixResult) -> None:
+def _report_count(console: Console, did: str, done: FixResult) -> None:
     """Print a line such as ``Fixed 5 in 2 files: axis-not-unit × 3, empty-dynamics × 2``."""
     total = sum(done.applied.values())
     if not total:
@@ -171,14 +171,14 @@ def _say(console: Console, did: str, done: FixResult) -> None:
     console.note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
 
 
-def _say_where(console: Console, done: FixResult, files: Sequence[str]) -> None:
+def _report_files(console: Console, done: FixResult, files: Sequence[str]) -> None:
     """Print the files that were changed or created in addition to the named ones."""
-    from ..source.packages import shown_path
+    from ..source.packages import shorten_path
 
     asked = {os.path.realpath(path) for path in files}
     for what, new in (("changed", False), ("created", True)):
         paths = [
-            shown_path(path)
+            shorten_path(path)
             for path, before in done.before.items()
             if (before is None) is new
             and before != done.after[path]
@@ -188,14 +188,14 @@ def _say_where(console: Console, done: FixResult, files: Sequence[str]) -> None:
             console.note(f"{what}: {', '.join(sorted(paths))}")
 
 
-def _show(console: Console, done: FixResult, output: Wanted) -> int:
+def _show(console: Console, done: FixResult, output: OutputOptions) -> int:
     """Print the fixes as a unified diff; return 1 if there are any."""
     from ..output import write_result
-    from ..report.file_diff import file_diff
+    from ..report.file_diff import format_file_diff
 
     changed = [path for path, data in done.after.items() if data != done.before[path]]
-    text = "".join(file_diff(path, done.before[path], done.after[path]) for path in changed)
+    text = "".join(format_file_diff(path, done.before[path], done.after[path]) for path in changed)
     inputs = [path for path in done.after if os.path.exists(path)]
     write_result(text, output.output_file, inputs=inputs)
-    _say(console, "Would fix", done)
+    _report_count(console, "Would fix", done)
     return int(bool(changed) and not output.exit_zero)

@@ -21,7 +21,7 @@ _MOST_ENTRIES = 3
 
 
 @dataclass
-class Wanted:
+class OutputOptions:
     """Options of the report.
 
     Attributes:
@@ -49,22 +49,24 @@ class Wanted:
     whole: bool = False
 
 
-def report(console: Console, reports: Iterable[Report], settings: Settings, output: Wanted) -> int:
+def report(
+    console: Console, reports: Iterable[Report], settings: Settings, output: OutputOptions
+) -> int:
     """Print the report of a run, and return the exit code."""
     from ..diagnostic import Severity
-    from ..lint.group import together
+    from ..lint.group import group_outcome
     from ..lint.merge import gather
     from ..output import check_targets, write_result
-    from ..report.findings import summary
+    from ..report.findings import summarize
     from ..report.findings_formats import as_text
-    from ..report.findings_screen import MANY, advice
-    from ..report.findings_words import skipped_rules
+    from ..report.findings_screen import MANY, format_advice
+    from ..report.findings_words import list_skipped_rules
 
     outcome = gather(reports)
-    check_targets((output.output_file, output.write_baseline), inputs=_inputs(outcome))
+    check_targets((output.output_file, output.write_baseline), inputs=_list_inputs(outcome))
     if output.baseline or output.write_baseline:
-        outcome = _with_baseline(console, outcome, settings, output)
-    outcome = together(outcome)
+        outcome = _apply_baseline(console, outcome, settings, output)
+    outcome = group_outcome(outcome)
     threshold = Severity[output.fail_on.upper()]
     to_file = output.output_file not in (None, "-")
     at_terminal = not to_file and sys.stdout.isatty()
@@ -81,15 +83,15 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, outp
     if output.to_stderr:
         click.echo(text, err=True, nl=False)
     else:
-        write_result(text, output.output_file, inputs=_inputs(outcome) if to_file else [])
+        write_result(text, output.output_file, inputs=_list_inputs(outcome) if to_file else [])
     _report_skipped(console, outcome.reports, output.paths)
-    broken = _say_the_rest(console, outcome.reports)
+    broken = _report_errors(console, outcome.reports)
     if any(report.checked or report.stopped for report in outcome.reports):
-        console.note(summary(outcome))
-        for line in skipped_rules(outcome):
+        console.note(summarize(outcome))
+        for line in list_skipped_rules(outcome):
             console.note(line)
         people = style in ("full", "concise") and not output.statistics
-        for line in advice(outcome.findings) if people else ():
+        for line in format_advice(outcome.findings) if people else ():
             console.note(line)
     if broken:
         return broken
@@ -98,7 +100,7 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, outp
     return int(failed and not output.exit_zero)
 
 
-def _inputs(outcome: Outcome) -> list[str]:
+def _list_inputs(outcome: Outcome) -> list[str]:
     """Return all source files of all descriptions."""
     from ..source.document import STDIN
 
@@ -106,12 +108,12 @@ def _inputs(outcome: Outcome) -> list[str]:
     return [path for path in dict.fromkeys(named) if path not in ("-", STDIN)]
 
 
-def _with_baseline(
-    console: Console, outcome: Outcome, settings: Settings, output: Wanted
+def _apply_baseline(
+    console: Console, outcome: Outcome, settings: Settings, output: OutputOptions
 ) -> Outcome:
     """Remove the findings of the baseline from a run; first write the baseline if requested."""
     from ..lint.baseline import compare, read_baseline
-    from ..lint.stale import looked_for
+    from ..lint.stale import list_expired_candidates
 
     old = read_baseline(output.baseline) if output.baseline else None
     if output.write_baseline:
@@ -121,9 +123,9 @@ def _with_baseline(
     if old is None:
         return outcome
     outcome, unmatched = compare(outcome, old)
-    stale = looked_for(unmatched, old, outcome, settings)
+    stale = list_expired_candidates(unmatched, old, outcome, settings)
     if stale:
-        console.note(_said(old, stale))
+        console.note(_describe_stale(old, stale))
     return outcome
 
 
@@ -131,8 +133,8 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     """Write a baseline; keep entries of the old file for which this run did not search."""
     import os
 
-    from ..lint.baseline import baseline_of, read_baseline, to_text
-    from ..lint.stale import looked_for
+    from ..lint.baseline import make_baseline, read_baseline, to_text
+    from ..lint.stale import list_expired_candidates
     from ..output import write_result
 
     if not outcome.complete:
@@ -141,16 +143,16 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     entries = {}
     if os.path.exists(path):
         old = read_baseline(path)
-        gone = set(looked_for(old.counts, old, outcome, settings))
+        gone = set(list_expired_candidates(old.counts, old, outcome, settings))
         entries = {entry: count for entry, count in old.counts.items() if entry not in gone}
-    written = baseline_of(path, outcome.findings, entries)
-    write_result(to_text(written), path, inputs=_inputs(outcome))
+    written = make_baseline(path, outcome.findings, entries)
+    write_result(to_text(written), path, inputs=_list_inputs(outcome))
     number = len(written.counts)
     console.note(f"{path}: written, {number} {'entry' if number == 1 else 'entries'}")
     return written
 
 
-def _said(baseline: Baseline, stale: list[Entry]) -> str:
+def _describe_stale(baseline: Baseline, stale: list[Entry]) -> str:
     """Describe the baseline entries that match no finding, with the first of them."""
     some = [f"{e.path}: {e.rule} of {e.kind} '{e.name}'" for e in stale[:_MOST_ENTRIES]]
     more = ["…"] if len(stale) > _MOST_ENTRIES else []
@@ -181,7 +183,7 @@ def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence
         console.note(f"{shown}: skipped, {why}", level=level)
 
 
-def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
+def _report_errors(console: Console, reports: Iterable[Report]) -> int:
     """Print errors of files and of rules, and return their exit code; 0 without errors."""
     from .. import __version__
     from ..cli import REPORT_BUGS

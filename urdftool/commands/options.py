@@ -42,24 +42,24 @@ def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
     return paths, arguments
 
 
-def robot_argument(function: F) -> F:
+def add_robot_argument(function: F) -> F:
     """Add ``IN [name:=value …]``, whose value is the path and the xacro arguments by name."""
     return click.argument(
         "robot",
         nargs=-1,
         type=str,
         metavar="IN [name:=value ...]",
-        callback=_robot,
+        callback=_parse_robot,
     )(function)
 
 
-def _robot(
+def _parse_robot(
     ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]
 ) -> tuple[str, dict[str, str]]:
-    return one_robot(ctx, words)
+    return parse_robot(ctx, words)
 
 
-def one_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[str, str]]:
+def parse_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[str, str]]:
     """Return the single path among words, and the xacro arguments by name.
 
     Raises:
@@ -79,7 +79,7 @@ def one_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[str
     return paths[0], arguments
 
 
-def package_options(function: F) -> F:
+def add_package_options(function: F) -> F:
     """Add ``-p``, a dictionary of folders by package name, and ``--package-path``, a tuple."""
     function = click.option(
         "--package-path",
@@ -94,12 +94,12 @@ def package_options(function: F) -> F:
         "package",
         multiple=True,
         metavar="NAME=DIR",
-        callback=_packages,
+        callback=_parse_packages,
         help="Folder of the ROS package NAME. Repeatable.",
     )(function)
 
 
-def _packages(
+def _parse_packages(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, Path]:
     found = {}
@@ -113,7 +113,7 @@ def _packages(
     return found
 
 
-def jobs_option(function: F) -> F:
+def add_jobs_option(function: F) -> F:
     """Add ``-j``, the number of worker processes; None for the default of the command."""
     return click.option(
         "-j",
@@ -124,33 +124,33 @@ def jobs_option(function: F) -> F:
     )(function)
 
 
-def gltf_option(function: F) -> F:
+def add_gltf_option(function: F) -> F:
     """Add ``--gltf-up``, whose value is stored in the :class:`Console`."""
     return click.option(
         "--gltf-up",
         type=click.Choice(("y", "z")),
         expose_value=False,
-        callback=_gltf_up,
+        callback=_set_gltf_up,
         help="Up axis of glTF meshes: y as in the glTF standard and RViz, z as in Gazebo (axes are "
         "not converted).  [default: y]",
     )(function)
 
 
-def _gltf_up(ctx: click.Context, parameter: click.Parameter, value: GltfUp | None) -> None:
+def _set_gltf_up(ctx: click.Context, parameter: click.Parameter, value: GltfUp | None) -> None:
     if value is not None:
         console = ctx.find_object(Console)
         assert console is not None
         console.gltf_up = value
 
 
-def gltf_up_for(console: Console, file: str) -> GltfUp:
+def get_gltf_up(console: Console, file: str) -> GltfUp:
     """Return the up axis of a glTF file, from the command line or the configuration."""
     from ..configuration import find_configuration
 
     return console.gltf_up or find_configuration(file, console.config).gltf_up
 
 
-def scale_factors(
+def parse_scale(
     ctx: click.Context, parameter: click.Parameter, value: str
 ) -> tuple[float, float, float]:
     """Parse the value of ``--scale``: one factor, or three for x, y and z."""
@@ -164,12 +164,12 @@ def scale_factors(
     return x, y, z
 
 
-def output_option(help_text: str) -> Callable[[F], F]:
+def make_output_option(help_text: str) -> Callable[[F], F]:
     """Make the option ``-o FILE``; ``-`` is standard output."""
     return click.option("-o", "--output", metavar="FILE", help=help_text)
 
 
-def name_numbers(
+def parse_name_numbers(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
     """Parse ``NAME=NUMBER`` values of a repeatable option.

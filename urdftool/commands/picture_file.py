@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
 
 
-def checked_picture(picture: str | None, option: str = "--picture") -> None:
+def check_picture_name(picture: str | None, option: str = "--picture") -> None:
     """Refuse a picture that cannot be written, before anything is computed.
 
     Raises:
@@ -38,10 +38,10 @@ def check_picture(picture: str | None, robot: Robot) -> None:
     """
     if picture is None:
         return
-    from ..model.files import sources
+    from ..model.files import list_sources
     from ..output import check_target
 
-    check_target(picture, inputs=sorted(sources(robot)))
+    check_target(picture, inputs=sorted(list_sources(robot)))
 
 
 def write_picture(data: bytes, target: str, robot: Robot) -> None:
@@ -50,7 +50,7 @@ def write_picture(data: bytes, target: str, robot: Robot) -> None:
     Raises:
         OutputError: The file cannot be written, or is a source file of the robot.
     """
-    from ..model.files import sources
+    from ..model.files import list_sources
     from ..output import write_file
 
-    write_file(target, data, inputs=sorted(sources(robot)))
+    write_file(target, data, inputs=sorted(list_sources(robot)))

@@ -56,7 +56,7 @@ class Progress:
     def __enter__(self) -> Progress:
         """Return itself."""
         if self.wanted and self.timed:
-            self._thread = Thread(target=self._tick, daemon=True)
+            self._thread = Thread(target=self._run_timer, daemon=True)
             self._thread.start()
         return self
 
@@ -86,7 +86,7 @@ class Progress:
         if self._shown:
             click.echo("\r\033[K", err=True, nl=False)
 
-    def _tick(self) -> None:
+    def _run_timer(self) -> None:
         if not self._is_terminal:
             wait = PIPE_PATIENCE
             while not self._over.wait(wait):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import Console
-from .read_strict import finder_of, read_strict, say_unknown
+from .load_strict import get_finder, load_strict, report_unknown_arguments
 
 if TYPE_CHECKING:
     from ..formats.registry import Format
@@ -39,18 +39,18 @@ def read_any(
     """
     from ..errors import ModelError
     from ..formats.detect import format_of
-    from ..model.load import robot_of
+    from ..model.load import make_robot
     from ..source.document import read_file
 
     path, arguments = robot
     file = read_file(path)
     found = format_of(file)
     if found.name == "urdf":
-        return robot_of(read_strict(console, robot, packages, package_paths, file=file))
+        return make_robot(load_strict(console, robot, packages, package_paths, file=file))
     if edit:
         message = f"{edit} requires a URDF or xacro file; this is {found.title}"
         raise ModelError(message, path=path)
-    finder = finder_of(console, file, packages, package_paths)
+    finder = get_finder(console, file, packages, package_paths)
     return read_other(console, found, file, arguments, finder)
 
 
@@ -85,5 +85,5 @@ def read_other(
     if robot.source is not None:
         robot.source.arguments.update(arguments)
         robot.source.gltf_up = console.gltf_up or robot.source.gltf_up
-        say_unknown(console, robot.source, shown=shown)
+        report_unknown_arguments(console, robot.source, shown=shown)
     return robot

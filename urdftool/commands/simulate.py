@@ -9,9 +9,9 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import gltf_option, package_options
-from .simulate_more import more_options, robots_argument
-from .simulate_options import settings_options
+from .options import add_gltf_option, add_package_options
+from .simulate_engine_options import add_engine_options, add_robots_argument
+from .simulate_options import add_simulation_options
 
 _GROUPS = {
     "Simulation": "engine duration timestep trials seed sweep fleet",
@@ -23,9 +23,9 @@ _GROUPS = {
 
 
 @click.command("simulate", cls=GroupedCommand, groups=_GROUPS)
-@robots_argument
-@settings_options
-@more_options
+@add_robots_argument
+@add_simulation_options
+@add_engine_options
 @click.option(
     "--format",
     "style",
@@ -35,8 +35,8 @@ _GROUPS = {
     metavar="FORMAT",
     help="Output format: text, json (with time series of a single robot), junit.",
 )
-@gltf_option
-@package_options
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -65,20 +65,20 @@ def command(
     from ..simulation.engine_process import EngineProcess
     from ..simulation.engines.registry import (
         check_engines,
-        default_engine,
-        engine_names,
-        library_of,
+        choose_default_engine,
+        get_engine_names,
+        get_library,
     )
-    from ..simulation.hull_cache import using_cache
-    from .cache_options import cache_place
-    from .read_lax import read_lax
-    from .simulate_control import controlled
+    from ..simulation.hull_cache import use_cache
+    from .cache_options import choose_cache_folder
+    from .load_tolerant import load_tolerant
+    from .simulate_control import apply_controllers
     from .simulate_fleet import Fleet, simulate_fleet
-    from .simulate_one import configured_thresholds, simulate_one
-    from .simulate_options import settings_of
+    from .simulate_one import read_configured_thresholds, simulate_one
+    from .simulate_options import make_settings
     from .simulate_outputs import Outputs, check_output
 
-    engines = engine_names(values["engine"] or default_engine())
+    engines = get_engine_names(values["engine"] or choose_default_engine())
     controllers, strict, junit = values["controllers"], values["strict"], values["junit"]
     outputs = Outputs(values["plot"], values["picture"], values["video"])
     outputs.check()
@@ -86,8 +86,8 @@ def command(
         check_output("--junit", junit, "")
     check_engines(engines)
     require("'urdftool simulate'", "scipy", "manifold3d")
-    settings = settings_of(values)
-    cache = cache_place("simulate", values["cache_dir"], values["no_cache"])
+    settings = make_settings(values)
+    cache = choose_cache_folder("simulate", values["cache_dir"], values["no_cache"])
     paths, arguments = robot
     if values["fleet"]:
         if outputs.wanted:
@@ -98,14 +98,14 @@ def command(
         )  # fmt: skip
         with terminate_gracefully():
             return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
-    thresholds = configured_thresholds(console, paths[0])
+    thresholds = read_configured_thresholds(console, paths[0])
     with (
         terminate_gracefully(),
-        using_cache(cache),
-        EngineProcess(library_of(engines[0])) as child,  # which starts meanwhile
+        use_cache(cache),
+        EngineProcess(get_library(engines[0])) as child,  # which starts meanwhile
     ):
-        model = read_lax(console, paths[0], arguments, package, package_path)
-        settings = controlled(console, settings, model, controllers, strict=strict)
+        model = load_tolerant(console, paths[0], arguments, package, package_path)
+        settings = apply_controllers(console, settings, model, controllers, strict=strict)
         return simulate_one(
             console,
             model,

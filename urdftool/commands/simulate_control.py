@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..simulation.settings import Settings
 
 
-def controlled(
+def apply_controllers(
     console: Console, settings: Settings, robot: Robot, path: str | None, *, strict: bool = False
 ) -> Settings:
     """Add the controllers of a file to the settings.

@@ -52,23 +52,23 @@ class Fleet:
             UrdftoolError: The robot cannot be read or simulated.
         """
         from ..simulation.fleet import Row, make_row
-        from ..simulation.hull_cache import using_cache
-        from .read_lax import read_lax
-        from .simulate_control import controlled
-        from .simulate_one import configured_thresholds, judged
+        from ..simulation.hull_cache import use_cache
+        from .load_tolerant import load_tolerant
+        from .simulate_control import apply_controllers
+        from .simulate_one import read_configured_thresholds, simulate_and_judge
 
-        robot = read_lax(
+        robot = load_tolerant(
             self.console, path, self.arguments, self.packages, self.package_paths, many=True
         )
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="the file has macros only, and no link")
-        settings = controlled(
+        settings = apply_controllers(
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
-        with using_cache(self.cache):
-            thresholds = configured_thresholds(self.console, path)
-            verdicts, comparison = judged(robot, settings, self.engines, thresholds)
-        differ = comparison.faults(robot) if comparison is not None else []
+        with use_cache(self.cache):
+            thresholds = read_configured_thresholds(self.console, path)
+            verdicts, comparison = simulate_and_judge(robot, settings, self.engines, thresholds)
+        differ = comparison.report_faults(robot) if comparison is not None else []
         return make_row(path, robot.name, [v for some in verdicts for v in some], differ)
 
 
@@ -92,20 +92,20 @@ def simulate_fleet(
     Raises:
         OutputError: The JUnit file cannot be written.
     """
-    from ..lint.discover import find_descriptions, nothing_below
+    from ..lint.discover import explain_nothing_found, find_descriptions
     from ..output import write_file
     from ..report import simulate_fleet as report
     from ..simulation import verdict  # noqa: F401 -- forked workers then have it
-    from ..simulation.fleet import PATIENCE, in_parallel
+    from ..simulation.fleet import PATIENCE, run_in_parallel
 
     console = fleet.console
     found = find_descriptions(paths)
     if not found:
-        raise click.UsageError(nothing_below(paths))
+        raise click.UsageError(explain_nothing_found(paths))
     limit = len(fleet.engines) * fleet.settings.time_limit + PATIENCE
     rows = {}
     with Progress(console, "robots") as progress:
-        for row in in_parallel(found, fleet, jobs=jobs, limit=limit):
+        for row in run_in_parallel(found, fleet, jobs=jobs, limit=limit):
             rows[row.path] = row
             progress(len(rows), len(found), row.path)
     ordered = [rows[path] for path in found]
@@ -116,7 +116,7 @@ def simulate_fleet(
     elif style == "junit":
         click.echo(report.to_junit(ordered), nl=False)
     else:
-        text = report.table(ordered, colors=console.colors(), skipped=console.verbosity > 0)
+        text = report.format_table(ordered, colors=console.colors(), skipped=console.verbosity > 0)
         click.echo(text, nl=False)
     for row in ordered:
         if row.error is not None and (style != "text" or console.verbosity > 0):

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .simulate_outputs import Outputs
 
 
-def configured_thresholds(console: Console, path: str) -> Thresholds:
+def read_configured_thresholds(console: Console, path: str) -> Thresholds:
     """Read the thresholds of the configuration that applies to a description.
 
     Raises:
@@ -33,7 +33,7 @@ def configured_thresholds(console: Console, path: str) -> Thresholds:
     return read_thresholds(configuration.simulate, configuration.path)
 
 
-def judged(
+def simulate_and_judge(
     robot: Robot,
     settings: Settings,
     engines: tuple[str, ...],
@@ -100,20 +100,22 @@ def simulate_one(
     Raises:
         UrdftoolError: The robot cannot be simulated, or a file cannot be written.
     """
-    from ..model.files import sources
+    from ..model.files import list_sources
     from ..output import check_targets, write_file
     from ..report import simulate as report
     from ..report import simulate_fleet as rows
     from ..simulation.fleet import make_row
 
     files = (junit, outputs.plot, outputs.picture, outputs.video)
-    check_targets(files, inputs=sorted(sources(robot)))
+    check_targets(files, inputs=sorted(list_sources(robot)))
     outputs.read(console, robot)
     with Progress(console, "trials", timed=True) as progress:
-        verdicts, comparison = judged(robot, settings, engines, thresholds, progress, child)
+        verdicts, comparison = simulate_and_judge(
+            robot, settings, engines, thresholds, progress, child
+        )
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""
-    differ = comparison.faults(robot) if comparison is not None else []
+    differ = comparison.report_faults(robot) if comparison is not None else []
     row = make_row(path, robot.name, everything, differ)
     if style == "json":
         timings = console.verbosity > 0
@@ -123,10 +125,10 @@ def simulate_one(
         click.echo(rows.to_junit([row]), nl=False)
     else:
         for some in verdicts:
-            click.echo(report.text(robot, some, colors=console.colors()), nl=False)
+            click.echo(report.format_text(robot, some, colors=console.colors()), nl=False)
         if comparison is not None:
-            click.echo(report.comparison_text(comparison, colors=console.colors()), nl=False)
+            click.echo(report.format_comparison_text(comparison, colors=console.colors()), nl=False)
     if junit is not None:
-        write_file(junit, rows.to_junit([row]).encode("utf-8"), inputs=sorted(sources(robot)))
+        write_file(junit, rows.to_junit([row]).encode("utf-8"), inputs=sorted(list_sources(robot)))
     outputs.write(console, robot, [some[0].run for some in verdicts])
     return 0 if row.stands else 1

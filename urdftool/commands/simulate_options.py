@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from .options import name_numbers
+from .options import parse_name_numbers
 
 if TYPE_CHECKING:
     from ..simulation.settings import Settings
@@ -16,16 +16,18 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def _finite(ctx: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+def _check_finite(
+    ctx: click.Context, parameter: click.Parameter, value: float | None
+) -> float | None:
     if value is not None and not math.isfinite(value):
         raise click.BadParameter(f"'{value}' is not a finite number", ctx, parameter)
     return value
 
 
-def _payloads(
+def _parse_payloads(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
-    found = name_numbers(ctx, parameter, values)
+    found = parse_name_numbers(ctx, parameter, values)
     if any(mass < 0 for mass in found.values()):
         raise click.BadParameter("the mass of a payload is negative", ctx, parameter)
     return found
@@ -52,7 +54,7 @@ _OPTIONS = (
         "--height",
         type=float,
         metavar="M",
-        callback=_finite,
+        callback=_check_finite,
         help="Spawn height of the root link [m].  [default: just above contact]",
     ),
     click.option(
@@ -78,7 +80,7 @@ _OPTIONS = (
         "--pose",
         multiple=True,
         metavar="JOINT=VALUE",
-        callback=name_numbers,
+        callback=parse_name_numbers,
         help="Initial and held position of a joint [rad or m]. Repeatable.",
     ),
     click.option("--fixed-base", is_flag=True, help="Fix the root link to the world."),
@@ -86,7 +88,7 @@ _OPTIONS = (
         "--payload",
         multiple=True,
         metavar="LINK=KG",
-        callback=_payloads,
+        callback=_parse_payloads,
         help="Point mass at the center of mass of a link [kg]. Repeatable.",
     ),
     click.option(
@@ -137,14 +139,14 @@ _OPTIONS = (
 )
 
 
-def settings_options(function: F) -> F:
+def add_simulation_options(function: F) -> F:
     """Add the options; :func:`settings_of` makes settings of their values."""
     for option in reversed(_OPTIONS):
         function = option(function)
     return function
 
 
-def settings_of(values: dict[str, Any]) -> Settings:
+def make_settings(values: dict[str, Any]) -> Settings:
     """Make the settings from the values of the options, by parameter name."""
     from ..simulation.settings import Settings
 

@@ -71,12 +71,12 @@ class Outputs:
         """
         if not (self.picture or self.video):
             return
-        from ..drawing.shapes import robot_shapes
+        from ..drawing.shapes import read_robot_shapes
         from ..errors import ModelError
 
         for show in ("visual", "collision"):
             with Progress(console, "meshes") as progress:
-                self.shapes = robot_shapes(robot, show=show, progress=progress)
+                self.shapes = read_robot_shapes(robot, show=show, progress=progress)
             for problem in self.shapes.problems:
                 console.error(problem)
             if len(self.shapes):

@@ -9,8 +9,8 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import gltf_option, package_options, robot_argument
-from .view_picture import picture_options
+from .options import add_gltf_option, add_package_options, add_robot_argument
+from .view_picture import add_picture_options
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -24,7 +24,7 @@ _GROUPS = {
 
 
 @click.command("view", cls=GroupedCommand, groups=_GROUPS)
-@robot_argument
+@add_robot_argument
 @click.option(
     "--port",
     type=click.IntRange(1, 65535),
@@ -39,9 +39,9 @@ _GROUPS = {
 )
 @click.option("--open", "opened", is_flag=True, help="Open the page in the browser.")
 @click.option("--no-lint", "unlinted", is_flag=True, help="Show no lint findings on the page.")
-@picture_options
-@gltf_option
-@package_options
+@add_picture_options
+@add_gltf_option
+@add_package_options
 @click.pass_obj
 def command(
     console: Console,
@@ -71,7 +71,7 @@ def command(
         urdftool view arm.urdf --picture arm.png --camera 30,15
         urdftool view gripper.stl
     """  # noqa: D301 -- click reads the escape
-    from .read_lax import read_lax
+    from .load_tolerant import load_tolerant
     from .view_mesh import is_mesh, read_mesh_robot
 
     path, arguments = robot
@@ -79,7 +79,7 @@ def command(
     def read() -> Robot:
         if is_mesh(path):
             return read_mesh_robot(console, path, package, package_path)
-        return read_lax(console, path, arguments, package, package_path)
+        return load_tolerant(console, path, arguments, package, package_path)
 
     if picture is not None or contact_sheet is not None:
         from .view_picture import check_pictures, write_pictures

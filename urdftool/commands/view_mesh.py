@@ -38,9 +38,9 @@ def read_mesh_robot(
         UrdftoolError: The file is not found, or cannot be read.
     """
     from ..geometry.load import load_named
-    from ..model.load import robot_of
+    from ..model.load import make_robot
     from ..source.location import SourceFile
-    from .read_strict import read_configured
+    from .load_strict import read_configured
 
     name = quoteattr(Path(path).name)
     shape = f"<geometry><mesh filename={name}/></geometry>"
@@ -51,4 +51,4 @@ def read_mesh_robot(
     file = SourceFile(path, text.encode("utf-8", "surrogateescape"))
     description = read_configured(console, path, {}, packages, package_paths, file=file)
     load_named(description, Path(path).name, (1.0, 1.0, 1.0))
-    return robot_of(description)
+    return make_robot(description)

@@ -45,10 +45,10 @@ def serve_page(
             cannot be used, or viser is not installed.
     """
     from ..model.kinematics import check_positions
-    from ..viewer.page import Page, worthy
-    from ..viewer.server import LOOPBACK, address, choose_port, is_loopback, start
+    from ..viewer.page import Page, require_viewable
+    from ..viewer.server import LOOPBACK, choose_port, is_loopback, make_url, start
 
-    robot = worthy(read())
+    robot = require_viewable(read())
     check_positions(robot, pose)
     host = host or LOOPBACK
     port = choose_port(host, port)
@@ -67,7 +67,7 @@ def serve_page(
             shown=("errors", *(("visual", "collision") if show == "both" else (show,))),
         )
         pages.append(page)
-        where = address(host, port)
+        where = make_url(host, port)
         write_result(f"{where}\n", None)
         console.note("press Ctrl-C to stop")
         if opened and not webbrowser.open(where):
@@ -78,10 +78,10 @@ def serve_page(
 
 
 def _load(console: Console, robot: Robot, kind: str) -> Shapes:
-    from ..drawing.shapes import robot_shapes
+    from ..drawing.shapes import read_robot_shapes
 
     with Progress(console, "meshes") as progress:
-        return robot_shapes(robot, show=kind, progress=progress)
+        return read_robot_shapes(robot, show=kind, progress=progress)
 
 
 def _check(console: Console, robot: Robot) -> list[Finding]:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
-from .picture_file import checked_picture, write_picture
+from .load_strict import report_gltf_axes
+from .picture_file import check_picture_name, write_picture
 from .progress import Progress
-from .read_strict import say_gltf
 
 if TYPE_CHECKING:
     from ..drawing.camera import Camera
@@ -27,7 +27,7 @@ LARGEST = 4096
 _MAX_SHEET = 120_000_000  # pixels
 
 
-def _size(
+def _parse_size(
     ctx: click.Context, parameter: click.Parameter, value: str | None
 ) -> tuple[int, int] | None:
     if value is None:
@@ -46,7 +46,7 @@ def _size(
     return size
 
 
-def _camera(
+def _parse_camera(
     ctx: click.Context, parameter: click.Parameter, value: str | None
 ) -> tuple[float, ...] | None:
     if value is None:
@@ -72,7 +72,7 @@ def _camera(
     return numbers
 
 
-def _pose(
+def _parse_pose(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
     positions: dict[str, float] = {}
@@ -102,13 +102,13 @@ _OPTIONS = (
     click.option(
         "--size",
         metavar="WxH",
-        callback=_size,
+        callback=_parse_size,
         help="Size of the picture or of each cell [pixels].  [default: 1280x960]",
     ),
     click.option(
         "--camera",
         metavar="AZ,EL[,DIST]",
-        callback=_camera,
+        callback=_parse_camera,
         help="Azimuth, elevation [degrees] and distance [m] of the camera: 0,0 is in front of the "
         "robot, 90,0 on its left; by default the robot fits the picture.  [default: -40,22]",
     ),
@@ -116,7 +116,7 @@ _OPTIONS = (
         "--pose",
         metavar="JOINT=VALUE",
         multiple=True,
-        callback=_pose,
+        callback=_parse_pose,
         help="Position of a joint [rad or m]; mimic joints follow. Repeatable.  [default: 0]",
     ),
     click.option(
@@ -129,7 +129,7 @@ _OPTIONS = (
 )
 
 
-def picture_options(function: F) -> F:
+def add_picture_options(function: F) -> F:
     """Add the options."""
     for option in reversed(_OPTIONS):
         function = option(function)
@@ -138,8 +138,8 @@ def picture_options(function: F) -> F:
 
 def check_pictures(picture: str | None, contact_sheet: str | None) -> None:
     """Refuse files that cannot be written, before the robot is read."""
-    checked_picture(picture)
-    checked_picture(contact_sheet, "--contact-sheet")
+    check_picture_name(picture)
+    check_picture_name(contact_sheet, "--contact-sheet")
 
 
 def write_pictures(
@@ -176,23 +176,23 @@ def write_pictures(
         OutputError: A file cannot be written.
     """
     from ..drawing.picture import SIZE, draw, png
-    from ..drawing.shapes import robot_shapes
+    from ..drawing.shapes import read_robot_shapes
     from ..errors import ModelError
-    from ..model.files import sources
-    from ..model.kinematics import check_positions, link_poses, with_mimics
+    from ..model.files import list_sources
+    from ..model.kinematics import add_mimic_positions, check_positions, link_poses
     from ..output import check_targets
 
     check_pictures(picture, contact_sheet)
-    check_targets((picture, contact_sheet), inputs=sorted(sources(robot)))
+    check_targets((picture, contact_sheet), inputs=sorted(list_sources(robot)))
     positions = dict(pose or {})
     check_positions(robot, positions)
     pixels = _pixels(robot, size or SIZE, camera, is_sheet=picture is None)
     with Progress(console, "meshes") as progress:
-        shapes = robot_shapes(robot, show=show, progress=progress, pixels=pixels)
+        shapes = read_robot_shapes(robot, show=show, progress=progress, pixels=pixels)
     for problem in shapes.problems:
         console.error(problem)
-    say_gltf(console, robot)
-    poses = link_poses(robot, with_mimics(robot, positions))
+    report_gltf_axes(console, robot)
+    poses = link_poses(robot, add_mimic_positions(robot, positions))
     if not len(shapes):
         what = "" if show == "both" else f"{show} "
         other = any(link.collisions if show == "visual" else link.visuals for link in robot.links)
@@ -206,7 +206,7 @@ def write_pictures(
                 at=link.place,
             )
         )
-    seen_from = None if camera is None else _placed(camera)
+    seen_from = None if camera is None else _make_camera(camera)
     if picture is not None:
         image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
         write_picture(png(image), picture, robot)
@@ -220,14 +220,14 @@ def _pixels(
     robot: Robot, size: tuple[int, int], camera: tuple[float, ...] | None, *, is_sheet: bool
 ) -> int | None:
     """Return how many pixels the robot may cover; None for a camera at a given distance."""
-    from ..drawing.contact_sheet import layout_of, sweeps_of
+    from ..drawing.contact_sheet import choose_layout, list_sweeps
 
     if camera is not None and len(camera) == 3:
         return None
-    return max(layout_of(len(sweeps_of(robot))).cell if is_sheet else size)
+    return max(choose_layout(len(list_sweeps(robot))).cell if is_sheet else size)
 
 
-def _placed(camera: tuple[float, ...]) -> Camera:
+def _make_camera(camera: tuple[float, ...]) -> Camera:
     from ..drawing.camera import Camera
 
     distance = camera[2] if len(camera) == 3 else None
@@ -243,25 +243,30 @@ def _write_sheet(
     camera: Camera | None,
     cell: tuple[int, int] | None,
 ) -> None:
-    from ..drawing.contact_sheet import contact_sheet, layout_of, shown_links, sweeps_of
+    from ..drawing.contact_sheet import (
+        choose_layout,
+        draw_contact_sheet,
+        list_shown_links,
+        list_sweeps,
+    )
     from ..drawing.png_file import png
     from ..errors import ModelError
 
-    sweeps = sweeps_of(robot, shown=shown_links(shapes))
+    sweeps = list_sweeps(robot, shown=list_shown_links(shapes))
     if not sweeps:
-        what = "moves geometry" if sweeps_of(robot) else "is movable"
+        what = "moves geometry" if list_sweeps(robot) else "is movable"
         raise ModelError(
             f"no joint of the robot {what}, so a contact sheet has no content; use --picture",
             at=robot.place,
         )
-    layout = layout_of(len(sweeps), cell)
+    layout = choose_layout(len(sweeps), cell)
     if layout.width * layout.height > _MAX_SHEET:
         raise click.UsageError(
             f"the contact sheet of {len(sweeps)} joints has {layout.width} × {layout.height} "
             f"pixels, more than {_MAX_SHEET:,}; choose a smaller --size"
         )
     with Progress(console, "joints") as progress:
-        image = contact_sheet(
+        image = draw_contact_sheet(
             robot, shapes, positions=positions, camera=camera, cell=cell, progress=progress
         )
     write_picture(png(image), target, robot)

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 
 from ..model.elements import Joint, Link, Material, Robot
 from .change import Change
-from .closeness import TOLERANCE
-from .extensions import extension_changes
-from .joints import joint_changes
+from .extensions import compare_extensions
+from .joints import compare_joints
 from .links import link_changes
 from .mechanisms import mechanism_changes
 from .renames import find_renames
+from .tolerance import TOLERANCE
 
 
 def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Change]:
@@ -25,20 +25,20 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
         b: The second (new) robot.
         tolerance: Tolerance as in ``closeness.TOLERANCE``.
     """
-    materials = _materials(a), _materials(b)
+    materials = _collect_materials(a), _collect_materials(b)
 
     def same_link(x: Link, y: Link) -> bool:
         return next(link_changes(x, y, tolerance, materials), None) is None
 
     def same_joint(x: Joint, y: Joint) -> bool:
         ends = ("parent", "child", "mimic joint")
-        return all(c.what in ends for c in joint_changes(x, y, tolerance, {}))
+        return all(c.what in ends for c in compare_joints(x, y, tolerance, {}))
 
     links, joints = find_renames(a, b, same_link, same_joint)
     if a.name != b.name:
         yield Change("robot", b.name, "name", a.name, b.name, place=b.place)
-    yield from _presence("link", a.link, b.link, links)
-    yield from _presence("joint", a.joint, b.joint, joints)
+    yield from _compare_presence("link", a.link, b.link, links)
+    yield from _compare_presence("joint", a.joint, b.joint, joints)
     for name, link in a.link.items():
         other = b.link.get(links.get(name, name))
         if other is not None:
@@ -47,12 +47,12 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
     for name, joint in a.joint.items():
         new = b.joint.get(joints.get(name, name))
         if new is not None:
-            yield from joint_changes(joint, new, tolerance, renamed)
-    yield from extension_changes(a, b, tolerance, renamed)
+            yield from compare_joints(joint, new, tolerance, renamed)
+    yield from compare_extensions(a, b, tolerance, renamed)
     yield from mechanism_changes(a, b, tolerance, renamed)
 
 
-def _presence(
+def _compare_presence(
     kind: str,
     a: Mapping[str, Link] | Mapping[str, Joint],
     b: Mapping[str, Link] | Mapping[str, Joint],
@@ -63,21 +63,21 @@ def _presence(
         yield Change(kind, new, "renamed", old, new, place=b[new].place)
     for name, part in a.items():
         if name not in b and name not in renamed:
-            yield Change(kind, name, "removed", _what(part), place=part.place)
+            yield Change(kind, name, "removed", _describe_part(part), place=part.place)
     new_names = set(renamed.values())
     for name, part in b.items():
         if name not in a and name not in new_names:
-            yield Change(kind, name, "added", after=_what(part), place=part.place)
+            yield Change(kind, name, "added", after=_describe_part(part), place=part.place)
 
 
-def _what(part: Link | Joint) -> dict[str, object]:
+def _describe_part(part: Link | Joint) -> dict[str, object]:
     """Return the main properties of an added or removed part."""
     if isinstance(part, Joint):
         return {"type": part.type, "parent": part.parent, "child": part.child}
     return {"mass": part.inertial.mass if part.inertial is not None else None}
 
 
-def _materials(robot: Robot) -> dict[str, Material]:
+def _collect_materials(robot: Robot) -> dict[str, Material]:
     """Return named materials; definitions inside visuals are global, as in urdfdom."""
     found: dict[str, Material] = {}
     written = [v.material for link in robot.links for v in link.visuals if v.material is not None]

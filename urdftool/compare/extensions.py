@@ -8,24 +8,24 @@ from ..model.elements import Robot
 from ..model.read import number
 from ..source.document import Element
 from .change import Change
-from .closeness import close
+from .tolerance import close
 
 Flat = dict[str, tuple[str, Element]]
 _NAMING = ("name", "reference", "filename", "type")
 
 
-def extension_changes(
+def compare_extensions(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Change]:
     """Yield differences of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
     for tag in ("transmission", "gazebo", "ros2_control"):
-        one = _blocks(a, tag, renamed)
-        two = _blocks(b, tag, {})
+        one = _collect_blocks(a, tag, renamed)
+        two = _collect_blocks(b, tag, {})
         for name in dict.fromkeys((*one, *two)):
-            yield from _changes(tag, name, one.get(name), two.get(name), tolerance, renamed)
+            yield from _compare_blocks(tag, name, one.get(name), two.get(name), tolerance, renamed)
 
 
-def _blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
+def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
     """Return blocks by their name or reference."""
     found: dict[str, list[Element]] = {}
     for element in () if robot.xml is None else robot.xml.all(tag):
@@ -34,7 +34,7 @@ def _blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, lis
     return found
 
 
-def _changes(
+def _compare_blocks(
     tag: str,
     name: str,
     one: list[Element] | None,
@@ -46,8 +46,8 @@ def _changes(
         what = "added" if one is None else "removed"
         yield Change(tag, name, what, place=(two or one or [])[0].place)
         return
-    before, after = _flat(one, renamed), _flat(two, {})
-    for path, old_name, new_name in _renamings(before, after):
+    before, after = _flatten_elements(one, renamed), _flatten_elements(two, {})
+    for path, old_name, new_name in _find_renamings(before, after):
         place = after[f"{path}[{new_name}]"][1].place
         yield Change(tag, name, path, old_name, new_name, place=place)
         _move(after, f"{path}[{new_name}]", f"{path}[{old_name}]")
@@ -59,23 +59,23 @@ def _changes(
             yield Change(tag, name, what, place=side[1].place if side else None)
             continue
         old, new = (None if side is None else side[0] for side in (x, y))
-        if not _same(old, new, tolerance, renamed):
+        if not _is_same(old, new, tolerance, renamed):
             side = y or x
             yield Change(tag, name, path, old, new, place=side[1].place if side else None)
 
 
-def _renamings(before: Flat, after: Flat) -> Iterator[tuple[str, str, str]]:
+def _find_renamings(before: Flat, after: Flat) -> Iterator[tuple[str, str, str]]:
     """Yield elements of which only the name changed: the path without it, and both names.
 
     One element of a tag was removed from a parent, and one element of that tag was added to it.
     """
-    gone, new = (_by_tag(one, other) for one, other in ((before, after), (after, before)))
+    gone, new = (_group_by_tag(one, other) for one, other in ((before, after), (after, before)))
     for path, names in gone.items():
         if len(names) == 1 and len(new.get(path, ())) == 1:
             yield path, names[0], new[path][0]
 
 
-def _by_tag(one: Flat, other: Flat) -> dict[str, list[str]]:
+def _group_by_tag(one: Flat, other: Flat) -> dict[str, list[str]]:
     """Return the names of elements that only one robot has, by their path without the name."""
     found: dict[str, list[str]] = {}
     for path in one:
@@ -91,7 +91,7 @@ def _move(flat: Flat, path: str, to: str) -> None:
         flat[to + known.removeprefix(path)] = flat.pop(known)
 
 
-def _same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, str]) -> bool:
+def _is_same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, str]) -> bool:
     if a is None or b is None:
         return a is b
     if a == b or renamed.get(a) == b:
@@ -104,7 +104,7 @@ def _same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, 
     )
 
 
-def _flat(elements: list[Element], renamed: Mapping[str, str]) -> Flat:
+def _flatten_elements(elements: list[Element], renamed: Mapping[str, str]) -> Flat:
     """Return attributes and texts below some elements by path, independent of their order."""
     found: Flat = {}
     for element in elements:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..model.elements import Joint, Vector
-from ..model.pose import norm, pose_of
+from ..model.pose import compute_norm, make_pose
 from .change import Change
-from .closeness import all_close, close, moved, same_pose
-from .links import pose_facts
+from .links import describe_pose
+from .tolerance import are_close, close, format_motion, is_same_pose
 
 _X: Vector = (1.0, 0.0, 0.0)
 
 
-def joint_changes(
+def compare_joints(
     a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Change]:
     """Yield the differences of a joint.
@@ -36,25 +36,27 @@ def joint_changes(
         before, after = getattr(a, what), getattr(b, what)
         if (before if what == "type" else renamed.get(before, before)) != after:
             yield change(what, before, after)
-    one, two = pose_of(a.origin), pose_of(b.origin)
-    if not same_pose(one, two, tolerance):
-        yield change("origin", pose_facts(one), pose_facts(two), "", moved(one, two))
+    one, two = make_pose(a.origin), make_pose(b.origin)
+    if not is_same_pose(one, two, tolerance):
+        yield change("origin", describe_pose(one), describe_pose(two), "", format_motion(one, two))
     if a.has_axis and b.has_axis:
-        x, y = _axis(a), _axis(b)
-        if not all_close(x, y, max(tolerance, 1e-12)):
-            opposite = all_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
+        x, y = _get_axis(a), _get_axis(b)
+        if not are_close(x, y, max(tolerance, 1e-12)):
+            opposite = are_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
             yield change("axis", x, y, "", "opposite direction" if opposite else "")
-    yield from _numbers(a, b, tolerance, renamed)
+    yield from _compare_numbers(a, b, tolerance, renamed)
 
 
-def _axis(joint: Joint) -> Vector:
+def _get_axis(joint: Joint) -> Vector:
     """Return the axis, normalized unless it is zero."""
     x, y, z = joint.axis.xyz if joint.axis is not None else _X
-    length = norm((x, y, z)) or 1.0
+    length = compute_norm((x, y, z)) or 1.0
     return x / length, y / length, z / length
 
 
-def _numbers(a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]) -> Iterator[Change]:
+def _compare_numbers(
+    a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
     slides = b.type == "prismatic"
     here, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
     units = {

@@ -22,10 +22,10 @@ from ..model.elements import (
     Sphere,
     Visual,
 )
-from ..model.pose import Pose, pose_of, rpy_of_rotation
-from ..model.shapes import shape_name
+from ..model.pose import Pose, make_pose, rpy_from_rotation
+from ..model.shapes import get_shape_name
 from .change import Change
-from .closeness import all_close, close, distance, moved, same_pose
+from .tolerance import are_close, close, compute_distance, format_motion, is_same_pose
 
 Materials = Mapping[str, Material]
 Shape = Visual | Collision
@@ -42,48 +42,52 @@ def link_changes(
         tolerance: Tolerance as in ``closeness.TOLERANCE``.
         materials: Named materials of both robots.
     """
-    yield from _inertial(a, b, tolerance)
-    yield from _shapes("visual", a.visuals, b.visuals, b, tolerance, materials)
-    yield from _shapes("collision", a.collisions, b.collisions, b, tolerance, materials)
+    yield from _compare_inertials(a, b, tolerance)
+    yield from _compare_shapes("visual", a.visuals, b.visuals, b, tolerance, materials)
+    yield from _compare_shapes("collision", a.collisions, b.collisions, b, tolerance, materials)
 
 
-def _inertial(a: Link, b: Link, tolerance: float) -> Iterator[Change]:
+def _compare_inertials(a: Link, b: Link, tolerance: float) -> Iterator[Change]:
     one, two, name = a.inertial, b.inertial, b.name
     if one is None or two is None:
         if one is not two:
             place = b.place if two is None else two.place
-            yield Change("link", name, "inertial", _mass(one), _mass(two), "kg", place=place)
+            yield Change(
+                "link", name, "inertial", _get_mass(one), _get_mass(two), "kg", place=place
+            )
         return
     place = two.place
     if not close(one.mass, two.mass, tolerance):
-        remark = _percent(one.mass, two.mass)
+        remark = _format_percent(one.mass, two.mass)
         yield Change("link", name, "mass", one.mass, two.mass, "kg", remark, place)
-    before, after = pose_of(one.origin).translation, pose_of(two.origin).translation
-    if distance(before, after) > tolerance:
-        remark = moved(Pose(translation=before), Pose(translation=after))
+    before, after = make_pose(one.origin).translation, make_pose(two.origin).translation
+    if compute_distance(before, after) > tolerance:
+        remark = format_motion(Pose(translation=before), Pose(translation=after))
         yield Change("link", name, "center of mass", before, after, "m", remark, place)
-    if not all_close(_tensor(one), _tensor(two), tolerance):
-        yield Change("link", name, "inertia", _tensor(one), _tensor(two), "kg·m²", "", place)
+    if not are_close(_compute_tensor(one), _compute_tensor(two), tolerance):
+        yield Change(
+            "link", name, "inertia", _compute_tensor(one), _compute_tensor(two), "kg·m²", "", place
+        )
 
 
-def _mass(inertial: Inertial | None) -> float | None:
+def _get_mass(inertial: Inertial | None) -> float | None:
     return None if inertial is None else inertial.mass or 0.0
 
 
-def _tensor(inertial: Inertial) -> SymmetricTensor | None:
+def _compute_tensor(inertial: Inertial) -> SymmetricTensor | None:
     """Return ``ixx, ixy, ixz, iyy, iyz, izz`` about the center of mass, in link axes [kg·m²]."""
     i = inertial.inertia
     if i is None:
         return None
-    rotation = pose_of(inertial.origin).rotation
+    rotation = make_pose(inertial.origin).rotation
     return rotate_tensor((i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz), rotation)
 
 
-def _percent(a: float | None, b: float | None) -> str:
+def _format_percent(a: float | None, b: float | None) -> str:
     return f"{100 * (b - a) / a:+.3g} %" if a and b is not None else ""
 
 
-def _shapes(
+def _compare_shapes(
     kind: str,
     a: Sequence[Visual] | Sequence[Collision],
     b: Sequence[Visual] | Sequence[Collision],
@@ -97,9 +101,9 @@ def _shapes(
     pairs: list[tuple[Shape, Shape]] = []
 
     def equal(x: Shape, y: Shape) -> bool:
-        return next(_shape(kind, "", x, y, two, tolerance, materials), None) is None
+        return next(_compare_shape(kind, "", x, y, two, tolerance, materials), None) is None
 
-    for same in (equal, _same_name, _same_kind, _any):
+    for same in (equal, _has_same_name, _has_same_type, _is_any):
         for x in list(left):
             match = next((y for y in right if same(x, y)), None)
             if match is not None:
@@ -109,28 +113,30 @@ def _shapes(
     several = len(a) > 1 or len(b) > 1
     for x, y in pairs:
         number = next(i for i, shape in enumerate(b, 1) if shape is y)
-        yield from _shape(kind, f" {number}" if several else "", x, y, two, tolerance, materials)
+        yield from _compare_shape(
+            kind, f" {number}" if several else "", x, y, two, tolerance, materials
+        )
     for x in left:
-        yield Change("link", two.name, f"{kind} removed", shape_facts(x.geometry), place=x.place)
+        yield Change("link", two.name, f"{kind} removed", describe_shape(x.geometry), place=x.place)
     for y in right:
         yield Change(
-            "link", two.name, f"{kind} added", after=shape_facts(y.geometry), place=y.place
+            "link", two.name, f"{kind} added", after=describe_shape(y.geometry), place=y.place
         )
 
 
-def _same_name(a: Shape, b: Shape) -> bool:
+def _has_same_name(a: Shape, b: Shape) -> bool:
     return a.name is not None and a.name == b.name
 
 
-def _same_kind(a: Shape, b: Shape) -> bool:
+def _has_same_type(a: Shape, b: Shape) -> bool:
     return type(a.geometry) is type(b.geometry)
 
 
-def _any(a: Shape, b: Shape) -> bool:
+def _is_any(a: Shape, b: Shape) -> bool:
     return True
 
 
-def _shape(
+def _compare_shape(
     kind: str,
     number: str,
     a: Shape,
@@ -139,31 +145,31 @@ def _shape(
     tolerance: float,
     materials: tuple[Materials, Materials],
 ) -> Iterator[Change]:
-    before, after = shape_facts(a.geometry), shape_facts(b.geometry)
+    before, after = describe_shape(a.geometry), describe_shape(b.geometry)
     same = before.keys() == after.keys() and all(
-        all_close(before[key], after[key], tolerance)
+        are_close(before[key], after[key], tolerance)
         if isinstance(before[key], tuple) and isinstance(after[key], tuple)
         else before[key] == after[key]
         for key in before
     )
     if not same:
         yield Change("link", link.name, f"{kind}{number} geometry", before, after, place=b.place)
-    one, two = pose_of(a.origin), pose_of(b.origin)
-    if not same_pose(one, two, tolerance):
+    one, two = make_pose(a.origin), make_pose(b.origin)
+    if not is_same_pose(one, two, tolerance):
         what = f"{kind}{number} origin"
-        facts = pose_facts(one), pose_facts(two)
-        yield Change("link", link.name, what, *facts, "", moved(one, two), b.place)
+        facts = describe_pose(one), describe_pose(two)
+        yield Change("link", link.name, what, *facts, "", format_motion(one, two), b.place)
     if isinstance(a, Visual) and isinstance(b, Visual):
         old, new = _look(a.material, materials[0]), _look(b.material, materials[1])
         if old != new:
             yield Change("link", link.name, f"{kind}{number} material", old, new, place=b.place)
 
 
-def shape_facts(geometry: Geometry | None) -> dict[str, Any]:
+def describe_shape(geometry: Geometry | None) -> dict[str, Any]:
     """Return geometry as data: its type, and its lengths [m] or its file."""
     if geometry is None:
         return {"shape": None}
-    facts: dict[str, Any] = {"shape": shape_name(geometry)}
+    facts: dict[str, Any] = {"shape": get_shape_name(geometry)}
     if isinstance(geometry, Box):
         facts["size"] = geometry.size
     elif isinstance(geometry, Ellipsoid):
@@ -179,9 +185,9 @@ def shape_facts(geometry: Geometry | None) -> dict[str, Any]:
     return facts
 
 
-def pose_facts(pose: Pose) -> dict[str, Any]:
+def describe_pose(pose: Pose) -> dict[str, Any]:
     """Return a pose as data: ``xyz`` [m] and ``rpy`` [rad]."""
-    return {"xyz": pose.translation, "rpy": rpy_of_rotation(pose.rotation)}
+    return {"xyz": pose.translation, "rpy": rpy_from_rotation(pose.rotation)}
 
 
 def _look(material: Material | None, named: Materials) -> dict[str, Any] | None:

@@ -8,10 +8,10 @@ from typing import Any
 
 from ..model.elements import Robot
 from ..model.part import Origin, Part
-from ..model.pose import pose_of
+from ..model.pose import make_pose
 from .change import Change
-from .closeness import all_close, close, same_pose
-from .links import pose_facts
+from .links import describe_pose
+from .tolerance import are_close, close, is_same_pose
 
 _REFERENCES = ("parent", "child", "link", "other", "joint")
 
@@ -81,11 +81,11 @@ def _by_name(
 
 def _same(a: Any, b: Any, tolerance: float) -> bool:
     if isinstance(a, Origin) or isinstance(b, Origin):
-        return same_pose(pose_of(a), pose_of(b), tolerance)
+        return is_same_pose(make_pose(a), make_pose(b), tolerance)
     if isinstance(a, dict) and isinstance(b, dict):
         return a.keys() == b.keys() and all(_same(a[key], b[key], tolerance) for key in a)
     if isinstance(a, tuple) and isinstance(b, tuple):
-        return len(a) == len(b) and all_close(a, b, tolerance)
+        return len(a) == len(b) and are_close(a, b, tolerance)
     if isinstance(a, float) and isinstance(b, float):
         return close(a, b, tolerance)
     return bool(a == b)
@@ -94,5 +94,5 @@ def _same(a: Any, b: Any, tolerance: float) -> bool:
 def _shown(value: Any) -> Any:
     """Return a value as data."""
     if isinstance(value, Origin):
-        return pose_facts(pose_of(value))
+        return describe_pose(make_pose(value))
     return value

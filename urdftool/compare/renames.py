@@ -31,7 +31,7 @@ def find_renames(
         if name in b.link:
             continue
         joint = a.tree.parent_joint(name)
-        for other, link in _in_its_place(a, b, name, joint, links):
+        for other, link in _list_replacements(a, b, name, joint, links):
             if link.name in a.link or link.name in taken or not same_link(a.link[name], link):
                 continue
             if joint is None or other is None:
@@ -54,7 +54,7 @@ def find_renames(
     return links, joints
 
 
-def _in_its_place(
+def _list_replacements(
     a: Robot, b: Robot, name: str, joint: Joint | None, links: dict[str, str]
 ) -> Iterator[tuple[Joint | None, Link]]:
     """Yield joints and links of the second robot with the same parent as a link of the first."""

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from ..errors import MissingDependency, SourceError, UrdftoolError
 from ..model.elements import Mesh, Robot
-from ..source.packages import packages_below
+from ..source.packages import find_packages
 
 _MOST_BYTES = 4 * 1024 * 1024
 _MEDIA = frozenset(
@@ -111,10 +111,10 @@ class Checkout:
         found: dict[str, Path] = {}
         above = self.top.parent
         if len(above.parts) > 2 and (self.top / "package.xml").exists():  # do not search / or /home
-            packages = packages_below(above)
+            packages = find_packages(above)
             found |= {n: p for n, p in packages.items() if self.top not in (p, *p.parents)}
         for module in self.modules:
-            found |= packages_below(self.top / module)
+            found |= find_packages(self.top / module)
         return found
 
 
@@ -127,7 +127,7 @@ def named(word: str) -> Named | None:
 
 
 @contextmanager
-def checked_out(target: Named) -> Iterator[Checkout]:
+def check_out(target: Named) -> Iterator[Checkout]:
     """Provide the files of a revision during a ``with`` block.
 
     Raises:
@@ -140,14 +140,14 @@ def checked_out(target: Named) -> Iterator[Checkout]:
             f"'{revision}' is not a git revision; write REVISION:FILE, such as HEAD:{path}"
         )
     start = os.path.dirname(os.path.abspath(path)) if os.path.isabs(path) else os.getcwd()
-    top = Path(os.fsdecode(_git(start, "rev-parse", "--show-toplevel").rstrip(b"\r\n")))
-    tree = _git(
+    top = Path(os.fsdecode(_run_git(start, "rev-parse", "--show-toplevel").rstrip(b"\r\n")))
+    tree = _run_git(
         start, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{tree}}",
         fail=f"revision '{revision}' does not exist in the git repository {top}",
     )  # fmt: skip
-    listing = list(_listing(top, tree.decode().strip()))
+    listing = list(_list_entries(top, tree.decode().strip()))
     blobs = {entry.path: entry for entry in listing if 0 <= entry.size <= _MOST_BYTES}
-    inner = _inner(path, top, blobs)
+    inner = _find_in_repository(path, top, blobs)
     if inner is None:
         raise SourceError(
             f"file '{path}' does not exist in revision {revision}", path=f"{revision}:{path}"
@@ -159,7 +159,7 @@ def checked_out(target: Named) -> Iterator[Checkout]:
         yield Checkout(folder / inner, folder, top, revision, modules)
 
 
-def _inner(path: str, top: Path, blobs: Mapping[str, Entry]) -> str | None:
+def _find_in_repository(path: str, top: Path, blobs: Mapping[str, Entry]) -> str | None:
     """Return the path in the repository, given from its root, as in git, or the current folder."""
     here = os.path.relpath(os.path.realpath(path), os.path.realpath(top))
     candidates = [os.path.normpath(path), here]
@@ -172,8 +172,8 @@ def _is_read(path: str) -> bool:
     return os.path.splitext(path)[1].lower() not in _MEDIA
 
 
-def _listing(top: Path, tree: str) -> Iterator[Entry]:
-    for line in _git(top, "ls-tree", "-r", "-z", "--long", "--full-tree", tree).split(b"\0"):
+def _list_entries(top: Path, tree: str) -> Iterator[Entry]:
+    for line in _run_git(top, "ls-tree", "-r", "-z", "--long", "--full-tree", tree).split(b"\0"):
         facts, tab, path = line.partition(b"\t")
         if tab:
             mode, kind, sha, size = facts.decode("ascii").split()
@@ -183,7 +183,7 @@ def _listing(top: Path, tree: str) -> Iterator[Entry]:
 
 def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
     """Write files as stored in git, with one call of git."""
-    data = _git(
+    data = _run_git(
         top, "cat-file", "--batch", given="".join(f"{b.sha}\n" for b in blobs.values()).encode()
     )
     (folder / ".git").mkdir(parents=True)  # empty; ends the search for packages
@@ -205,7 +205,7 @@ def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
             target.symlink_to(os.fsdecode(content))
 
 
-def _git(
+def _run_git(
     folder: str | Path, *words: str, fail: str | None = None, given: bytes | None = None
 ) -> bytes:
     command: Sequence[str] = ["git", "-C", str(folder), *words]

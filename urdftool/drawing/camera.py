@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .points import bounds, extent, shifted, turned
+from .points import compute_bounds, compute_extent, shift_points, transform_points
 from .raster import Floats
 
 MARGIN = 0.06
@@ -32,7 +32,7 @@ class View:
 
     def seen(self, points: Floats) -> Floats:
         """Transform world points [m] to the camera frame; points in front of it have z < 0."""
-        return turned(shifted(points, -self.eye), self.axes)
+        return transform_points(shift_points(points, -self.eye), self.axes)
 
     def pixels(self, points: Floats) -> Floats:
         """Project world points to the picture: column and row, from the upper left."""
@@ -75,8 +75,8 @@ class Camera:
         shorter = min(size)
         reach = (half * size[0] / shorter, half * size[1] / shorter)
         if self.target is None and self.distance is None:
-            return View(axes, _fitted(turned(points, axes), reach) @ axes, reach, size)
-        low, high = bounds(points)
+            return View(axes, _fit_eye(transform_points(points, axes), reach) @ axes, reach, size)
+        low, high = compute_bounds(points)
         target = (low + high) / 2 if self.target is None else np.array(self.target)
         distance = self.distance
         if distance is None:
@@ -88,7 +88,7 @@ class Camera:
         return View(axes, target + axes[2] * distance, reach, size)
 
 
-def _fitted(placed: Floats, reach: tuple[float, float]) -> Floats:
+def _fit_eye(placed: Floats, reach: tuple[float, float]) -> Floats:
     """Compute the nearest eye, in the camera's axes, from which all points are in view.
 
     A point (r, u, b) is in view of an eye (x, y, z) if |r - x| ≤ t (z - b), with t half the width
@@ -103,6 +103,6 @@ def _fitted(placed: Floats, reach: tuple[float, float]) -> Floats:
         less = float((slope * back - placed[:, axis]).max())
         apart.append((more + less) / (2 * slope))
         middle.append((more - less) / 2)
-    size = extent(placed)
+    size = compute_extent(placed)
     ahead = max(*apart, float(back.max()) + max(1e-3 * size, 1e-9))
     return np.array([middle[0], middle[1], ahead])

@@ -15,7 +15,7 @@ def nearest(corners: Floats) -> float:
     return max(float(-corners[..., 2].min(initial=0.0)) * NEAREST, 1e-300)
 
 
-def clipped(
+def project_triangles(
     corners: Floats, reach: tuple[float, float], size: tuple[int, int], plane: float
 ) -> tuple[Floats, Indices]:
     """Project triangles for :func:`raster.front`, and return the rows they come from.
@@ -39,7 +39,7 @@ def clipped(
         alone = np.argmax(ahead[cut] == (inside == 1), axis=1)
         turned = (alone[:, None] + np.arange(3)) % 3
         a, b, c = (corners[cut, turned[:, k]] for k in range(3))
-        ab, ac = _met(a, b, plane), _met(a, c, plane)
+        ab, ac = _intersect_plane(a, b, plane), _intersect_plane(a, c, plane)
         if inside == 1:
             triangles.append(np.stack([a, ab, ac], axis=1))
             rows.append(cut)
@@ -55,7 +55,7 @@ def clipped(
     return made, np.concatenate(rows)
 
 
-def _met(one: Floats, other: Floats, plane: float) -> Floats:
+def _intersect_plane(one: Floats, other: Floats, plane: float) -> Floats:
     """Intersect the edges between two rows of points with the clipping plane."""
     d0, d1 = -one[:, 2] - plane, -other[:, 2] - plane
     part = d0 / (d0 - d1)

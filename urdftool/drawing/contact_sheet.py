@@ -9,15 +9,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model.elements import Joint, Robot
-from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
+from ..model.kinematics import add_mimic_positions, find_movable_joints, get_limits, link_poses
 from .camera import Camera, View
-from .lettering import Words, lettered
 from .picture import view_of
 from .png_file import Image
-from .points import extent
+from .points import compute_extent
 from .raster import Indices
 from .shapes import Shapes
-from .visibility import Cloud, best_camera, draw_through
+from .text import Words, draw_text
+from .visibility import Cloud, choose_best_camera, draw_through
 
 TURN = math.pi / 2
 """Displacement of a joint without limits [rad]."""
@@ -49,7 +49,7 @@ class Sweep:
     followers: tuple[str, ...]
 
 
-def sweeps_of(
+def list_sweeps(
     robot: Robot, *, slide: float = 0.1, shown: Collection[str] | None = None
 ) -> list[Sweep]:
     """List the joints that move independently, in the order of the file, with their mimic joints.
@@ -61,7 +61,7 @@ def sweeps_of(
         slide: Displacement of a prismatic joint without limits [m].
         shown: Links with triangles; joints that move none of them are skipped. None keeps all.
     """
-    movable = movable_joints(robot)
+    movable = find_movable_joints(robot)
     leaders = {
         name: joint.mimic.joint
         for name, joint in movable.items()
@@ -71,25 +71,25 @@ def sweeps_of(
     for name, joint in movable.items():
         if name in leaders:
             continue
-        lower, upper = limits_of(joint)
+        lower, upper = get_limits(joint)
         bounded = math.isfinite(lower) and math.isfinite(upper)
         if joint.type != "prismatic" and upper - lower >= _FULL:
             bounded = False
         reach = slide if joint.type == "prismatic" else TURN
         ends = (lower, upper) if bounded else (-reach, reach)
-        followers = tuple(other for other in leaders if _leader(other, leaders) == name)
+        followers = tuple(other for other in leaders if _find_leader(other, leaders) == name)
         sweep = Sweep(joint, ends, bounded, followers)
-        if shown is None or not _moved(robot, sweep).isdisjoint(shown):
+        if shown is None or not _find_moved_links(robot, sweep).isdisjoint(shown):
             sweeps.append(sweep)
     return sweeps
 
 
-def shown_links(shapes: Shapes) -> set[str]:
+def list_shown_links(shapes: Shapes) -> set[str]:
     """Return the links that have triangles."""
     return {shapes.links[row] for row in np.unique(shapes.link)}
 
 
-def contact_sheet(
+def draw_contact_sheet(
     robot: Robot,
     shapes: Shapes,
     *,
@@ -117,13 +117,13 @@ def contact_sheet(
         Pixels, shape (height, width, 3); a sheet with only a title if no joint moves.
     """
     given = dict(positions or {})
-    corners, _, there = shapes.posed(link_poses(robot, with_mimics(robot, given)))
+    corners, _, there = shapes.posed(link_poses(robot, add_mimic_positions(robot, given)))
     seen = corners[there].reshape(-1, 3)
-    size = extent(seen) if len(seen) else 1.0
-    sweeps = sweeps_of(robot, slide=_SLIDE * size, shown=shown_links(shapes))
-    left_out = len(sweeps_of(robot)) - len(sweeps)
+    size = compute_extent(seen) if len(seen) else 1.0
+    sweeps = list_sweeps(robot, slide=_SLIDE * size, shown=list_shown_links(shapes))
+    left_out = len(list_sweeps(robot)) - len(sweeps)
     cloud = Cloud(shapes)
-    layout = layout_of(len(sweeps), cell)
+    layout = choose_layout(len(sweeps), cell)
     page = np.full((layout.height, layout.width, 3), 255, np.uint8)
     page[:] = _PAPER
     title = robot.name or "robot"
@@ -140,12 +140,12 @@ def contact_sheet(
     for number, sweep in enumerate(sweeps):
         progress(number + 1, len(sweeps), sweep.joint.name)
         left, top = layout.place(number)
-        words += _captions(sweep, left, top, layout)
+        words += _make_captions(sweep, left, top, layout)
         pair = _pair(robot, shapes, cloud, sweep, given, camera, layout.cell)
         for side, image in enumerate(pair):
             row, column = top + layout.caption, left + side * (layout.cell[0] + _GAP)
             page[row : row + layout.cell[1], column : column + layout.cell[0]] = image
-    return lettered(page, words)
+    return draw_text(page, words)
 
 
 @dataclass(frozen=True)
@@ -195,28 +195,28 @@ class Layout:
         return _MARGIN + column * self.block[0], self.head + row * self.block[1]
 
 
-def layout_of(count: int, cell: tuple[int, int] | None = None) -> Layout:
+def choose_layout(count: int, cell: tuple[int, int] | None = None) -> Layout:
     """Choose the number of columns that gives the sheet roughly the shape of a screen.
 
     Args:
         count: Number of joints.
         cell: Width and height of one picture in pixels; by default smaller for many joints.
     """
-    cell = cell or _cell(count)
+    cell = cell or _choose_cell(count)
     letter = min(max(cell[1] // 16, 11), 22)
     best = Layout(1, max(count, 1), cell, letter)
     for columns in range(1, count + 1):
         made = Layout(columns, -(-count // columns), cell, letter)
-        if _off(made) < _off(best):
+        if _compute_deviation(made) < _compute_deviation(best):
             best = made
     return best
 
 
-def _off(layout: Layout) -> float:
+def _compute_deviation(layout: Layout) -> float:
     return abs(math.log(layout.width / layout.height / _SHAPE))
 
 
-def _cell(count: int) -> tuple[int, int]:
+def _choose_cell(count: int) -> tuple[int, int]:
     """Choose the size of a picture, smaller for many joints."""
     if count <= 8:
         return 360, 300
@@ -225,7 +225,7 @@ def _cell(count: int) -> tuple[int, int]:
     return (228, 190) if count <= 200 else (120, 100)
 
 
-def _leader(name: str, leaders: Mapping[str, str]) -> str | None:
+def _find_leader(name: str, leaders: Mapping[str, str]) -> str | None:
     """Return the joint at the end of a chain of mimic joints; None for a cycle."""
     seen: set[str] = set()
     while name in leaders and name not in seen:
@@ -244,26 +244,27 @@ def _pair(
     cell: tuple[int, int],
 ) -> list[Image]:
     """Draw a joint at both positions, from one viewpoint."""
-    painted = _painted(robot, shapes, sweep)
-    names = _moved(robot, sweep)
+    painted = _color_moved(robot, shapes, sweep)
+    names = _find_moved_links(robot, sweep)
     moved = np.zeros(len(shapes), dtype=bool)
-    moved[_rows(shapes, names)] = True
+    moved[_find_rows(shapes, names)] = True
     free = {k: v for k, v in given.items() if k not in sweep.followers}
     at = [
-        link_poses(robot, with_mimics(robot, {**free, sweep.joint.name: end})) for end in sweep.ends
+        link_poses(robot, add_mimic_positions(robot, {**free, sweep.joint.name: end}))
+        for end in sweep.ends
     ]
     both = []
     for poses in at:
         corners, _, there = shapes.posed(poses)
         both.append(corners[there])
     if camera is None:
-        camera = best_camera(cloud, at, names, _cameras())
+        camera = choose_best_camera(cloud, at, names, _list_cameras())
     lowest = min((float(some[..., 2].min()) for some in both if len(some)), default=0.0)
     view: View = view_of(np.concatenate(both), camera, cell)
     return [draw_through(painted, poses, moved, view=view, ground=lowest) for poses in at]
 
 
-def _cameras() -> list[Camera]:
+def _list_cameras() -> list[Camera]:
     """Return the candidate viewpoints of a joint, the default first."""
     usual = Camera()
     around = [usual.azimuth + turn * math.pi / 4 for turn in (0, 2, -2, 4, 1, -1, 3, -3)]
@@ -274,7 +275,7 @@ def _cameras() -> list[Camera]:
     ]
 
 
-def _moved(robot: Robot, sweep: Sweep) -> set[str]:
+def _find_moved_links(robot: Robot, sweep: Sweep) -> set[str]:
     """Return the links that a joint and its followers move."""
     moved: set[str] = set()
     for name in (sweep.joint.name, *sweep.followers):
@@ -283,24 +284,24 @@ def _moved(robot: Robot, sweep: Sweep) -> set[str]:
     return moved
 
 
-def _painted(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
+def _color_moved(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
     """Color the shapes gray, except for the links that a joint moves."""
     own = shapes.colors[:, :3].mean(axis=1, keepdims=True)
     colors = shapes.colors.copy()
     colors[:, :3] = own * (1 - _FADED) + _GREY * _FADED
-    for names, color in ((_moved(robot, sweep), _AFTER), ({sweep.joint.child}, _CHILD)):
-        colors[_rows(shapes, names), :3] = color
+    for names, color in ((_find_moved_links(robot, sweep), _AFTER), ({sweep.joint.child}, _CHILD)):
+        colors[_find_rows(shapes, names), :3] = color
     return shapes.painted(colors)
 
 
-def _rows(shapes: Shapes, names: set[str]) -> Indices:
+def _find_rows(shapes: Shapes, names: set[str]) -> Indices:
     selected = np.array([name in names for name in shapes.links], dtype=bool)
     return np.flatnonzero(selected[shapes.link]) if len(selected) else np.zeros(0, dtype=np.int64)
 
 
-def _captions(sweep: Sweep, left: int, top: int, layout: Layout) -> list[Words]:
+def _make_captions(sweep: Sweep, left: int, top: int, layout: Layout) -> list[Words]:
     joint, letter = sweep.joint, layout.letter
-    kind = joint.type if sweep.bounded else f"{joint.type}, {_unbounded(joint)}"
+    kind = joint.type if sweep.bounded else f"{joint.type}, {_format_limits(joint)}"
     if sweep.followers:
         kind += f", {len(sweep.followers)} mimic{'s' if len(sweep.followers) == 1 else ''}"
     wide = 2 * layout.cell[0] + _GAP
@@ -313,8 +314,8 @@ def _captions(sweep: Sweep, left: int, top: int, layout: Layout) -> list[Words]:
     return words
 
 
-def _unbounded(joint: Joint) -> str:
-    lower, upper = limits_of(joint)
+def _format_limits(joint: Joint) -> str:
+    lower, upper = get_limits(joint)
     if not (math.isfinite(lower) and math.isfinite(upper)):
         return "no limits"
     return f"limits {math.degrees(lower):.4g}° to {math.degrees(upper):.4g}°"

@@ -13,7 +13,7 @@ from ..geometry.thin import ThinMeshes
 from ..model.elements import Collision, Robot, Visual
 from ..model.elements import Mesh as MeshGeometry
 from ..model.kinematics import link_poses
-from ..model.pose import IDENTITY, Pose, pose_of
+from ..model.pose import IDENTITY, Pose, make_pose
 from ..storage import DiskCache, cache_folder
 
 _CELLS_PER_PIXEL = 1  # at least: the number of cells along a mesh is a power of two
@@ -79,7 +79,7 @@ class Detail:
                 ]
             )
             pose = poses.get(self.robot.links[row].name, IDENTITY)
-            corners.append(_moved(_moved(box, pose_of(shape.origin)), pose))
+            corners.append(_moved(_moved(box, make_pose(shape.origin)), pose))
         if not corners:
             return 0.0
         extent = float(np.linalg.norm(np.ptp(np.concatenate(corners), axis=0)))

@@ -13,7 +13,7 @@ _SEEN = 12  # pictures sampled for the palette
 _COLORS = 255  # one entry is reserved for unchanged pixels
 
 
-def gif(frames: Sequence[Image], seconds: Sequence[float]) -> bytes:
+def encode_gif(frames: Sequence[Image], seconds: Sequence[float]) -> bytes:
     """Encode an endless animation with one palette as a GIF file.
 
     Args:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .camera import View
-from .light import Colors, ShadowMap, blurred, sampled, spacing, to_linear
 from .raster import Floats
+from .shading import Colors, ShadowMap, blur, choose_spacing, sample_map, to_linear
 
 BACKDROP = ((0.985, 0.987, 0.99), (0.87, 0.885, 0.905))
 """Colors of the backdrop at its upper and lower edge, as displayed."""
@@ -19,7 +19,7 @@ _CONTACT_MAP = 256
 _FAR = 3.0
 
 
-def backdrop(size: tuple[int, int], color: tuple[float, float, float] | None) -> Colors:
+def make_background(size: tuple[int, int], color: tuple[float, float, float] | None) -> Colors:
     """Return one color or a vertical gradient in linear light, shape (height, width, 3)."""
     width, height = size
     if color is not None:
@@ -48,15 +48,15 @@ class Ground:
             scale: Length of one unit [m], for the grid.
         """
         self.height = height
-        self._grid = spacing(scale) / scale
+        self._grid = choose_spacing(scale) / scale
         self._shadow = shadow
         self._soft = None
         if shadow is not None:
             covered = shadow.covered()
-            self._soft = blurred(covered, _SOFT * len(covered))
-        self._touch = self._contact(corners)
+            self._soft = blur(covered, _SOFT * len(covered))
+        self._touch = self._map_contact(corners)
 
-    def _contact(self, corners: Floats) -> tuple[ShadowMap, Colors] | None:
+    def _map_contact(self, corners: Floats) -> tuple[ShadowMap, Colors] | None:
         """Map the triangles close to the floor from below; None if there are none."""
         reach = 0.10
         low = corners[corners[..., 2].min(axis=1) < self.height + reach]
@@ -64,7 +64,7 @@ class Ground:
             return None
         seen = ShadowMap(low, np.array([0.0, 0.0, -1.0]), _CONTACT_MAP)
         gap = np.clip((-seen.depths() - self.height) / reach, 0, 1)
-        return seen, blurred(np.square(1 - gap), _NEAR * _CONTACT_MAP)
+        return seen, blur(np.square(1 - gap), _NEAR * _CONTACT_MAP)
 
     def paint(self, pixels: Colors, view: View) -> None:
         """Paint the visible floor onto a backdrop of pixels in linear light."""
@@ -89,15 +89,15 @@ class Ground:
         # extent of a pixel on the floor, larger at grazing angles
         lean = np.maximum((back[2] - y[falls] * up[2]) / np.sqrt(1 + y[falls] ** 2), 0.05)
         span = (2 * view.reach[1] / height * along / np.sqrt(lean)).astype(np.float32)[rows]
-        line = self._lines(points, span)[:, None]
+        line = self._draw_lines(points, span)[:, None]
         floor = to_linear(np.array(_FLOOR))
         color = floor + (to_linear(np.array(_LINE)) - floor) * line
-        dark = self._darkness(points) * np.minimum(strength * 2, 1)
+        dark = self._compute_shadow(points) * np.minimum(strength * 2, 1)
         here = pixels[falls[rows], columns]
         here += (color - here) * (strength * np.float32(0.85))[:, None]
         pixels[falls[rows], columns] = here * (1 - dark)[:, None]
 
-    def _lines(self, points: Colors, span: Colors) -> Colors:
+    def _draw_lines(self, points: Colors, span: Colors) -> Colors:
         width = np.float32(self._grid)
         near = np.abs(points - np.round(points / width) * width)
         near = np.minimum(near[:, 0], near[:, 1])
@@ -107,14 +107,14 @@ class Ground:
         cover *= np.minimum(2 * thick / span + 0.35, 1)
         return np.asarray(cover * np.clip(1.5 - span * 6 / width, 0, 1), dtype=np.float32)
 
-    def _darkness(self, points: Colors) -> Colors:
+    def _compute_shadow(self, points: Colors) -> Colors:
         level = np.full((len(points), 1), self.height, np.float32)
         on_floor = np.concatenate([points, level], axis=1)
         clear = np.ones(len(points), dtype=np.float32)
         if self._soft is not None and self._shadow is not None:
-            clear *= 1 - _SHADE * sampled(
+            clear *= 1 - _SHADE * sample_map(
                 self._soft, self._shadow.place(on_floor) * np.float32(0.5)
             )
         if self._touch is not None:
-            clear *= 1 - _CONTACT * sampled(self._touch[1], self._touch[0].place(on_floor))
+            clear *= 1 - _CONTACT * sample_map(self._touch[1], self._touch[0].place(on_floor))
         return 1 - clear

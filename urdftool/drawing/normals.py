@@ -16,7 +16,7 @@ _MANY = 40
 _PAIRS_AT_ONCE = 4_000_000
 
 
-def corner_normals(vertices: Points, faces: Faces) -> Floats:
+def compute_corner_normals(vertices: Points, faces: Faces) -> Floats:
     """Compute the unit normal at each corner of each face, shape (m, 3, 3).
 
     It is the mean of the normals of the faces that meet at the point without a sharp edge to this
@@ -29,9 +29,9 @@ def corner_normals(vertices: Points, faces: Faces) -> Floats:
         faces: Indices into ``vertices``, shape (m, 3).
     """
     corners = vertices[faces]
-    flat, angles = _flat(corners)
+    flat, angles = _compute_face_normals(corners)
     smooth = np.repeat(flat[:, None], 3, axis=1).reshape(-1, 3)
-    point = _points(vertices)[faces].reshape(-1)
+    point = _number_positions(vertices)[faces].reshape(-1)
     order = np.argsort(point, kind="stable")
     counts = np.bincount(point)
     counts = counts[counts > 0]
@@ -52,7 +52,7 @@ def corner_normals(vertices: Points, faces: Faces) -> Floats:
     return smooth.reshape(-1, 3, 3)
 
 
-def _flat(corners: Points) -> tuple[Floats, Floats]:
+def _compute_face_normals(corners: Points) -> tuple[Floats, Floats]:
     """Compute the unit normals of faces and the angles at their corners [rad]."""
     sides = np.roll(corners, -1, axis=1) - corners
     largest = np.abs(sides).max(axis=(1, 2), initial=0.0)
@@ -66,7 +66,7 @@ def _flat(corners: Points) -> tuple[Floats, Floats]:
     return normals, np.arccos(np.clip(cosines, -1, 1))
 
 
-def _points(vertices: Points) -> Indices:
+def _number_positions(vertices: Points) -> Indices:
     """Number the distinct positions of vertices, by a hash of their coordinates' bits."""
     bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)  # avoids negative zeros
     mixed = np.zeros(len(bits), dtype=np.uint64)

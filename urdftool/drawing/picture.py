@@ -13,13 +13,13 @@ import numpy.typing as npt
 
 from ..model.pose import Pose
 from .camera import Camera, View
-from .clip import clipped, nearest
-from .ground import Ground, backdrop
-from .light import Colors, ShadowMap, lights_of, to_screen
+from .clip import nearest, project_triangles
+from .ground import Ground, make_background
 from .png_file import Image, png
-from .points import bounds, shifted
-from .raster import Floats, Indices, covered, front
+from .points import compute_bounds, shift_points
+from .raster import Floats, Indices, find_front, list_covered
 from .scene import OPAQUE, Scene
+from .shading import Colors, ShadowMap, place_lights, to_screen
 from .shapes import Shapes
 
 __all__ = ["SIZE", "draw", "png"]
@@ -64,11 +64,11 @@ def draw(
     rows = np.flatnonzero(there)
     corners = corners[rows]
     view = view_of(corners, camera, size)
-    pixels = backdrop(view.size, background)
+    pixels = make_background(view.size, background)
     if not len(rows):
         return to_screen(pixels)
-    corners, view, middle, scale = _of_size_one(corners, view)
-    lights = lights_of(view)
+    corners, view, middle, scale = _normalize_size(corners, view)
+    lights = place_lights(view)
     thrower = corners[shapes.colors[rows, 3] > _CASTS]
     resolution = min(max(max(view.size) * 9 // 8, 768), 1536) // 2 * 2
     shadow = ShadowMap(thrower, lights.key, resolution) if len(thrower) else None
@@ -80,22 +80,22 @@ def draw(
         floor.paint(pixels, view)
     fine = (view.size[0] * FINER, view.size[1] * FINER)
     scene = Scene(shapes, view, lights, shadow, rows, view.seen(corners), normals[rows], fine)
-    light, opacity = _samples(scene, shapes.colors[rows, 3] >= OPAQUE, floor)
-    over = _pixels(opacity[:, None], view.size)
-    return to_screen(_pixels(light, view.size) + pixels * (1 - over))
+    light, opacity = _compute_samples(scene, shapes.colors[rows, 3] >= OPAQUE, floor)
+    over = _average_pixels(opacity[:, None], view.size)
+    return to_screen(_average_pixels(light, view.size) + pixels * (1 - over))
 
 
-def _of_size_one(corners: Floats, view: View) -> tuple[Floats, View, float, float]:
+def _normalize_size(corners: Floats, view: View) -> tuple[Floats, View, float, float]:
     """Move triangles and camera to the origin and scale them to size 1, for single precision.
 
     Returns:
         Triangles, camera, height of the origin [m] and length of the unit [m].
     """
-    low, high = bounds(corners.reshape(-1, 3))
+    low, high = compute_bounds(corners.reshape(-1, 3))
     middle = low + (high - low) / 2
     scale = float((high - low).max()) or 1.0
     moved = View(view.axes, (view.eye - middle) / scale, view.reach, view.size)
-    return shifted(corners, -middle) / scale, moved, float(middle[2]), scale
+    return shift_points(corners, -middle) / scale, moved, float(middle[2]), scale
 
 
 def view_of(corners: Floats, camera: Camera | View | None, size: tuple[int, int]) -> View:
@@ -108,7 +108,7 @@ def view_of(corners: Floats, camera: Camera | View | None, size: tuple[int, int]
     return (camera or Camera()).view(points, size)
 
 
-def _samples(
+def _compute_samples(
     scene: Scene, opaque: npt.NDArray[np.bool_], floor: Ground | None
 ) -> tuple[Colors, Colors]:
     """Compute light and opacity of each sample; transparent surfaces are blended on top."""
@@ -116,23 +116,23 @@ def _samples(
     light, opacity = np.zeros((count, 3), np.float32), np.zeros(count, np.float32)
     solid, clear = np.flatnonzero(opaque), np.flatnonzero(~opaque)
     plane = nearest(scene.corners)
-    flat, owner = clipped(scene.corners[solid], scene.view.reach, scene.size, plane)
-    first, nearness = front(flat, scene.size)
+    flat, owner = project_triangles(scene.corners[solid], scene.view.reach, scene.size, plane)
+    first, nearness = find_front(flat, scene.size)
     samples = np.flatnonzero(first >= 0)
     _put(scene, samples, solid[owner[first[samples]]], floor, light, opacity)
     if len(clear):
-        flat, owner = clipped(scene.corners[clear], scene.view.reach, scene.size, plane)
+        flat, owner = project_triangles(scene.corners[clear], scene.view.reach, scene.size, plane)
         parts = [
             (found.sample[ahead], found.nearness[ahead], clear[owner[found.triangle[ahead]]])
-            for found in covered(flat, scene.size)
+            for found in list_covered(flat, scene.size)
             for ahead in [found.nearness * _BEFORE > nearness[found.sample]]
         ]
         if parts:
-            _layers(scene, parts, floor, light, opacity)
+            _blend_layers(scene, parts, floor, light, opacity)
     return light, opacity
 
 
-def _layers(
+def _blend_layers(
     scene: Scene,
     parts: list[tuple[Indices, npt.NDArray[np.float32], Indices]],
     floor: Ground | None,
@@ -180,7 +180,7 @@ def _put_some(
     opacity[samples] = opacity[samples] * (1 - alpha) + alpha
 
 
-def _pixels(samples: Colors, size: tuple[int, int]) -> Colors:
+def _average_pixels(samples: Colors, size: tuple[int, int]) -> Colors:
     """Average the samples of each pixel."""
     width, height = size
     cut = samples.reshape(height, FINER, width, FINER, samples.shape[1])

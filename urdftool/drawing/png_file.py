@@ -7,7 +7,7 @@ import io
 import numpy as np
 import numpy.typing as npt
 
-from ..extras import missing
+from ..extras import make_missing_error
 
 Image = npt.NDArray[np.uint8]
 """Pixels: red, green and blue, shape (height, width, 3)."""
@@ -26,7 +26,7 @@ def png(image: npt.NDArray[np.uint8], *, level: int = 6) -> bytes:
     try:
         from PIL import Image as Pillow
     except ImportError as error:
-        raise missing("PIL", "a picture") from error
+        raise make_missing_error("PIL", "a picture") from error
     out = io.BytesIO()
     Pillow.fromarray(np.ascontiguousarray(image)).save(out, "PNG", compress_level=level)
     return out.getvalue()

@@ -11,24 +11,24 @@ import numpy as np
 from .raster import Floats
 
 
-def bounds(points: Floats) -> tuple[Floats, Floats]:
+def compute_bounds(points: Floats) -> tuple[Floats, Floats]:
     """Compute the minimum and maximum of each column of points, shape (n, 3), n > 0."""
     columns = [points[:, axis] for axis in range(points.shape[1])]
     return np.array([c.min() for c in columns]), np.array([c.max() for c in columns])
 
 
-def extent(points: Floats) -> float:
+def compute_extent(points: Floats) -> float:
     """Compute the longest edge of the bounding box of points, shape (n, 3), n > 0."""
-    low, high = bounds(points)
+    low, high = compute_bounds(points)
     return float((high - low).max())
 
 
-def middle(points: Floats) -> Floats:
+def compute_mean(points: Floats) -> Floats:
     """Compute the mean of points, shape (n, 3), n > 0."""
     return np.array([points[:, axis].mean() for axis in range(points.shape[1])])
 
 
-def shifted(points: Floats, by: Floats) -> Floats:
+def shift_points(points: Floats, by: Floats) -> Floats:
     """Add one vector to points, shape (…, 3)."""
     made = np.empty_like(points)
     for axis in range(points.shape[-1]):
@@ -36,7 +36,7 @@ def shifted(points: Floats, by: Floats) -> Floats:
     return made
 
 
-def turned(points: Floats, rotation: Floats, shift: Floats | None = None) -> Floats:
+def transform_points(points: Floats, rotation: Floats, shift: Floats | None = None) -> Floats:
     """Rotate points, shape (…, 3), by a matrix, then shift them."""
     made = np.asarray(points.reshape(-1, 3) @ rotation.T)
     if shift is not None:

@@ -13,7 +13,7 @@ Indices = npt.NDArray[np.int64]
 Owners = npt.NDArray[np.int32]
 Nearness = npt.NDArray[np.float32]
 
-NOBODY = -1
+NO_TRIANGLE = -1
 """Owner of a sample that no triangle covers."""
 
 # sized for the processor's cache
@@ -32,7 +32,7 @@ class Samples(NamedTuple):
     """Nearness, interpolated linearly between the corners."""
 
 
-def front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
+def find_front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
     """Find the nearest triangle at the center of each sample; of equally near ones the last.
 
     Args:
@@ -45,7 +45,7 @@ def front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
         Rows of triangles, or ``NOBODY``, and their nearness, or 0; each of shape (columns * rows,).
     """
     keys = np.zeros(size[0] * size[1], dtype=np.uint64)
-    for found in covered(corners, size):
+    for found in list_covered(corners, size):
         # positive floats sort like their bits
         near = np.maximum(found.nearness, np.float32(0)).view(np.uint32).astype(np.uint64)
         key = (near << np.uint64(32)) | (found.triangle + 1).astype(np.uint64)
@@ -54,7 +54,7 @@ def front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
     return owners.astype(np.int32), (keys >> np.uint64(32)).astype(np.uint32).view(np.float32)
 
 
-def covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
+def list_covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
     """Yield the samples that triangles cover, in blocks; arguments as :func:`front`."""
     width, height = size
     (ax, ay, _), (bx, by, _), (cx, cy, _) = np.ascontiguousarray(corners.transpose(1, 2, 0))
@@ -72,11 +72,11 @@ def covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
         done = ends[begin - 1] if begin else 0
         stop = max(begin + 1, int(np.searchsorted(ends, done + _ROWS_AT_ONCE, side="right")))
         some = used[begin:stop]
-        yield from _samples(some, corners[some], low[some], counts[begin:stop], width)
+        yield from _split_samples(some, corners[some], low[some], counts[begin:stop], width)
         begin = stop
 
 
-def _samples(
+def _split_samples(
     triangles: Indices, corners: Floats, low: Floats, rows: Indices, width: int
 ) -> Iterator[Samples]:
     """Split triangles into spans, one per row, and spans into samples."""
@@ -90,7 +90,7 @@ def _samples(
     span = np.repeat(np.arange(len(rows)), rows)
     if not len(span):
         return
-    line = low[span] + _within(rows)
+    line = low[span] + _enumerate_within(rows)
     y = line + 0.5
     begin, end = np.full(len(span), -np.inf), np.full(len(span), np.inf)
     for one, other in ((a, b), (b, c), (c, a)):
@@ -117,13 +117,13 @@ def _samples(
         stop = max(at_span + 1, int(np.searchsorted(ends, done + _SAMPLES_AT_ONCE, side="right")))
         some = slice(at_span, stop)
         which = np.repeat(np.arange(at_span, stop), counts[some])
-        step = _within(counts[some])
+        step = _enumerate_within(counts[some])
         nearness = start[which] + slope[which] * step
         yield Samples(owner[which], place[which] + step, nearness.astype(np.float32))
         at_span = stop
 
 
-def _within(counts: Indices) -> Indices:
+def _enumerate_within(counts: Indices) -> Indices:
     """Concatenate 0, 1, 2 … for each count."""
     ends = np.cumsum(counts)
     return np.asarray(np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts))

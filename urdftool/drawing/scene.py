@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .camera import View
-from .light import Colors, Lights, ShadowMap, shade, to_linear
 from .raster import Floats, Indices
+from .shading import Colors, Lights, ShadowMap, shade, to_linear
 from .shapes import Shapes
-from .texture import looked_up
+from .texture import sample_texture
 
 OPAQUE = 0.995
 """Opacity above which a surface counts as opaque."""
@@ -52,15 +52,15 @@ class Scene:
         """
         used, row = _compact(triangles, len(self.corners))
         a, b, c = (self.corners[used, k] for k in range(3))
-        areas = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)
-        planes = _cross(b - a, c - a)
+        areas = np.stack([_compute_cross(b, c), _compute_cross(c, a), _compute_cross(a, b)], axis=1)
+        planes = _compute_cross(b - a, c - a)
         # scaled to stay within single precision
         largest = np.abs(areas).max(axis=(1, 2), initial=0.0)
         largest = np.where(largest > 0, largest, 1.0)[:, None]
         offsets = (np.einsum("ij,ij->i", a, planes)[:, None] / largest).astype(np.float32)[:, 0]
         areas = (areas / largest[..., None]).astype(np.float32)
         planes = (planes / largest).astype(np.float32)
-        rays = self._rays(samples)
+        rays = self._compute_rays(samples)
         weights = np.einsum("nij,nj->ni", areas[row], rays)
         slant = np.einsum("ni,ni->n", planes[row], rays)
         weights = np.clip(weights / np.where(slant == 0, 1, slant)[:, None], 0, 1)
@@ -70,20 +70,20 @@ class Scene:
         far = offsets[row] / np.where(slant == 0, 1, slant)
         far = np.clip(far, depth.min(axis=1)[row], depth.max(axis=1)[row])
         normals = np.einsum("ni,nij->nj", weights, self.normals[used].astype(np.float32)[row])
-        _unit(normals)
+        _normalize(normals)
         normals *= np.where(slant > 0, np.float32(-1), np.float32(1))[:, None]
         axes = self.view.axes.astype(np.float32)
         rays = rays @ axes
         world = rays * far[:, None] + self.view.eye.astype(np.float32)
         to_eye = -rays
-        _unit(to_eye)
+        _normalize(to_eye)
         lit = np.ones(len(world), dtype=np.float32)
         if self.shadow is not None:
             lit = self.shadow.lit(world, normals)
-        colors, opacity = self._colors(self.rows[used], row, weights)
+        colors, opacity = self._compute_colors(self.rows[used], row, weights)
         return shade(colors, normals, to_eye, lit, self.lights), opacity, world[:, 2]
 
-    def _rays(self, samples: Indices) -> Colors:
+    def _compute_rays(self, samples: Indices) -> Colors:
         """Return rays from the eye through samples, in the camera's axes, with z = -1."""
         width, height = self.size
         rays = np.empty((len(samples), 3), dtype=np.float32)
@@ -93,7 +93,9 @@ class Scene:
         rays[:, 2] = -1
         return rays
 
-    def _colors(self, used: Indices, row: Indices, weights: Colors) -> tuple[Colors, Colors]:
+    def _compute_colors(
+        self, used: Indices, row: Indices, weights: Colors
+    ) -> tuple[Colors, Colors]:
         """Return colors in linear light and opacities, including images."""
         plain = self.shapes.colors[used]
         colors = to_linear(plain[:, :3])[row]
@@ -101,7 +103,7 @@ class Scene:
         for number in np.unique(images[images >= 0]):
             some = np.flatnonzero((images == number)[row])
             uv = np.einsum("ni,nij->nj", weights[some], self.shapes.uv[used][row[some]])
-            texels = looked_up(self.shapes.images[number], uv)
+            texels = sample_texture(self.shapes.images[number], uv)
             colors[some] *= to_linear(texels[:, :3])
         return colors, plain[:, 3].astype(np.float32)[row]
 
@@ -114,7 +116,7 @@ def _compact(triangles: Indices, count: int) -> tuple[Indices, Indices]:
     return np.flatnonzero(there), number[triangles]
 
 
-def _cross(one: Floats, other: Floats) -> Floats:
+def _compute_cross(one: Floats, other: Floats) -> Floats:
     """Compute cross products of rows, several times faster than numpy."""
     made = np.empty_like(one)
     for axis, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
@@ -122,7 +124,7 @@ def _cross(one: Floats, other: Floats) -> Floats:
     return made
 
 
-def _unit(rows: Colors) -> None:
+def _normalize(rows: Colors) -> None:
     """Normalize rows in place."""
     length = np.sqrt(np.einsum("ni,ni->n", rows, rows))
     rows /= np.maximum(length, np.float32(1e-9))[:, None]

@@ -14,10 +14,10 @@ from ..model.elements import Collision, Robot, Visual
 from ..model.elements import Mesh as MeshGeometry
 from ..model.pose import Pose
 from .detail import Detail
-from .gather import LARGEST, Gathering, Surface, shape_surface
+from .load_geometry import LARGEST, Gathering, Surface, read_surface
 from .materials import Materials, Rgba
-from .normals import corner_normals
-from .points import turned
+from .normals import compute_corner_normals
+from .points import transform_points
 from .raster import Floats, Indices
 from .texture import Texels
 
@@ -80,13 +80,13 @@ class Shapes:
             rotation, shift = np.array(pose.rotation), np.array(pose.translation)
             if not (np.isfinite(rotation).all() and (np.abs(shift) < LARGEST).all()):
                 continue
-            corners[some] = turned(self.corners[some], rotation, shift)
-            normals[some] = turned(self.normals[some], rotation)
+            corners[some] = transform_points(self.corners[some], rotation, shift)
+            normals[some] = transform_points(self.normals[some], rotation)
             there[some] = True
         return corners, normals, there
 
 
-def bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") -> Shapes:
+def make_bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") -> Shapes:
     """Create shapes of one link from triangles.
 
     Args:
@@ -96,7 +96,7 @@ def bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") ->
     corners, normals, colors = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros((0, 4))]
     for vertices, faces, rgba in groups:
         corners.append(vertices[faces])
-        normals.append(corner_normals(vertices, faces))
+        normals.append(compute_corner_normals(vertices, faces))
         colors.append(np.tile(np.array(rgba), (len(faces), 1)))
     count = sum(map(len, corners))
     return Shapes(
@@ -110,7 +110,7 @@ def bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") ->
     )
 
 
-def robot_shapes(
+def read_robot_shapes(
     robot: Robot,
     *,
     show: str = "visual",
@@ -136,7 +136,7 @@ def robot_shapes(
     if show not in SHOWS:
         raise ValueError(f"show must be one of {', '.join(SHOWS)}, not {show!r}")
     gathering = Gathering(robot, Materials(robot))
-    wanted = list(_wanted(robot, show))
+    wanted = list(_list_selected(robot, show))
     if pixels is not None and robot.source is not None:
         gathering.read = Detail(robot, wanted, pixels).read
     uris = dict.fromkeys(
@@ -150,13 +150,13 @@ def robot_shapes(
         if isinstance(geometry, MeshGeometry) and geometry.filename not in reported:
             reported.add(geometry.filename)
             progress(numbers[geometry.filename], len(numbers), geometry.filename)
-        surface = shape_surface(gathering, shape, over=show == "both")
+        surface = read_surface(gathering, shape, over=show == "both")
         if surface is not None:
             pieces.append((row, surface))
-    return _joined(gathering, pieces)
+    return _concatenate(gathering, pieces)
 
 
-def _wanted(robot: Robot, show: str) -> Iterator[tuple[int, Visual | Collision]]:
+def _list_selected(robot: Robot, show: str) -> Iterator[tuple[int, Visual | Collision]]:
     for row, link in enumerate(robot.links):
         if show != "collision":
             yield from ((row, visual) for visual in link.visuals)
@@ -164,7 +164,7 @@ def _wanted(robot: Robot, show: str) -> Iterator[tuple[int, Visual | Collision]]
             yield from ((row, collision) for collision in link.collisions)
 
 
-def _joined(gathering: Gathering, pieces: list[tuple[int, Surface]]) -> Shapes:
+def _concatenate(gathering: Gathering, pieces: list[tuple[int, Surface]]) -> Shapes:
     names = tuple(link.name for link in gathering.robot.links)
 
     def together(kind: str, shape: tuple[int, ...]) -> Floats:

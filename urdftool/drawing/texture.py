@@ -45,7 +45,7 @@ def read_texture(source: Path | bytes) -> Texels:
     return np.ascontiguousarray(pixels[::-1])
 
 
-def looked_up(texels: Texels, uv: Floats) -> Floats:
+def sample_texture(texels: Texels, uv: Floats) -> Floats:
     """Sample an image bilinearly at texture coordinates; it repeats beyond its edges.
 
     Returns:

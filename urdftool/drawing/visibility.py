@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 from ..model.pose import Pose
 from .camera import Camera, View
-from .clip import clipped, nearest
-from .gather import LARGEST
+from .clip import nearest, project_triangles
+from .load_geometry import LARGEST
 from .picture import draw
 from .png_file import Image
-from .points import turned
-from .raster import Floats, front
+from .points import transform_points
+from .raster import Floats, find_front
 from .shapes import Shapes
 
 Mask = npt.NDArray[np.bool_]
@@ -59,11 +59,11 @@ class Cloud:
             if pose is not None:
                 some = self.link == row
                 turn, shift = np.array(pose.rotation), np.array(pose.translation)
-                placed[some] = turned(self.points[some], turn, shift)
+                placed[some] = transform_points(self.points[some], turn, shift)
         return placed
 
 
-def best_camera(
+def choose_best_camera(
     cloud: Cloud,
     poses: Sequence[Mapping[str, Pose]],
     moved: Collection[str],
@@ -89,15 +89,15 @@ def best_camera(
     first, *others = cameras
     if not len(everything) or not moves.any():
         return first
-    best, most = first, 1.5 * _visible(points, first.view(everything, _GRID))
+    best, most = first, 1.5 * _count_visible(points, first.view(everything, _GRID))
     for camera in others:
-        count = _visible(points, camera.view(everything, _GRID))
+        count = _count_visible(points, camera.view(everything, _GRID))
         if count > most:
             best, most = camera, count
     return best
 
 
-def _visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
+def _count_visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
     """Count the pixels that show moved points, in the picture with the fewest."""
     counts = []
     for placed, moves in points:
@@ -116,17 +116,17 @@ def _visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
     return min(counts)
 
 
-def hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, view: View) -> Mask:
+def mask_hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, view: View) -> Mask:
     """Mask the pixels where other triangles hide moved ones, shape (height, width)."""
     corners, _, there = shapes.posed(poses)
     rows = np.flatnonzero(there)
     hidden = np.zeros(view.size[0] * view.size[1], dtype=bool)
     if moved[rows].any():
         seen = view.seen(corners[rows])
-        flat, owner = clipped(seen, view.reach, view.size, nearest(seen))
+        flat, owner = project_triangles(seen, view.reach, view.size, nearest(seen))
         moves = moved[rows][owner]
-        first, _ = front(flat, view.size)
-        behind, _ = front(flat[moves], view.size)
+        first, _ = find_front(flat, view.size)
+        behind, _ = find_front(flat[moves], view.size)
         hidden = (behind >= 0) & ~moves[first]
     return hidden.reshape(view.size[1], view.size[0])
 
@@ -144,7 +144,7 @@ def draw_through(
         ground: Height of the floor [m].
     """
     image = draw(shapes, poses, camera=view, ground=ground)
-    hidden = hidden_pixels(shapes, poses, moved, view)
+    hidden = mask_hidden_pixels(shapes, poses, moved, view)
     if hidden.any():
         links = {shapes.links[row] for row in np.unique(shapes.link[moved])}
         alone = {name: pose for name, pose in poses.items() if name in links}

@@ -15,7 +15,7 @@ from ..errors import ModelError
 from ..finding import Finding
 from ..lint.validate import validate
 from ..model.elements import Robot
-from ..model.world import with_world
+from ..model.world import add_world
 from ..source.location import Place
 
 FATAL = frozenset(
@@ -55,30 +55,30 @@ def refuse(findings: Iterable[Finding], *, force: bool, fatal: frozenset[str] = 
         raise Refused(forbidding)
 
 
-def defects(robot: Robot) -> list[Finding]:
+def report_defects(robot: Robot) -> list[Finding]:
     """Find the defects of a robot's links, joints and numbers that every export refuses."""
     return validate(robot, "export")
 
 
-def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
+def report_taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
     """A robot with the world that it names and does not declare, and the defects that this is.
 
     Args:
         robot: Any robot; it is copied unchanged.
     """
-    whole, joint = with_world(robot)
+    whole, joint = add_world(robot)
     if joint is None:
         return robot, []
-    remain = set(map(identity, validate(whole, "join")))
-    return whole, [f for f in validate(robot, "join") if identity(f) not in remain]
+    remain = set(map(get_identity, validate(whole, "join")))
+    return whole, [f for f in validate(robot, "join") if get_identity(f) not in remain]
 
 
-def identity(finding: Finding) -> tuple[str, Place, str]:
+def get_identity(finding: Finding) -> tuple[str, Place, str]:
     """Get what two findings about one defect of a robot have in common."""
     return finding.code, finding.location, finding.name
 
 
-def defect(
+def make_defect(
     rule: str,
     message: str,
     place: Place,

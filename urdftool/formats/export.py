@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ..model.elements import Robot
-from ..model.files import sources
+from ..model.files import list_sources
 from .check import Check
 from .common.directory import write_export
 from .registry import ExportOptions, Format
@@ -46,7 +46,7 @@ def finish_export(
     """
     checks = target.check_unwritten(robot, options, written, verify=verify)
     if output is not None:
-        read = [*sorted(sources(robot)), *options.input_files, *inputs]
+        read = [*sorted(list_sources(robot)), *options.input_files, *inputs]
         write_export(output, written, single=bool(options.file), overwrite=overwrite, inputs=read)
     if verify:
         checks += target.check_output(robot, options, written, output)

@@ -38,10 +38,12 @@ class Mechanics:
         self._below: dict[str, list[Joint]] = {}
         for joint in robot.joints:
             self._below.setdefault(joint.parent, []).append(joint)
-        self.joints = [j for j in robot.joints if j.type in TURNING + SLIDING and _length(j) > 1e-6]
+        self.joints = [
+            j for j in robot.joints if j.type in TURNING + SLIDING and _compute_length(j) > 1e-6
+        ]
         self._column = {joint.name: index for index, joint in enumerate(self.joints)}
 
-    def frames(self, positions: Mapping[str, float]) -> dict[str, Array]:
+    def compute_frames(self, positions: Mapping[str, float]) -> dict[str, Array]:
         """Compute the pose of every link in the root's frame, 4 × 4.
 
         Args:
@@ -52,36 +54,36 @@ class Mechanics:
         while todo:
             parent = todo.pop()
             for joint in self._below.get(parent, ()):
-                moved = found[parent] @ origin_matrix(joint.origin)
+                moved = found[parent] @ get_origin_matrix(joint.origin)
                 if joint.name in self._column:
-                    moved = moved @ _motion(joint, positions.get(joint.name, 0.0))
+                    moved = moved @ _compute_motion(joint, positions.get(joint.name, 0.0))
                 found[joint.child] = moved
                 todo.append(joint.child)
         return found
 
-    def mass_matrix(self, positions: Mapping[str, float]) -> Array:
+    def compute_mass_matrix(self, positions: Mapping[str, float]) -> Array:
         """Compute the joint-space mass matrix [kg·m², kg·m, kg]."""
         size = len(self.joints)
         matrix = np.zeros((size, size))
-        for mass, tensor, linear, angular in self._jacobians(positions):
+        for mass, tensor, linear, angular in self._compute_jacobians(positions):
             matrix += mass * linear.T @ linear + angular.T @ tensor @ angular
         return matrix
 
-    def gravity(self, positions: Mapping[str, float]) -> Array:
+    def compute_gravity(self, positions: Mapping[str, float]) -> Array:
         """Compute the force [N·m or N] that each joint needs to hold the robot against gravity."""
         force = np.zeros(len(self.joints))
-        for mass, _, linear, _ in self._jacobians(positions):
+        for mass, _, linear, _ in self._compute_jacobians(positions):
             force -= mass * linear.T @ GRAVITY
         return force
 
-    def centroid(self, positions: Mapping[str, float]) -> tuple[float, Array, Array]:
+    def compute_centroid(self, positions: Mapping[str, float]) -> tuple[float, Array, Array]:
         """Compute mass [kg], center of mass [m] and inertia about it [kg·m²], in the root frame."""
-        frames = self.frames(positions)
+        frames = self.compute_frames(positions)
         bodies = [
             properties
             for link in self.robot.links
             if link.name in frames
-            if (properties := _mass_properties(link, frames[link.name])) is not None
+            if (properties := _get_mass_properties(link, frames[link.name])) is not None
         ]
         mass = math.fsum(body[0] for body in bodies)
         if mass == 0:
@@ -93,11 +95,14 @@ class Mechanics:
             tensor += inertia + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
         return mass, com, tensor
 
-    def _jacobians(self, positions: Mapping[str, float]) -> list[tuple[float, Array, Array, Array]]:
+    def _compute_jacobians(
+        self, positions: Mapping[str, float]
+    ) -> list[tuple[float, Array, Array, Array]]:
         """Compute mass, tensor, and linear and angular Jacobian of each link's center of mass."""
-        frames = self.frames(positions)
+        frames = self.compute_frames(positions)
         axes = {
-            joint.name: frames[joint.child][:3, :3] @ (_axis(joint) / _length(joint))
+            joint.name: frames[joint.child][:3, :3]
+            @ (_compute_axis(joint) / _compute_length(joint))
             for joint in self.joints
             if joint.child in frames
         }
@@ -108,7 +113,7 @@ class Mechanics:
                 joint = next(j for j in self.robot.joints if j.child == name)
                 own = [joint] if joint.name in self._column else []
                 moving[name] = moving[joint.parent] + own
-            properties = _mass_properties(self.robot.link[name], frames[name])
+            properties = _get_mass_properties(self.robot.link[name], frames[name])
             if properties is None:
                 continue
             mass, com, tensor = properties
@@ -125,7 +130,7 @@ class Mechanics:
         return found
 
 
-def origin_matrix(origin: Origin | None) -> Array:
+def get_origin_matrix(origin: Origin | None) -> Array:
     """Return the 4 × 4 pose of an ``<origin>``."""
     pose = np.eye(4)
     if origin is None:
@@ -153,29 +158,29 @@ def turn(axis: Array, angle: float) -> Array:
     return rotation
 
 
-def _axis(joint: Joint) -> Array:
+def _compute_axis(joint: Joint) -> Array:
     return np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
 
 
-def _length(joint: Joint) -> float:
-    return float(np.linalg.norm(_axis(joint)))
+def _compute_length(joint: Joint) -> float:
+    return float(np.linalg.norm(_compute_axis(joint)))
 
 
-def _motion(joint: Joint, position: float) -> Array:
+def _compute_motion(joint: Joint, position: float) -> Array:
     pose = np.eye(4)
     if joint.type in TURNING:
-        pose[:3, :3] = turn(_axis(joint), position)
+        pose[:3, :3] = turn(_compute_axis(joint), position)
     else:
-        pose[:3, 3] = _axis(joint) / _length(joint) * position
+        pose[:3, 3] = _compute_axis(joint) / _compute_length(joint) * position
     return pose
 
 
-def _mass_properties(link: Link, frame: Array) -> tuple[float, Array, Array] | None:
+def _get_mass_properties(link: Link, frame: Array) -> tuple[float, Array, Array] | None:
     """Return mass, center of mass and inertia tensor of a link in the root's frame."""
     inertial = link.inertial
     if inertial is None:
         return None
-    pose = frame @ origin_matrix(inertial.origin)
+    pose = frame @ get_origin_matrix(inertial.origin)
     tensor = np.zeros((3, 3))
     if inertial.inertia is not None:
         i = inertial.inertia

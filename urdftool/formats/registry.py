@@ -69,7 +69,7 @@ class Format:
             SourceError: The file cannot be read.
             ModelError: It is not a robot description.
         """
-        reading: Reading = self._module("read").read(path, **options)
+        reading: Reading = self._make_module("read").read(path, **options)
         return reading
 
     def write(self, robot: Robot, options: ExportOptions) -> Written:
@@ -78,13 +78,13 @@ class Format:
         Raises:
             Refused: The robot has defects that prevent the export.
         """
-        written: Written = self._module("write").write(robot, options)
+        written: Written = self._make_module("write").write(robot, options)
         return written
 
     @property
     def not_compared(self) -> tuple[str, ...]:
         """Return the parts of a file that no check compares."""
-        names: tuple[str, ...] = self._module("checks").NOT_COMPARED
+        names: tuple[str, ...] = self._make_module("checks").NOT_COMPARED
         return names
 
     def check_unwritten(
@@ -101,7 +101,7 @@ class Format:
         Raises:
             OutputError: A reader of the format rejects it.
         """
-        checks: list[Check] = self._module("checks").check_unwritten(
+        checks: list[Check] = self._make_module("checks").check_unwritten(
             robot, options, written, verify=verify
         )
         return checks
@@ -114,10 +114,12 @@ class Format:
         output: str | Path | None,
     ) -> list[Check]:
         """Compare an export on disk with its source; use a temporary copy if the output is None."""
-        checks: list[Check] = self._module("checks").check_output(robot, options, written, output)
+        checks: list[Check] = self._make_module("checks").check_output(
+            robot, options, written, output
+        )
         return checks
 
-    def _module(self, name: str) -> Any:
+    def _make_module(self, name: str) -> Any:
         return import_module(f".{self.name}.{name}", __package__)
 
 
@@ -162,11 +164,11 @@ def format_named(name: str) -> Format:
     return {format_.name: format_ for format_ in FORMATS}[name]
 
 
-def writable_formats() -> tuple[Format, ...]:
+def get_writable_formats() -> tuple[Format, ...]:
     """Return the formats that have a writer."""
     return tuple(format_ for format_ in FORMATS if format_.can_write)
 
 
-def readable_formats() -> tuple[Format, ...]:
+def get_readable_formats() -> tuple[Format, ...]:
     """Return the formats that have a reader."""
     return tuple(format_ for format_ in FORMATS if format_.can_read)

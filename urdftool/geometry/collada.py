@@ -21,7 +21,7 @@ from urllib.parse import unquote, urlsplit
 import numpy as np
 
 from ..errors import MeshError
-from ..extras import missing
+from ..extras import make_missing_error
 from .mesh import MeshNote, Piece, Points, Reading
 
 MAX_DEPTH = 256
@@ -72,7 +72,7 @@ def _parse(path: Path, notes: list[MeshNote]) -> Any:
     try:
         import collada
     except ModuleNotFoundError as error:
-        raise missing("collada", "reading a COLLADA mesh (.dae)") from error
+        raise make_missing_error("collada", "reading a COLLADA mesh (.dae)") from error
 
     head = path.read_bytes()
     if b"<!ENTITY" in head or "<!ENTITY".encode("utf-16-le") in head:

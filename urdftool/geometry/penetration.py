@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from ..model.elements import Box, Capsule, Cone, Cylinder, Ellipsoid, Geometry, Sphere, Vector
-from ..model.pose import Pose, cross, norm, transpose
+from ..model.pose import Pose, compute_cross, compute_norm, transpose
 
 SupportFunction = Callable[[float, float, float], float]
 """Support function: the largest extent of a shape along a direction [m], in its own frame."""
@@ -80,7 +80,7 @@ def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
             ``enough`` or less.
     """
     apart = _difference(other.pose.translation, one.pose.translation)
-    distance = norm(apart)
+    distance = compute_norm(apart)
     if distance >= one.radius + other.radius - enough:
         return enough
     turn, turned = transpose(one.pose.rotation), transpose(other.pose.rotation)
@@ -142,9 +142,9 @@ def _directions(one: Convex, other: Convex, apart: Vector, distance: float) -> I
 def _around(way: Vector, step: float) -> Iterator[Vector]:
     """Yield eight unit vectors around a direction, at about ``step`` [rad] from it."""
     least = min(range(3), key=lambda axis: abs(way[axis]))
-    first = cross(way, tuple(float(axis == least) for axis in range(3)))  # type: ignore[arg-type]
-    first = _scaled(first, 1 / norm(first))
-    second = cross(way, first)
+    first = compute_cross(way, tuple(float(axis == least) for axis in range(3)))  # type: ignore[arg-type]
+    first = _scaled(first, 1 / compute_norm(first))
+    second = compute_cross(way, first)
     for number in range(8):
         c, s = math.cos(number * math.pi / 4), math.sin(number * math.pi / 4)
         moved = [w + step * (c * f + s * g) for w, f, g in zip(way, first, second, strict=True)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..model.elements import ControlComponent, GazeboExtension, Robot, Ros2Control, Sensor
 from .figure import Edge, Figure, Node
-from .words import visible
+from .formatting import escape_controls
 
 
 def add_attached(
@@ -33,39 +33,41 @@ def add_attached(
         if holder is not None:
             if name is not None:
                 figure.nodes[holder].elements.append(block.element)
-            _hang_block(figure, block, holder)
+            _attach_block(figure, block, holder)
     for control in robot.ros2_controls:
-        _hang_control(figure, control, top, links, joints)
+        _attach_control(figure, control, top, links, joints)
 
 
-def _hang(figure: Figure, node: Node, holder: str) -> Node:
+def _attach(figure: Figure, node: Node, holder: str) -> Node:
     figure.add(node)
     figure.edges.append(Edge(holder, node.key, "holds"))
     return node
 
 
-def _hang_block(figure: Figure, block: GazeboExtension, holder: str) -> None:
+def _attach_block(figure: Figure, block: GazeboExtension, holder: str) -> None:
     for sensor in block.sensors:
-        _hang(figure, _sensor(sensor), holder)
+        _attach(figure, _make_sensor_node(sensor), holder)
     for plugin in block.plugins:
         node = Node(f"plugin:{plugin.name}", "plugin", plugin.name, elements=[plugin.element])
         node.facts = {"filename": plugin.filename}
-        node.lines.append(visible(plugin.filename) or "no library")
-        _hang(figure, node, holder)
+        node.lines.append(escape_controls(plugin.filename) or "no library")
+        _attach(figure, node, holder)
 
 
-def _sensor(sensor: Sensor) -> Node:
+def _make_sensor_node(sensor: Sensor) -> Node:
     node = Node(f"sensor:{sensor.name}", "sensor", sensor.name, elements=[sensor.element])
     node.facts = {
         "type": sensor.type,
         "plugins": [plugin.filename for plugin in sensor.plugins],
     }
-    node.lines.append(f"{visible(sensor.type)} sensor" if sensor.type else "sensor without a type")
-    node.lines += [visible(plugin.filename) for plugin in sensor.plugins]
+    node.lines.append(
+        f"{escape_controls(sensor.type)} sensor" if sensor.type else "sensor without a type"
+    )
+    node.lines += [escape_controls(plugin.filename) for plugin in sensor.plugins]
     return node
 
 
-def _hang_control(
+def _attach_control(
     figure: Figure,
     control: Ros2Control,
     top: str | None,
@@ -79,9 +81,9 @@ def _hang_control(
         "plugin": control.plugin,
         "joints": [joint.name for joint in control.joints],
     }
-    node.lines.append(f"ros2_control {visible(control.type) or 'hardware'}")
+    node.lines.append(f"ros2_control {escape_controls(control.type) or 'hardware'}")
     if control.plugin:
-        node.lines.append(visible(control.plugin))
+        node.lines.append(escape_controls(control.plugin))
     # hardware of a single joint is attached to it; for several joints the edges would cross
     driven = [joints[joint.name] for joint in control.joints if joint.name in joints]
     holder = driven[0] if len(set(driven)) == 1 and len(control.joints) == 1 else top
@@ -89,22 +91,24 @@ def _hang_control(
     if holder is not None:
         figure.edges.append(Edge(holder, node.key, "holds"))
     for component in control.components:
-        summary = _interfaces(component)
+        summary = _format_interfaces(component)
         key = joints.get(component.name) if component.kind == "joint" else None
         if key is not None:
             figure.nodes[key].lines.append(summary)
             figure.nodes[key].elements.append(component.element)
         else:
             where = "" if component.kind != "joint" else " (missing joint)"
-            node.lines.append(f"{component.kind} {visible(component.name)}{where}")
+            node.lines.append(f"{component.kind} {escape_controls(component.name)}{where}")
 
 
-def _interfaces(component: ControlComponent) -> str:
+def _format_interfaces(component: ControlComponent) -> str:
     parts = []
     for kind, interfaces in (
         ("command", component.command_interfaces),
         ("state", component.state_interfaces),
     ):
         if interfaces:
-            parts.append(f"{kind} {', '.join(visible(interface.name) for interface in interfaces)}")
+            parts.append(
+                f"{kind} {', '.join(escape_controls(interface.name) for interface in interfaces)}"
+            )
     return "; ".join(parts) or "no interfaces"

@@ -15,12 +15,12 @@ from ..model.elements import (
     UnknownShape,
     Visual,
 )
-from ..model.shapes import shape_name
+from ..model.shapes import get_shape_name
 from .attached import add_attached
 from .figure import Edge, Figure, Node
-from .links import ends
-from .walk import walk
-from .words import number, numbers, visible
+from .formatting import escape_controls, format_numbers, number
+from .links import find_ends
+from .traversal import walk
 
 _AXES = {
     (1.0, 0.0, 0.0): "x",
@@ -33,43 +33,45 @@ _AXES = {
 _MOST_SHAPES = 4
 
 
-def detailed_figure(robot: Robot) -> Figure:
+def create_detailed_figure(robot: Robot) -> Figure:
     """Create the detailed figure of a robot."""
     figure = Figure(robot.name, "detailed")
     found = walk(robot)
-    transmissions = _transmissions(robot)
+    transmissions = _group_transmissions(robot)
     keys: dict[str, str] = {}
     for link in found.links:
-        keys[link.name] = figure.add(_link(link)).key
+        keys[link.name] = figure.add(_make_link_node(link)).key
     joints: dict[str, str] = {}
     for joint in found.joints:
-        node = figure.add(_joint(joint, transmissions.get(joint.name, [])))
+        node = figure.add(_make_joint_node(joint, transmissions.get(joint.name, [])))
         joints.setdefault(joint.name, node.key)
-        _edges(figure, joint, node, keys)
+        _add_edges(figure, joint, node, keys)
     for joint in found.joints:
         if joint.mimic is not None and joint.mimic.joint in joints:
             figure.edges.append(Edge(joints[joint.mimic.joint], joints[joint.name], "mimic"))
     for closure in robot.closures:
-        text = f"{visible(closure.type)} to {visible(closure.parent)}, closing a loop"
+        text = (
+            f"{escape_controls(closure.type)} to {escape_controls(closure.parent)}, closing a loop"
+        )
         figure.nodes[keys[closure.child]].lines.append(text)
     add_attached(figure, robot, keys, joints)
     return figure
 
 
-def _edges(figure: Figure, joint: Joint, node: Node, keys: dict[str, str]) -> None:
-    parent, child = ends(figure, joint, keys)
+def _add_edges(figure: Figure, joint: Joint, node: Node, keys: dict[str, str]) -> None:
+    parent, child = find_ends(figure, joint, keys)
     xyz = rpy = ""
     if joint.origin is not None:
-        xyz = numbers(joint.origin.xyz) if any(joint.origin.xyz) else ""
+        xyz = format_numbers(joint.origin.xyz) if any(joint.origin.xyz) else ""
         if joint.origin.quaternion is not None:
-            rpy = f"{numbers(joint.origin.quaternion)} (quaternion)"
+            rpy = f"{format_numbers(joint.origin.quaternion)} (quaternion)"
         elif any(joint.origin.rpy):
-            rpy = numbers(joint.origin.rpy)
+            rpy = format_numbers(joint.origin.rpy)
     figure.edges.append(Edge(parent, node.key, xyz=xyz, rpy=rpy))
     figure.edges.append(Edge(node.key, child))
 
 
-def _transmissions(robot: Robot) -> dict[str, list[Transmission]]:
+def _group_transmissions(robot: Robot) -> dict[str, list[Transmission]]:
     found: dict[str, list[Transmission]] = {}
     for transmission in robot.transmissions:
         for joint in transmission.joints:
@@ -77,12 +79,12 @@ def _transmissions(robot: Robot) -> dict[str, list[Transmission]]:
     return found
 
 
-def _link(link: Link) -> Node:
+def _make_link_node(link: Link) -> Node:
     node = Node(f"link:{link.name}", "link", link.name, elements=link.sources)
     node.facts = {
         "mass": link.inertial.mass if link.inertial is not None else None,
-        "visuals": [_shape_facts(shape) for shape in link.visuals],
-        "collisions": [_shape_facts(shape) for shape in link.collisions],
+        "visuals": [_describe_shape(shape) for shape in link.visuals],
+        "collisions": [_describe_shape(shape) for shape in link.collisions],
     }
     if link.is_frame:
         node.lines.append("frame")
@@ -90,39 +92,39 @@ def _link(link: Link) -> Node:
     mass = node.facts["mass"]
     node.lines.append("no mass" if mass is None else f"{number(mass)} kg")
     for kind, shapes in (("visual", link.visuals), ("collision", link.collisions)):
-        node.lines.append(f"{kind}: {_shapes(shapes)}" if shapes else f"no {kind}")
+        node.lines.append(f"{kind}: {_format_shapes(shapes)}" if shapes else f"no {kind}")
     return node
 
 
-def _shapes(shapes: list[Visual] | list[Collision]) -> str:
+def _format_shapes(shapes: list[Visual] | list[Collision]) -> str:
     counts: dict[str, int] = {}
     for shape in shapes:
-        name = _shape(shape.geometry)
+        name = _format_shape(shape.geometry)
         counts[name] = counts.get(name, 0) + 1
     texts = [name if count == 1 else f"{count} × {name}" for name, count in counts.items()]
     more = [f"{len(texts) - _MOST_SHAPES + 1} more"] if len(texts) > _MOST_SHAPES else []
     return ", ".join([*texts[: _MOST_SHAPES - len(more)], *more])
 
 
-def _shape(geometry: Geometry | None) -> str:
+def _format_shape(geometry: Geometry | None) -> str:
     if geometry is None:
         return "nothing"
     if isinstance(geometry, Mesh):
-        return visible(geometry.filename.replace("\\", "/").rpartition("/")[2] or "mesh")
+        return escape_controls(geometry.filename.replace("\\", "/").rpartition("/")[2] or "mesh")
     if isinstance(geometry, UnknownShape):
-        return f"<{visible(geometry.tag)}>"
-    return shape_name(geometry)
+        return f"<{escape_controls(geometry.tag)}>"
+    return get_shape_name(geometry)
 
 
-def _shape_facts(shape: Visual | Collision) -> dict[str, Any]:
+def _describe_shape(shape: Visual | Collision) -> dict[str, Any]:
     geometry = shape.geometry
-    facts: dict[str, Any] = {"shape": None if geometry is None else shape_name(geometry)}
+    facts: dict[str, Any] = {"shape": None if geometry is None else get_shape_name(geometry)}
     if isinstance(geometry, Mesh):
         facts["filename"] = geometry.filename
     return facts
 
 
-def _joint(joint: Joint, transmissions: list[Transmission]) -> Node:
+def _make_joint_node(joint: Joint, transmissions: list[Transmission]) -> Node:
     node = Node(f"joint:{joint.name}", "joint", joint.name, elements=joint.sources)
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     limit, mimic = joint.limit, joint.mimic
@@ -139,28 +141,32 @@ def _joint(joint: Joint, transmissions: list[Transmission]) -> Node:
         else {"joint": mimic.joint, "multiplier": mimic.multiplier, "offset": mimic.offset},
         "transmissions": [transmission.name for transmission in transmissions],
     }
-    kind = visible(joint.type) or "no type"
+    kind = escape_controls(joint.type) or "no type"
     verb = "along" if joint.type == "prismatic" else "normal to" if kind == "planar" else "about"
     node.lines.append(
-        f"{kind} {verb} {_AXES.get(axis) or numbers(axis)}" if joint.has_axis else kind
+        f"{kind} {verb} {_AXES.get(axis) or format_numbers(axis)}" if joint.has_axis else kind
     )
-    node.lines += _limits(joint)
+    node.lines += _format_limits(joint)
     if mimic is not None:
         offset = f" {mimic.offset:+.4g}" if mimic.offset else ""
-        node.lines.append(f"mimics {number(mimic.multiplier)} × {visible(mimic.joint)}{offset}")
+        node.lines.append(
+            f"mimics {number(mimic.multiplier)} × {escape_controls(mimic.joint)}{offset}"
+        )
     for transmission in transmissions:
         node.elements += transmission.sources
         interfaces = [name for member in transmission.joints for name in member.hardware_interfaces]
         for actuator in transmission.actuators:
             interfaces += actuator.hardware_interfaces
-        texts = ", ".join(visible(name.rpartition("/")[2]) for name in dict.fromkeys(interfaces))
+        texts = ", ".join(
+            escape_controls(name.rpartition("/")[2]) for name in dict.fromkeys(interfaces)
+        )
         node.lines.append(
-            f"transmission {visible(transmission.name)}" + (f" ({texts})" if texts else "")
+            f"transmission {escape_controls(transmission.name)}" + (f" ({texts})" if texts else "")
         )
     return node
 
 
-def _limits(joint: Joint) -> list[str]:
+def _format_limits(joint: Joint) -> list[str]:
     limit = joint.limit
     if limit is None:
         return ["no limit"] if joint.is_limited else []

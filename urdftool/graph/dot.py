@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from ..diagnostic import Severity
 from .figure import Edge, Figure, Node
-from .words import shown, visible
+from .formatting import escape_controls, shorten_name
 
 COLORS = {Severity.ERROR: "#c0271b", Severity.WARNING: "#c77700", Severity.INFO: "#2f6fb5"}
 
@@ -39,96 +39,103 @@ def to_dot(figure: Figure, folder: str | None = None) -> str:
         folder: Folder of the output file, from which links to the source are relative; None for
             neither tooltips nor links.
     """
-    lines = _ros(figure, folder) if figure.style == "ros" else _detailed(figure, folder)
+    lines = _write_ros(figure, folder) if figure.style == "ros" else _write_detailed(figure, folder)
     return "".join(f"{line}\n" for line in lines)
 
 
-def quoted(text: str) -> str:
+def quote_text(text: str) -> str:
     """Quote a text so that Graphviz shows it literally, without escapes or entities."""
-    text = visible(text).replace("\\", "\\\\").replace('"', '\\"')
+    text = escape_controls(text).replace("\\", "\\\\").replace('"', '\\"')
     return f'"{_ENTITY.sub("&amp;", text)}"'
 
 
-def _several(lines: list[str]) -> str:
+def _join_lines(lines: list[str]) -> str:
     """Join the lines of a label or tooltip in one pair of quotes.
 
     Empty lines are dropped, as Graphviz sometimes fails on them.
     """
-    return '"' + "\\n".join(quoted(line)[1:-1] for line in lines if line) + '"'
+    return '"' + "\\n".join(quote_text(line)[1:-1] for line in lines if line) + '"'
 
 
-def _ros(figure: Figure, folder: str | None) -> Iterator[str]:
+def _write_ros(figure: Figure, folder: str | None) -> Iterator[str]:
     yield "digraph G {"
-    yield from _caption(figure)
+    yield from _write_caption(figure)
     yield "node [shape=box];"
     for node in figure.of_kind("link"):
-        yield f"{quoted(node.key)} [label={_ros_label(node)}{_ros_more(node, folder)}];"
+        yield (
+            f"{quote_text(node.key)} "
+            f"[label={_make_ros_label(node)}{_make_ros_attributes(node, folder)}];"
+        )
     yield "node [shape=ellipse, color=blue, fontcolor=blue];"
     for node in figure.of_kind("joint", "missing"):
-        more = _ros_more(node, folder)
-        label = _ros_label(node)
+        more = _make_ros_attributes(node, folder)
+        label = _make_ros_label(node)
         if more or label != f'"{node.key}"':
-            yield f"{quoted(node.key)} [label={label}{more}];"
+            yield f"{quote_text(node.key)} [label={label}{more}];"
     for edge in figure.edges:
         label = f' [label="xyz: {edge.xyz} \\nrpy: {edge.rpy}"]' if edge.xyz else ""
-        yield f"{quoted(edge.tail)} -> {quoted(edge.head)}{label}"
+        yield f"{quote_text(edge.tail)} -> {quote_text(edge.head)}{label}"
     yield "}"
 
 
-def _ros_label(node: Node) -> str:
-    return _several(
-        [node.name or "(no name)", *_members(node), *(mark for mark, _ in node.marks())]
+def _make_ros_label(node: Node) -> str:
+    return _join_lines(
+        [node.name or "(no name)", *_list_members(node), *(mark for mark, _ in node.marks())]
     )
 
 
-def _ros_more(node: Node, folder: str | None) -> str:
+def _make_ros_attributes(node: Node, folder: str | None) -> str:
     found = {}
     if node.severity is not None:
         color = COLORS[node.severity]
         found = {"color": f'"{color}"', "fontcolor": f'"{color}"', "penwidth": "2"}
-    found |= _links(node, folder)
+    found |= _make_links(node, folder)
     return "".join(f", {name}={value}" for name, value in found.items())
 
 
-def _detailed(figure: Figure, folder: str | None) -> Iterator[str]:
-    yield f"digraph {quoted(figure.name)} {{"
-    yield from _caption(figure)
+def _write_detailed(figure: Figure, folder: str | None) -> Iterator[str]:
+    yield f"digraph {quote_text(figure.name)} {{"
+    yield from _write_caption(figure)
     yield 'graph [fontname="Helvetica", nodesep=0.25, ranksep=0.35];'
     yield 'node [fontname="Helvetica", fontsize=12, shape=box, style=filled, color="#5a6b7d"];'
     yield 'edge [fontname="Helvetica", fontsize=9, fontcolor="#5a6b7d", color="#5a6b7d"];'
     for node in figure.nodes.values():
-        attributes = {"label": f"<{_html(node)}>", **_look(node), **_links(node, folder)}
+        attributes = {
+            "label": f"<{_format_html(node)}>",
+            **_look(node),
+            **_make_links(node, folder),
+        }
         texts = ", ".join(f"{name}={value}" for name, value in attributes.items())
-        yield f"{quoted(node.key)} [{texts}];"
+        yield f"{quote_text(node.key)} [{texts}];"
     for edge in figure.edges:
-        yield f"{quoted(edge.tail)} -> {quoted(edge.head)}{_edge(edge)};"
+        yield f"{quote_text(edge.tail)} -> {quote_text(edge.head)}{_format_edge(edge)};"
     yield "}"
 
 
-def _caption(figure: Figure) -> Iterator[str]:
+def _write_caption(figure: Figure) -> Iterator[str]:
     """Yield a caption with the findings that concern no node."""
     if figure.findings:
         texts = list(dict.fromkeys(f"{f.severity.label}: {f.code}" for f in figure.findings))
         color = COLORS[max(finding.severity for finding in figure.findings)]
-        label = _several([shown(figure.name), *texts])
+        label = _join_lines([shorten_name(figure.name), *texts])
         yield f'graph [label={label}, fontcolor="{color}"];'
 
 
-def _members(node: Node) -> list[str]:
+def _list_members(node: Node) -> list[str]:
     more = len(node.members) - _MOST_MEMBERS
-    names = [f"+ {shown(name)}" for name in node.members]
+    names = [f"+ {shorten_name(name)}" for name in node.members]
     return [*names[: _MOST_MEMBERS - 1], f"+ {more + 1} more"] if more > 0 else names
 
 
-def _html(node: Node) -> str:
+def _format_html(node: Node) -> str:
     """Format a node as an HTML-like label: name in bold, small lines, faults and findings."""
-    name = _data(shown(node.name))
+    name = _escape_html(shorten_name(node.name))
     rows = [f"<B>{name}</B>" if name.strip() else "<I>no name</I>"]
-    small = [_data(shown(line)) for line in (*_members(node), *node.lines)]
+    small = [_escape_html(shorten_name(line)) for line in (*_list_members(node), *node.lines)]
     if small:
         rows.append(f'<FONT POINT-SIZE="10">{"<BR/>".join(small)}</FONT>')
     marks = [
-        f'<FONT POINT-SIZE="10" COLOR="{COLORS[severity]}"><B>{_data(mark)}</B></FONT>'
+        f'<FONT POINT-SIZE="10" COLOR="{COLORS[severity]}"><B>{_escape_html(mark)}</B></FONT>'
         for mark, severity in node.marks()
     ]
     if marks:
@@ -137,7 +144,7 @@ def _html(node: Node) -> str:
     return f'<TABLE BORDER="0" CELLSPACING="0" CELLPADDING="1">{cells}</TABLE>'
 
 
-def _data(text: str) -> str:
+def _escape_html(text: str) -> str:
     """Escape a text for an HTML-like label, where Graphviz also interprets backslashes."""
     for plain, written in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("\\", "\\\\")):
         text = text.replace(plain, written)
@@ -158,16 +165,16 @@ def _look(node: Node) -> dict[str, str]:
     return look
 
 
-def _edge(edge: Edge) -> str:
+def _format_edge(edge: Edge) -> str:
     if edge.kind == "mimic":
         return ' [style=dashed, constraint=false, label="mimic"]'
     if edge.kind == "holds":
         return " [style=dotted, arrowhead=none]"
     lines = [f"{name} {text}" for name, text in (("xyz", edge.xyz), ("rpy", edge.rpy)) if text]
-    return f" [label={_several([f'  {line}' for line in lines])}]" if lines else ""
+    return f" [label={_join_lines([f'  {line}' for line in lines])}]" if lines else ""
 
 
-def _links(node: Node, folder: str | None) -> dict[str, str]:
+def _make_links(node: Node, folder: str | None) -> dict[str, str]:
     """Return a tooltip with all faults and findings, and a link to the source of the node."""
     if folder is None:
         return {}
@@ -183,5 +190,7 @@ def _links(node: Node, folder: str | None) -> dict[str, str]:
             path = os.path.relpath(os.path.abspath(place.path), os.path.abspath(folder))
             found["URL"] = f'"{quote(path.replace(os.sep, "/"))}#L{place.line}"'
     # Graphviz resolves the escapes of a tooltip twice
-    found["tooltip"] = _several([line.replace("\\", "\\\\") for line in map(visible, lines)])
+    found["tooltip"] = _join_lines(
+        [line.replace("\\", "\\\\") for line in map(escape_controls, lines)]
+    )
     return found

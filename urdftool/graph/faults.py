@@ -10,7 +10,7 @@ from ..lint.validate import find_problems
 from ..model.elements import Joint, Link, Robot
 from ..rules.rule import Problem
 from ..source.location import Place
-from .words import visible
+from .formatting import escape_controls
 
 
 @dataclass(slots=True)
@@ -37,22 +37,22 @@ def find_faults(robot: Robot) -> Iterator[Fault]:
     found: dict[str, list[Problem]] = {}
     for rule, problem in find_problems(robot, "graph"):
         found.setdefault(rule, []).append(problem)
-    yield from _roots(robot, found.get("multiple-roots", []))
-    yield from _loops(robot, found.get("detached-cycle", []))
-    yield from _parents(found.get("multiple-parents", []))
-    yield from _twins(robot, "link", found.get("duplicate-link-name", []))
-    yield from _twins(robot, "joint", found.get("duplicate-joint-name", []))
+    yield from _find_roots(robot, found.get("multiple-roots", []))
+    yield from _find_loops(robot, found.get("detached-cycle", []))
+    yield from _find_parents(found.get("multiple-parents", []))
+    yield from _find_duplicates(robot, "link", found.get("duplicate-link-name", []))
+    yield from _find_duplicates(robot, "joint", found.get("duplicate-joint-name", []))
     ends = [
         fault
         for rule in ("joint-to-itself", *_END_MARKS)
         for problem in found.get(rule, [])
-        for fault in _end(rule, problem)
+        for fault in _find_wrong_ends(rule, problem)
     ]
     order = {id(joint): number for number, joint in enumerate(robot.joints)}
     yield from sorted(ends, key=lambda f: (order[id(f.part)], f.mark.endswith("child")))
 
 
-def first_of_each(faults: Iterable[Fault]) -> list[Fault]:
+def group_by_message(faults: Iterable[Fault]) -> list[Fault]:
     """Return the faults, only the first of those that share a problem."""
     found: dict[int, Fault] = {}
     for fault in faults:
@@ -64,11 +64,18 @@ def _fault(
     rule: str, part: Link | Joint, mark: str, problem: Problem, message: str, place: Place
 ) -> Fault:
     return Fault(
-        rule, Severity.ERROR, visible(message), place, part, mark, problem, data=problem.data
+        rule,
+        Severity.ERROR,
+        escape_controls(message),
+        place,
+        part,
+        mark,
+        problem,
+        data=problem.data,
     )
 
 
-def _roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
+def _find_roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
     if problems:
         problem, roots = problems[0], robot.tree.roots
         for number, link in enumerate(roots, 1):
@@ -76,7 +83,7 @@ def _roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
             yield _fault("multiple-roots", link, mark, problem, problem.group, link.place)
 
 
-def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
+def _find_loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
     """Find the links of each loop, and other links that are not connected to a root."""
     reported: set[str] = set()
     for problem in problems:
@@ -91,13 +98,14 @@ def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
     for link in robot.tree.detached:
         if link.name not in reported:
             message = (
-                f"link '{visible(link.name)}' is not connected to a root link, because its parent "
+                f"link '{escape_controls(link.name)}' is not connected to a root link, because "
+                "its parent "
                 "joints form a loop or refer to a missing link"
             )
             yield Fault("detached", Severity.ERROR, message, link.place, link, "detached")
 
 
-def _parents(problems: list[Problem]) -> Iterator[Fault]:
+def _find_parents(problems: list[Problem]) -> Iterator[Fault]:
     reported: set[str] = set()
     for problem in problems:
         link = problem.subject
@@ -107,7 +115,7 @@ def _parents(problems: list[Problem]) -> Iterator[Fault]:
             yield _fault("multiple-parents", link, mark, problem, problem.message, link.place)
 
 
-def _twins(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
+def _find_duplicates(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
     """Find links or joints with the same name; of links, only the first, which is drawn."""
     by_name: dict[str, list[Problem]] = {}
     for problem in problems:
@@ -128,7 +136,7 @@ _END_MARKS = {
 }
 
 
-def _end(rule: str, problem: Problem) -> Iterator[Fault]:
+def _find_wrong_ends(rule: str, problem: Problem) -> Iterator[Fault]:
     joint = problem.subject
     if not isinstance(joint, Joint):
         return

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .figure import Figure, Node
-from .words import number
+from .formatting import number
 
 
 def fold_fixed(figure: Figure) -> Figure:
@@ -25,15 +25,15 @@ def fold_fixed(figure: Figure) -> Figure:
         if key not in into:
             folded.nodes[key] = node
         else:
-            _take(figure.nodes[_top(into, key)], node)
+            _take(figure.nodes[_find_top(into, key)], node)
     for edge in figure.edges:
-        edge.tail, edge.head = _top(into, edge.tail), _top(into, edge.head)
+        edge.tail, edge.head = _find_top(into, edge.tail), _find_top(into, edge.head)
         if edge.tail != edge.head:
             folded.edges.append(edge)
     return folded
 
 
-def _top(into: dict[str, str], key: str) -> str:
+def _find_top(into: dict[str, str], key: str) -> str:
     while key in into:
         key = into[key]
     return key

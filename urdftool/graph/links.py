@@ -6,7 +6,7 @@ from ..model.elements import Joint
 from .figure import Figure, Node
 
 
-def ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, str]:
+def find_ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, str]:
     """Return the keys of the parent's and the child's node.
 
     A node is added for each link that does not exist, and for each missing name.

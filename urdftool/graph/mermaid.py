@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from .dot import COLORS
 from .figure import Edge, Figure, Node
-from .words import shown
+from .formatting import shorten_name
 
 MAX_EDGES = 500
 MAX_CHARACTERS = 50_000
@@ -32,10 +32,10 @@ _LOOKS = {
 
 def to_mermaid(figure: Figure) -> str:
     """Convert a figure to a Mermaid flowchart."""
-    return "".join(f"{line}\n" for line in _lines(figure))
+    return "".join(f"{line}\n" for line in _write_lines(figure))
 
 
-def too_large(figure: Figure, text: str) -> str:
+def explain_size(figure: Figure, text: str) -> str:
     """Explain which default limit of Mermaid a figure exceeds; return "" if none."""
     if len(figure.edges) > MAX_EDGES:
         return f"{len(figure.edges)} edges, but Mermaid's default limit (maxEdges) is {MAX_EDGES}"
@@ -48,18 +48,18 @@ def too_large(figure: Figure, text: str) -> str:
 
 def label(text: str) -> str:
     """Escape a text for Mermaid: special characters of Mermaid and HTML become character codes."""
-    coded = "".join(c if c.isalnum() or c in _PLAIN else f"#{ord(c)};" for c in shown(text))
+    coded = "".join(c if c.isalnum() or c in _PLAIN else f"#{ord(c)};" for c in shorten_name(text))
     return coded.replace("#92;n", "#92;#8288;n")  # an encoded \n is a line break, too
 
 
-def _lines(figure: Figure) -> Iterator[str]:
+def _write_lines(figure: Figure) -> Iterator[str]:
     numbers = {key: f"n{number}" for number, key in enumerate(figure.nodes)}
     yield "flowchart TB"
     for node in figure.nodes.values():
         begin, end = _BRACKETS[node.kind]
-        yield f"  {numbers[node.key]}{begin}{_text(node)}{end}:::{node.kind}"
+        yield f"  {numbers[node.key]}{begin}{_format_text(node)}{end}:::{node.kind}"
     for edge in figure.edges:
-        yield f"  {numbers[edge.tail]} {_arrow(edge)} {numbers[edge.head]}"
+        yield f"  {numbers[edge.tail]} {_format_arrow(edge)} {numbers[edge.head]}"
     for kind in dict.fromkeys(node.kind for node in figure.nodes.values()):
         yield f"  classDef {kind} {_LOOKS[kind]}"
     for node in figure.nodes.values():
@@ -68,14 +68,14 @@ def _lines(figure: Figure) -> Iterator[str]:
             yield f"  style {numbers[node.key]} stroke:{color},stroke-width:3px,color:{color}"
 
 
-def _text(node: Node) -> str:
+def _format_text(node: Node) -> str:
     name = label(node.name) if node.name.strip() else "no name"
     lines = [f"+ {member}" for member in node.members] + node.lines
     lines += [mark for mark, _ in node.marks()]
     return "<br>".join([name, *map(label, lines)])
 
 
-def _arrow(edge: Edge) -> str:
+def _format_arrow(edge: Edge) -> str:
     if edge.kind == "mimic":
         return '-.->|"mimic"|'
     if edge.kind == "holds":

@@ -9,16 +9,16 @@ from __future__ import annotations
 import math
 
 from ..model.elements import Joint, Origin, Robot, Vector
-from ..model.pose import quaternion_of_rpy
+from ..model.pose import quaternion_from_rpy
 from .figure import Edge, Figure, Node
-from .links import ends
-from .walk import by_name, walk
+from .links import find_ends
+from .traversal import sort_by_name, walk
 
 
 def ros_figure(robot: Robot) -> Figure:
     """Create the figure of a robot in the style of ROS."""
     figure = Figure(robot.name, "ros")
-    found = walk(robot, by_name)
+    found = walk(robot, sort_by_name)
     keys: dict[str, str] = {}
     for link in found.links:
         keys[link.name] = figure.add(Node(link.name, "link", link.name, elements=link.sources)).key
@@ -30,26 +30,33 @@ def ros_figure(robot: Robot) -> Figure:
             node = figure.nodes[keys[joint.name]]
         else:
             node = figure.add(Node(joint.name, "joint", joint.name, elements=joint.sources))
-        _edges(figure, robot, joint, node, keys)
+        _add_edges(figure, robot, joint, node, keys)
     return figure
 
 
-def _edges(figure: Figure, robot: Robot, joint: Joint, node: Node, keys: dict[str, str]) -> None:
-    parent, child = ends(figure, joint, keys)
+def _add_edges(
+    figure: Figure, robot: Robot, joint: Joint, node: Node, keys: dict[str, str]
+) -> None:
+    parent, child = find_ends(figure, joint, keys)
     xyz = joint.origin.xyz if joint.origin is not None else (0.0, 0.0, 0.0)
     node.facts |= {"type": joint.type, "parent": joint.parent, "child": joint.child}
     figure.edges.append(
-        Edge(parent, node.key, xyz=_six(xyz), rpy=_six(_rpy(joint.origin, robot.version)))
+        Edge(
+            parent,
+            node.key,
+            xyz=_format_six_digits(xyz),
+            rpy=_format_six_digits(_compute_rpy(joint.origin, robot.version)),
+        )
     )
     figure.edges.append(Edge(node.key, child))
 
 
-def _six(values: Vector) -> str:
+def _format_six_digits(values: Vector) -> str:
     """Format numbers with six digits, as C++ streams do."""
     return " ".join(f"{value:g}" for value in values)
 
 
-def _rpy(origin: Origin | None, version: str | None) -> Vector:
+def _compute_rpy(origin: Origin | None, version: str | None) -> Vector:
     """Compute roll, pitch and yaw [rad] as urdfdom does from its stored quaternion.
 
     urdfdom reads ``quat_xyzw`` only since URDF 1.1.
@@ -60,7 +67,7 @@ def _rpy(origin: Origin | None, version: str | None) -> Vector:
     elif origin.quaternion is not None and version not in (None, "1", "1.0"):
         x, y, z, w = origin.quaternion
     else:
-        w, x, y, z = quaternion_of_rpy(origin.rpy)
+        w, x, y, z = quaternion_from_rpy(origin.rpy)
     length = math.sqrt(x * x + y * y + z * z + w * w)
     if length == 0.0:
         x = y = z = 0.0

@@ -18,7 +18,7 @@ from ..diagnostic import Diagnostic
 from ..errors import MeshError
 from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import inertia_from_second_moment, second_moment
+from ..mechanics.tensor import compute_inertia_from_second_moment, compute_second_moment
 from ..source.description import GltfUp
 from ..storage import DiskCache, cache_key
 from .inertia_error import InertiaError
@@ -62,7 +62,7 @@ class MeshBody:
         """Return the volume [m³], or the area [m²] of a surface."""
         return self.unit.mass
 
-    def scaled(self, factors: tuple[float, float, float]) -> MeshBody:
+    def scale(self, factors: tuple[float, float, float]) -> MeshBody:
         """Scale the mesh along its axes; negative factors mirror it.
 
         Raises:
@@ -83,11 +83,13 @@ class MeshBody:
             growth = x * x
         else:
             growth = abs(x * y * z)
-        xx, xy, xz, yy, yz, zz = (growth * part for part in second_moment(self.unit.tensor))
+        xx, xy, xz, yy, yz, zz = (growth * part for part in compute_second_moment(self.unit.tensor))
         second = (x * x * xx, x * y * xy, x * z * xz, y * y * yy, y * z * yz, z * z * zz)
         a, b, c = self.unit.com
         unit = SpatialInertia(
-            self.unit.mass * growth, (a * x, b * y, c * z), inertia_from_second_moment(second)
+            self.unit.mass * growth,
+            (a * x, b * y, c * z),
+            compute_inertia_from_second_moment(second),
         )
         corners = np.stack([self.lower * scale, self.upper * scale])
         hull = None if self.hull_measure is None else self.hull_measure * growth
@@ -129,14 +131,14 @@ def cached_mesh_body(
         MeshError: The file cannot be read or encloses no volume.
     """
     if cache.folder is None or not path.is_file():
-        return mesh_body(path, surface=surface, gltf_up=gltf_up)
+        return integrate_mesh_body(path, surface=surface, gltf_up=gltf_up)
     from ..geometry.thin import content_key
 
     key = cache_key(_REVISION, ["body", surface, gltf_up], [content_key(path).encode()])
     data = cache.get(key)
     if data is not None:
         return _unpacked(data, path)
-    body = mesh_body(path, surface=surface, gltf_up=gltf_up)
+    body = integrate_mesh_body(path, surface=surface, gltf_up=gltf_up)
     cache.put(key, _packed(body))
     return body
 
@@ -162,7 +164,7 @@ def _unpacked(data: bytes, path: Path) -> MeshBody:
     )
 
 
-def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:
+def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:
     """Integrate a mesh file at unit density, unscaled.
 
     Args:
@@ -180,9 +182,9 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
     box = used.min(axis=0), used.max(axis=0)
     count = len(mesh.faces)
     if surface:
-        from .polyhedron import shell_moments
+        from .polyhedron import compute_shell_moments
 
-        shell = shell_moments(mesh.vertices, mesh.faces).with_density(1.0)
+        shell = compute_shell_moments(mesh.vertices, mesh.faces).with_density(1.0)
         return MeshBody(
             path, shell, *box, "surface", True, 0.0, None, 1, count, mesh.note_texts, surface=True
         )
@@ -208,7 +210,7 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
     )
 
 
-def weighed(
+def scale_to_mass(
     unit: SpatialInertia, what: str, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Scale a body of unit density to a mass [kg] or a density [kg/m³].

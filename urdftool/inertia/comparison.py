@@ -10,7 +10,7 @@ import numpy as np
 
 from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import principal_axes
+from ..mechanics.tensor import compute_principal_axes
 
 ALIKE = 0.05
 """Relative difference of two principal moments below which their axes are undetermined."""
@@ -45,18 +45,18 @@ class Comparison:
 def compare(written: SpatialInertia, unit: SpatialInertia) -> Comparison:
     """Compare written mass properties with a body of unit density in the same frame."""
     implied = unit.with_mass(written.mass)
-    there, axes = principal_axes(written.tensor)
-    meant, implied_axes = principal_axes(implied.tensor)
+    there, axes = compute_principal_axes(written.tensor)
+    meant, implied_axes = compute_principal_axes(implied.tensor)
     ratio = [float(a / b) if b > 0 else math.inf for a, b in zip(there, meant, strict=True)]
     return Comparison(
         (ratio[0], ratio[1], ratio[2]),
-        axis_angle(there, axes, meant, implied_axes),
+        get_axis_angle(there, axes, meant, implied_axes),
         math.dist(written.com, unit.com),
         written.mass / unit.mass,
     )
 
 
-def axis_angle(moments: Array, axes: Array, others: Array, other_axes: Array) -> float | None:
+def get_axis_angle(moments: Array, axes: Array, others: Array, other_axes: Array) -> float | None:
     """Return the largest angle [rad] between corresponding axes that both tensors determine.
 
     Args:

@@ -11,10 +11,10 @@ from ..model.elements import Link
 from ..source.description import Description
 from ..source.document import STDIN, Document
 from ..source.packages import Packages
-from .bodies import weighed
+from .bodies import scale_to_mass
 from .inertia_error import InertiaError
 from .mesh_files import read_meshes
-from .pieces import SOURCES, LinkBody, link_body, mesh_names, shapes_of
+from .pieces import SOURCES, LinkBody, get_shapes, link_body, list_mesh_names
 from .requirements import require_consistent
 
 
@@ -61,16 +61,16 @@ def compute_inertia(
     path = root.file.path
     finder = Packages(None if path == STDIN else path, named=packages, paths=package_paths)
     description = Description(path, Document(root.file, root, []), [root.file], finder)
-    body = _body(link, description, source)
-    properties = weighed(body.unit, f"link '{link.name}'", mass=mass, density=density)
+    body = _make_body(link, description, source)
+    properties = scale_to_mass(body.unit, f"link '{link.name}'", mass=mass, density=density)
     return require_consistent(properties, f"link '{link.name}'")
 
 
-def _body(link: Link, description: Description, source: str | None) -> LinkBody:
+def _make_body(link: Link, description: Description, source: str | None) -> LinkBody:
     reason: UrdftoolError | None = None
     for name in (source,) if source else SOURCES:
-        shapes = shapes_of(link, name)
-        meshes = read_meshes(description, mesh_names(shapes), jobs=1)
+        shapes = get_shapes(link, name)
+        meshes = read_meshes(description, list_mesh_names(shapes), jobs=1)
         body = link_body(link, name, meshes)
         if body is not None and body.complete:
             return body

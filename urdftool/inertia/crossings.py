@@ -22,7 +22,7 @@ _AT_ONCE = 500_000
 _Numbers = npt.NDArray[np.int64]
 
 
-def crossing_numbers(points: Array, corners: Array) -> Array:
+def compute_crossing_numbers(points: Array, corners: Array) -> Array:
     """Compute the winding number of a closed surface at each point, shape (n,).
 
     No ray may hit an edge to within rounding. Points chosen independently of the surface fulfill
@@ -46,36 +46,36 @@ def crossing_numbers(points: Array, corners: Array) -> Array:
     numbers = np.zeros(len(points))
     x = corners[:, :, 0] - low[0]
     y = (corners[:, :, 1] - low[1]) / height
-    for triangle, row in _strips_of(y, strips):
-        left, right = _span(x[triangle], y[triangle], row)
+    for triangle, row in _list_strips(y, strips):
+        left, right = _compute_span(x[triangle], y[triangle], row)
         slack = 1e-9 * width
         meets = (left <= width) & (right >= -slack)
         triangle, row = triangle[meets], row[meets]
         begin = np.searchsorted(key, row * width + np.maximum(left[meets], 0.0) - slack)
         end = np.searchsorted(key, row * width + np.minimum(right[meets], width) + slack)
-        for some, point in _pairs(begin, end):
-            signs = _passes_below(points[point], corners[triangle[some]])
+        for some, point in _list_pairs(begin, end):
+            signs = _get_passes_below(points[point], corners[triangle[some]])
             numbers += np.bincount(point, weights=signs, minlength=len(points))
     result = np.empty(len(points))
     result[order] = numbers
     return result
 
 
-def _strips_of(y: Array, strips: int) -> Iterator[tuple[_Numbers, _Numbers]]:
+def _list_strips(y: Array, strips: int) -> Iterator[tuple[_Numbers, _Numbers]]:
     """Yield the pairs of a triangle and a strip it overlaps, in blocks."""
     lowest, highest = y.min(axis=1), y.max(axis=1)
     first = np.clip(np.floor(lowest), 0, strips - 1).astype(np.int64)
     last = np.clip(np.floor(highest), 0, strips - 1).astype(np.int64)
     counts = np.where((highest < 0) | (lowest > strips), 0, last - first + 1)
-    yield from _ranges(first, counts)
+    yield from _list_ranges(first, counts)
 
 
-def _pairs(begin: _Numbers, end: _Numbers) -> Iterator[tuple[_Numbers, _Numbers]]:
+def _list_pairs(begin: _Numbers, end: _Numbers) -> Iterator[tuple[_Numbers, _Numbers]]:
     """Yield the pairs of a range and an index in it, in blocks."""
-    yield from _ranges(begin, np.maximum(end - begin, 0))
+    yield from _list_ranges(begin, np.maximum(end - begin, 0))
 
 
-def _ranges(first: _Numbers, counts: _Numbers) -> Iterator[tuple[_Numbers, _Numbers]]:
+def _list_ranges(first: _Numbers, counts: _Numbers) -> Iterator[tuple[_Numbers, _Numbers]]:
     total = np.cumsum(counts)
     start = 0
     while start < len(counts):
@@ -88,7 +88,7 @@ def _ranges(first: _Numbers, counts: _Numbers) -> Iterator[tuple[_Numbers, _Numb
         start = stop
 
 
-def _span(x: Array, y: Array, strip: _Numbers) -> tuple[Array, Array]:
+def _compute_span(x: Array, y: Array, strip: _Numbers) -> tuple[Array, Array]:
     """Compute the interval along x that each triangle covers within its strip."""
     left, right = np.full(len(strip), np.inf), np.full(len(strip), -np.inf)
     for k in range(3):
@@ -104,7 +104,7 @@ def _span(x: Array, y: Array, strip: _Numbers) -> tuple[Array, Array]:
     return left, right
 
 
-def _passes_below(points: Array, corners: Array) -> Array:
+def _get_passes_below(points: Array, corners: Array) -> Array:
     """Return +1 if an upward ray leaves through the point's triangle, −1 if it enters, else 0."""
     a, b, c = (corners[:, k] - points for k in range(3))
     # twice the areas, projected along z, of the triangles of the point with each edge

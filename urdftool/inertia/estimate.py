@@ -26,13 +26,13 @@ from ..errors import MeshError
 from ..geometry.mesh import Array, Faces, Points
 from ..geometry.topology import body_labels, collapsed, edges_of, weld
 from ..mechanics.spatial_inertia import SpatialInertia
-from .hull import hull_moments
+from .hull import compute_hull_moments
 from .inertia_error import InertiaError
 from .nesting import Nesting, nest
-from .polyhedron import Moments, solid_moments
+from .polyhedron import Moments, compute_solid_moments
 from .repair import Filling, drop_duplicates, fill_holes, orient
 from .requirements import require_consistent
-from .sampling import sampled_moments
+from .sampling import compute_sampled_moments
 
 ACCEPTED_ERROR = 0.02
 """Relative error of the volume up to which a result is reliable."""
@@ -110,11 +110,11 @@ def estimate_mass_properties(
             f"the mesh has {len(kept)} triangles with an area; a solid requires at least four"
         )
     # normalized to size 1, so that thresholds are independent of units
-    middle, size = _frame(points)
+    middle, size = _choose_frame(points)
     points = (points - middle) / size
     bodies = int(body_labels(len(kept), edges_of(kept)).max()) + 1
-    solid = _exact(points, kept) or _mended(points, kept)
-    hull = None if solid.method == "exact" else hull_moments(points).measure * size**3
+    solid = _integrate_exact(points, kept) or _estimate_open(points, kept)
+    hull = None if solid.method == "exact" else compute_hull_moments(points).measure * size**3
     moments = Moments(
         solid.moments.measure * size**3,
         middle + size * solid.moments.centroid,
@@ -146,7 +146,7 @@ def _check_amount(mass: float | None, density: float | None) -> None:
             raise InertiaError(f"the {name} of a mesh is {given:g}; must be above zero")
 
 
-def _frame(points: Points) -> tuple[Array, float]:
+def _choose_frame(points: Points) -> tuple[Array, float]:
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max())
     if not size > 0:
@@ -156,13 +156,13 @@ def _frame(points: Points) -> tuple[Array, float]:
     return 0.5 * (low + high), size
 
 
-def _exact(points: Points, faces: Faces) -> _Solid | None:
+def _integrate_exact(points: Points, faces: Faces) -> _Solid | None:
     """Integrate bodies that are all closed and consistently wound; None for others."""
     edges = edges_of(faces)
     if not edges.cycle:
         return None
     labels = body_labels(len(faces), edges)
-    volumes, areas = _measures(points, faces, labels)
+    volumes, areas = _compute_measures(points, faces, labels)
     sheets = np.abs(volumes) < _SHEET * areas**1.5
     if sheets.all() or areas[sheets].sum() > 0.01 * areas.sum():
         return None
@@ -171,7 +171,7 @@ def _exact(points: Points, faces: Faces) -> _Solid | None:
         notes.append(f"Sheets without volume, ignored: {np.count_nonzero(sheets)}.")
     solid = np.flatnonzero(~sheets)
     if len(solid) == 1:
-        moments = solid_moments(points, faces[labels == solid[0]])
+        moments = compute_solid_moments(points, faces[labels == solid[0]])
         if moments.measure < 0:
             notes.append("The mesh is inside out; its faces were reversed.")
             moments = replace(moments, measure=-moments.measure, second=-moments.second)
@@ -180,7 +180,7 @@ def _exact(points: Points, faces: Faces) -> _Solid | None:
     runs = np.split(order, np.cumsum(np.bincount(labels))[:-1])
     corners = [points[faces[runs[body]]] for body in solid]
     nesting = nest(corners, volumes[solid])
-    notes += _nesting_notes(nesting)
+    notes += _collect_nesting_notes(nesting)
     # −1 for inverted solids and for cavities that are not inverted
     turn = nesting.share * np.where(volumes[solid] < 0, -1, 1)
     chosen = [
@@ -188,13 +188,15 @@ def _exact(points: Points, faces: Faces) -> _Solid | None:
         for body, sign in zip(solid, turn, strict=True)
         if sign
     ]
-    moments = solid_moments(points, np.concatenate(chosen))
+    moments = compute_solid_moments(points, np.concatenate(chosen))
     if not nesting.overlaps:
         return _Solid(moments, "exact", 0.0, True, tuple(notes))
-    return _without_overlap(points[faces], moments, notes)
+    return _remove_overlap(points[faces], moments, notes)
 
 
-def _measures(points: Points, faces: Faces, labels: npt.NDArray[np.int64]) -> tuple[Array, Array]:
+def _compute_measures(
+    points: Points, faces: Faces, labels: npt.NDArray[np.int64]
+) -> tuple[Array, Array]:
     """Compute signed volume and area of each body."""
     corners = points[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -205,7 +207,7 @@ def _measures(points: Points, faces: Faces, labels: npt.NDArray[np.int64]) -> tu
     return volume, area
 
 
-def _nesting_notes(nesting: Nesting) -> list[str]:
+def _collect_nesting_notes(nesting: Nesting) -> list[str]:
     notes = []
     if nesting.turned:
         notes.append(f"Bodies that are inside out, reversed: {nesting.turned}.")
@@ -216,9 +218,9 @@ def _nesting_notes(nesting: Nesting) -> list[str]:
     return notes
 
 
-def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
+def _remove_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
     """Sample the union of overlapping bodies, or return their sum if it hardly differs."""
-    halves = sampled_moments(corners)
+    halves = compute_sampled_moments(corners)
     if halves is None:
         return _Solid(summed, "exact", 1.0, False, (*notes, "Bodies overlap by an unknown amount."))
     union, noise = _average(*halves)
@@ -253,7 +255,7 @@ def _average(first: Moments, second: Moments) -> tuple[Moments, float]:
     return mean, max(differences)
 
 
-def _mended(points: Points, faces: Faces) -> _Solid:
+def _estimate_open(points: Points, faces: Faces) -> _Solid:
     """Estimate a mesh that is not closed: by repair, samples or its convex hull."""
     notes: list[str] = []
     unique = drop_duplicates(faces)
@@ -263,8 +265,10 @@ def _mended(points: Points, faces: Faces) -> _Solid:
     if turned:
         notes.append(f"Faces reversed to agree with their neighbors: {turned}.")
     filling = fill_holes(points, wound)
-    filled = _exact(filling.vertices, filling.faces)
-    opening = filling.area / _measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
+    filled = _integrate_exact(filling.vertices, filling.faces)
+    opening = (
+        filling.area / _compute_measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
+    )
     if filling.holes:
         notes.append(f"Holes closed: {filling.holes}, {opening:.1%} of the surface.")
     if filled is not None:
@@ -273,11 +277,11 @@ def _mended(points: Points, faces: Faces) -> _Solid:
             method = "repaired" if filled.method == "exact" else filled.method
             return _Solid(filled.moments, method, error, filled.reliable, (*notes, *filled.notes))
     caps = filling.vertices[filling.faces[len(wound) :]]
-    found = _sampled(points[wound], caps, filled, filling, opening, notes)
-    return found or _hull(points, notes)
+    found = _sample_solid(points[wound], caps, filled, filling, opening, notes)
+    return found or _estimate_by_hull(points, notes)
 
 
-def _sampled(
+def _sample_solid(
     corners: Array,
     caps: Array,
     filled: _Solid | None,
@@ -285,7 +289,7 @@ def _sampled(
     opening: float,
     notes: list[str],
 ) -> _Solid | None:
-    halves = sampled_moments(corners, caps=caps)
+    halves = compute_sampled_moments(corners, caps=caps)
     if halves is None:
         return None
     moments, noise = _average(*halves)
@@ -306,6 +310,6 @@ def _sampled(
     return _Solid(moments, "winding-number", error, reliable, tuple(notes))
 
 
-def _hull(points: Points, notes: list[str]) -> _Solid:
+def _estimate_by_hull(points: Points, notes: list[str]) -> _Solid:
     notes.append("The surface encloses no volume; its convex hull is used.")
-    return _Solid(hull_moments(points), "convex-hull", 1.0, False, tuple(notes))
+    return _Solid(compute_hull_moments(points), "convex-hull", 1.0, False, tuple(notes))

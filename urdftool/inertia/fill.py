@@ -19,11 +19,11 @@ from ..model.elements import Robot
 from ..source import edit
 from ..source.document import STDIN, Element
 from ..source.location import Place, SourceFile
-from ..source.packages import own_package, shown_path
+from ..source.packages import find_own_package, shorten_path
 from .inertia_error import InertiaError
 from .link_review import LinkReview
 from .masses import Masses
-from .wanted import Want, Wanted, wanted_for
+from .wanted import Want, Wanted, determine_edits
 
 _LONGEST_CALL = 60
 _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
@@ -89,7 +89,7 @@ def fill(
     todo = [
         wanted
         for item in found
-        if (wanted := _wanted(item, filling, masses, robot)) is not None and wanted.wants
+        if (wanted := _determine_edits(item, filling, masses, robot)) is not None and wanted.wants
     ]
     _Editor(robot, single, through_calls).settle(todo, filling)
     touched = {wanted.link.name for wanted in filling.written}
@@ -99,7 +99,9 @@ def fill(
     return filling
 
 
-def _wanted(item: LinkReview, filling: Filling, masses: Masses, robot: Robot) -> Wanted | None:
+def _determine_edits(
+    item: LinkReview, filling: Filling, masses: Masses, robot: Robot
+) -> Wanted | None:
     name = item.link.name
 
     def left(reason: str) -> None:
@@ -128,7 +130,7 @@ def _wanted(item: LinkReview, filling: Filling, masses: Masses, robot: Robot) ->
         left("one of its numbers cannot be read; --all replaces it")
         return None
     try:
-        wanted = wanted_for(item, recompute=masses.recompute)
+        wanted = determine_edits(item, recompute=masses.recompute)
     except InertiaError as error:
         left(error.message)
         return None
@@ -163,32 +165,32 @@ class _Editor:
         sites: dict[int, list[tuple[Site, Want]]] = {}
         for wanted in todo:
             try:
-                sites[id(wanted)] = [(self.site(want), want) for want in wanted.wants]
+                sites[id(wanted)] = [(self.find_site(want), want) for want in wanted.wants]
             except (_RefusedError, SourceError) as error:
                 refused[id(wanted)] = str(error)
         while True:
             before = len(refused)
             alive = [wanted for wanted in todo if id(wanted) not in refused]
-            changes = self._by_site(alive, sites)
+            changes = self._group_by_site(alive, sites)
             for wanted in alive:
                 for site, want in sites[id(wanted)]:
-                    reason = self._conflict(site, want, changes)
+                    reason = self._get_conflict(site, want, changes)
                     if reason:
                         refused[id(wanted)] = reason
             if len(refused) == before:
                 break
         for wanted in todo:
             if id(wanted) in refused:
-                advice = tuple((_place(want), _said(want)) for want in wanted.wants)
+                advice = tuple((_place(want), _describe_edit(want)) for want in wanted.wants)
                 filling.refused.append(
                     Refusal(wanted.link.name, refused[id(wanted)], wanted.link.place, advice)
                 )
             else:
                 filling.written.append(wanted)
-        for site, wants in self._by_site(filling.written, sites).items():
+        for site, wants in self._group_by_site(filling.written, sites).items():
             filling.edits.setdefault(site.path, []).append(self._edit(site, wants[0]))
 
-    def _by_site(
+    def _group_by_site(
         self, alive: Sequence[Wanted], sites: dict[int, list[tuple[Site, Want]]]
     ) -> dict[Site, list[Want]]:
         changes: dict[Site, list[Want]] = {}
@@ -197,40 +199,41 @@ class _Editor:
                 changes.setdefault(site, []).append(want)
         return changes
 
-    def _conflict(self, site: Site, want: Want, changes: dict[Site, list[Want]]) -> str:
+    def _get_conflict(self, site: Site, want: Want, changes: dict[Site, list[Want]]) -> str:
         """Return the reason why a place cannot be edited, or an empty string."""
         wants = changes[site]
         if any((other.value, other.lines) != (want.value, want.lines) for other in wants):
             return "it comes from a macro whose other expansions require different numbers"
         having = {id(other.element) for other in wants}
         for user in self.users[want.element.file.path, want.element.start]:
-            if id(user) not in having and self._same_site(user, want, site):
+            if id(user) not in having and self._is_same_site(user, want, site):
                 return (
-                    f"its source is also used elsewhere, where it must not change ({_named(user)})"
+                    "its source is also used elsewhere, where it must not change "
+                    f"({_format_element(user)})"
                 )
         return ""
 
-    def _same_site(self, user: Element, want: Want, site: Site) -> bool:
+    def _is_same_site(self, user: Element, want: Want, site: Site) -> bool:
         if want.attribute is None:
             return True
         try:
-            return self.site(Want(user, want.attribute, want.value)) == site
+            return self.find_site(Want(user, want.attribute, want.value)) == site
         except _RefusedError:
             return False
 
-    def site(self, want: Want) -> Site:
+    def find_site(self, want: Want) -> Site:
         """Find the place in the source where a change must be made.
 
         Raises:
             _RefusedError: The element or attribute is computed or in a file that may not be edited.
         """
         element = want.element
-        source = self._source(element.file)
+        source = self._get_source(element.file)
         if element.start not in source.elements:
             raise _RefusedError("it is not a separate element in the source")
         if want.attribute is None:
             return Site(element.file.path, element.start, f"<{want.child}>")
-        raw = edit.literal(source.elements[element.start], want.attribute)
+        raw = edit.read_literal(source.elements[element.start], want.attribute)
         if raw is None:
             return Site(element.file.path, element.start, want.attribute)
         calls = [call for call in element.calls if call.macro]
@@ -240,16 +243,16 @@ class _Editor:
             call = calls.pop(0) if calls else None
             tag = None
             if passed and call is not None:
-                tag = self._source(call.file).elements.get(call.start)
+                tag = self._get_source(call.file).elements.get(call.start)
             known = passed is not None and tag is not None and passed[1] in tag.attributes
             if not (known and self.through_calls) or passed is None or call is None or tag is None:
                 raise _RefusedError(f'{name}="{raw}" is computed')
             name = passed[1]
-            raw = edit.literal(tag, name) or ""
+            raw = edit.read_literal(tag, name) or ""
             at = Site(call.file.path, call.start, name)
         return at
 
-    def _source(self, file: SourceFile) -> edit.Source:
+    def _get_source(self, file: SourceFile) -> edit.Source:
         if file.path not in self.sources:
             self._check_file(file)
             self.sources[file.path] = edit.Source(file)
@@ -262,11 +265,11 @@ class _Editor:
         if self.single:
             raise _RefusedError(f"it is written in {file.path}, which -o OUT does not contain")
         path = self.description.packages.file
-        own = own_package(path)
+        own = find_own_package(path)
         root = str(own[1] if own else path.parent)
         real = os.path.abspath(file.path)
         if self.main == STDIN or not real.startswith(root + os.sep):
-            raise _RefusedError(f"it is written in {file.path}, outside of {shown_path(root)}")
+            raise _RefusedError(f"it is written in {file.path}, outside of {shorten_path(root)}")
 
     def _edit(self, site: Site, want: Want) -> edit.Edit:
         source = self.sources[site.path]
@@ -285,7 +288,7 @@ def _place(want: Want) -> Place:
     return want.element.attribute_place(want.attribute)
 
 
-def _said(want: Want) -> str:
+def _describe_edit(want: Want) -> str:
     """Describe a change, and the macro expansion it is for."""
     call = next((call for call in want.element.calls if call.macro), None)
     if call is None:
@@ -294,7 +297,7 @@ def _said(want: Want) -> str:
     return f"{want.said} for {call.file.path}:{call.line}:{call.column} ({what})"
 
 
-def _named(element: Element) -> str:
+def _format_element(element: Element) -> str:
     parent: Element | None = element
     while parent is not None and "name" not in parent.attributes:
         parent = parent.parent

@@ -20,7 +20,7 @@ from .masses import Masses
 from .requirements import is_consistent
 
 
-def checked_filling(
+def plan_checked_filling(
     robot: Robot, found: Sequence[LinkReview], masses: Masses, *, single: bool = False
 ) -> tuple[Filling, dict[str, bytes]]:
     """Plan edits as :func:`fill` does, verify them, and return the new content of each file.
@@ -62,8 +62,8 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
     except UrdftoolError as error:
         return f"the edited text cannot be read: {error}"
     names = {wanted.link.name for wanted in filling.written}
-    before = list(_outside(robot.source.document.root, names))
-    after = list(_outside(root, names))
+    before = list(_list_outside(robot.source.document.root, names))
+    after = list(_list_outside(root, names))
     if before != after:
         changed = next(
             (a for a, b in zip(after, before, strict=False) if a != b), after[-1:] or "its end"
@@ -91,7 +91,7 @@ def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
     return expand_xacro(file, description.arguments, packages).document()
 
 
-def _outside(
+def _list_outside(
     root: Element, names: set[str]
 ) -> Iterator[tuple[str, tuple[tuple[str, str], ...], str]]:
     """Yield every element except the inertials of the named links."""

@@ -6,10 +6,10 @@ import numpy as np
 
 from ..errors import MeshError
 from ..geometry.mesh import Points
-from .polyhedron import Moments, solid_moments
+from .polyhedron import Moments, compute_solid_moments
 
 
-def hull_moments(points: Points) -> Moments:
+def compute_hull_moments(points: Points) -> Moments:
     """Compute the moments of the convex hull of points [m], shape (n, 3).
 
     Raises:
@@ -28,4 +28,4 @@ def hull_moments(points: Points) -> Moments:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     inwards = np.einsum("ij,ij->i", normals, hull.equations[:, :3]) < 0
     faces[inwards] = faces[inwards][:, ::-1]
-    return solid_moments(points, faces)
+    return compute_solid_moments(points, faces)

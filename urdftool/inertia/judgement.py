@@ -10,22 +10,22 @@ from ..diagnostic import Severity
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..geometry.convex_points import read_convex_points
-from ..mechanics.mass_bounds import Misfit, misfit_of_com, misfit_of_spread, shapes_in_words
+from ..mechanics.mass_bounds import Misfit, check_com, check_spread, name_shapes
 from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
 from ..mechanics.tensor import COMPONENTS, rotate_tensor
 from ..mechanics.typo_detection import Proposal, infer_intended_tensor
-from ..model.attached import attached_links
-from ..model.bounds import Bounds, bounds_at
+from ..model.attached import find_attached_links
+from ..model.bounds import Bounds, compute_bounds_at
 from ..model.elements import Inertial, Mesh, Robot
-from ..model.pose import IDENTITY, UPRIGHT, Pose, pose_of, rotate, transpose
+from ..model.pose import IDENTITY, IDENTITY_ROTATION, Pose, make_pose, rotate, transpose
 from ..model.read import number
 from ..rules.inertia.size import is_placeholder
 from ..rules.inertia.tensors import is_positive
 from .bodies import MeshBody
 from .comparison import compare
-from .link_review import Fault, LinkReview, inertial_rotation
+from .link_review import Fault, LinkReview, get_inertial_rotation
 from .mesh_files import Meshes
-from .pieces import SOURCES, Shape, shapes_of
+from .pieces import SOURCES, Shape, get_shapes
 
 _LARGEST = 1e60
 
@@ -37,7 +37,7 @@ def read_written(item: LinkReview) -> None:
         item.missing = () if item.link.is_frame else ("inertial",)
         return
     missing = []
-    if inertial.mass is None and not _unreadable(inertial, "mass", "value", item):
+    if inertial.mass is None and not _is_unreadable(inertial, "mass", "value", item):
         missing.append("mass")
     if inertial.inertia is None:
         missing.append("inertia")
@@ -46,11 +46,11 @@ def read_written(item: LinkReview) -> None:
         if tensor is not None:
             missing += [name for name in COMPONENTS if name not in tensor.attributes]
         for name in COMPONENTS:
-            _unreadable(inertial, "inertia", name, item)
+            _is_unreadable(inertial, "inertia", name, item)
     item.missing = tuple(missing)
     if missing or item.faults or inertial.mass is None or inertial.inertia is None:
         return
-    pose = pose_of(inertial.origin)
+    pose = make_pose(inertial.origin)
     largest = max(map(abs, (*inertial.inertia.six, inertial.mass, *pose.translation)))
     if largest > _LARGEST or 0 < abs(inertial.mass) < 1 / _LARGEST:
         message = (
@@ -62,7 +62,7 @@ def read_written(item: LinkReview) -> None:
     item.written = link_inertia(item.link)
 
 
-def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bool:
+def _is_unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bool:
     """Tell whether an attribute is present but not a number, and add a fault if so."""
     element = None if inertial.xml is None else inertial.xml.child(tag)
     text = element.get(name) if element is not None else None
@@ -126,7 +126,7 @@ def judge(item: LinkReview, findings: Sequence[Finding], context: Context) -> No
         is_made_up = is_placeholder(item.link, inertial.inertia.six)
         _judge_box(item, inertial, context, only_com=is_made_up)
     if complete:
-        item.proposal = _proposal(item, inertial, written)
+        item.proposal = _propose_repair(item, inertial, written)
     if item.faults and item.proposal is not None and item.proposal.kind == "copied":
         moment = f"{inertial.inertia.ixx:.6g}"
         message = f"the inertia is {moment} about every axis, that of its geometry is not"
@@ -154,26 +154,26 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     tensor, mass, link = inertial.inertia, inertial.mass, item.link
     if tensor is None or not mass:
         return
-    pose = pose_of(inertial.origin)
+    pose = make_pose(inertial.origin)
     com, six = pose.translation, rotate_tensor(tensor.six, pose.rotation)
 
     def misfits(
         box: Bounds, has_mesh: bool, attached: Sequence[str] = ()
     ) -> list[tuple[str, Misfit]]:
-        shapes, rough = shapes_in_words(attached), has_mesh or not link.collisions
+        shapes, rough = name_shapes(attached), has_mesh or not link.collisions
         spread = None
         if not only_com:
-            spread = misfit_of_spread(box, mass, com, six, rough, shapes=shapes)
-        center = misfit_of_com(box, com, has_mesh, shapes=shapes)
+            spread = check_spread(box, mass, com, six, rough, shapes=shapes)
+        center = check_com(box, com, has_mesh, shapes=shapes)
         found = ("center of mass", center), ("inertia", spread)
         return [(subject, misfit) for subject, misfit in found if misfit is not None]
 
     if item.body is not None:
-        box = _box_of_shapes(shapes_of(link, item.body.source), IDENTITY, context)
+        box = _compute_shapes_box(get_shapes(link, item.body.source), IDENTITY, context)
         if box is not None and not misfits(box, False):
             return
-    kinds = [kind for kind in SOURCES if shapes_of(link, kind)]
-    boxes = [_box_of_shapes(shapes_of(link, kind), IDENTITY, context) for kind in kinds]
+    kinds = [kind for kind in SOURCES if get_shapes(link, kind)]
+    boxes = [_compute_shapes_box(get_shapes(link, kind), IDENTITY, context) for kind in kinds]
     if not boxes:
         return
     whole = boxes[0]
@@ -189,16 +189,16 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
         whole = whole.joined(box)
     if whole is None or not any(whole.size):
         return
-    shapes = [shape for kind in kinds for shape in shapes_of(link, kind)]
+    shapes = [shape for kind in kinds for shape in get_shapes(link, kind)]
     has_mesh = any(isinstance(shape.geometry, Mesh) for shape in shapes)
     if not misfits(whole, has_mesh):
         return
     attached: list[str] = []
-    for other, at in attached_links(context.robot, link)[1:]:
+    for other, at in find_attached_links(context.robot, link)[1:]:
         more: list[Shape] = [*other.visuals, *other.collisions]
         if more and other.mass <= 0.1 * mass:
             attached.append(other.name)
-            box = _box_of_shapes(more, at, context)
+            box = _compute_shapes_box(more, at, context)
             if box is None:
                 return
             whole = whole.joined(box)
@@ -210,22 +210,22 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
             item.faults.append(Fault("box", Severity.ERROR, message, inertial.place))
 
 
-def _box_of_shapes(shapes: Sequence[Shape], at: Pose, context: Context) -> Bounds | None:
+def _compute_shapes_box(shapes: Sequence[Shape], at: Pose, context: Context) -> Bounds | None:
     """Compute the bounding box of shapes at a pose of their link; None if one is unknown."""
     box: Bounds | None = None
     for shape in shapes:
-        pose, geometry = at @ pose_of(shape.origin), shape.geometry
+        pose, geometry = at @ make_pose(shape.origin), shape.geometry
         if isinstance(geometry, Mesh):
-            other = _box_of_mesh(geometry, pose, context)
+            other = _compute_mesh_box(geometry, pose, context)
         else:
-            other = bounds_at(geometry, pose)
+            other = compute_bounds_at(geometry, pose)
         if other is None:
             return None
         box = other if box is None else box.joined(other)
     return box
 
 
-def _box_of_mesh(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
+def _compute_mesh_box(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
     """Compute the bounding box of a mesh; points are read only if its body's box is of no use."""
     body, source = context.meshes.known.get(mesh.filename), context.robot.source
     if 0 in mesh.scale or source is None:
@@ -252,14 +252,16 @@ LARGEST, SMALLEST = 10.0, 0.001
 """Range of the extent of a mesh [m]; outside it, its unit is probably wrong."""
 
 
-def _proposal(item: LinkReview, inertial: Inertial, written: SpatialInertia) -> Proposal | None:
+def _propose_repair(
+    item: LinkReview, inertial: Inertial, written: SpatialInertia
+) -> Proposal | None:
     """Propose a repair of the tensor, along the axes of the inertial's frame."""
     assert item.body is not None
-    rotation = inertial_rotation(inertial)
+    rotation = get_inertial_rotation(inertial)
     back = transpose(rotation)
     low, high = (tuple(corner.tolist()) for corner in item.body.box)
     try:
-        unit = item.body.unit.rotated(back)
+        unit = item.body.unit.rotate(back)
     except UrdftoolError:
         return None
     return infer_intended_tensor(
@@ -268,5 +270,5 @@ def _proposal(item: LinkReview, inertial: Inertial, written: SpatialInertia) -> 
         rotate_tensor(written.tensor, back),
         solid=unit.with_mass(written.mass).tensor,
         box=Bounds(low, high).rotated(back),
-        rotation=None if rotation == UPRIGHT else rotation,
+        rotation=None if rotation == IDENTITY_ROTATION else rotation,
     )

@@ -8,7 +8,7 @@ from ..diagnostic import Diagnostic
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.typo_detection import Proposal
 from ..model.elements import Inertial, Link
-from ..model.pose import Rotation, pose_of
+from ..model.pose import Rotation, make_pose
 from ..source.location import Place
 from .comparison import Comparison
 from .pieces import LinkBody
@@ -76,6 +76,6 @@ class LinkReview:
         return "ok"
 
 
-def inertial_rotation(inertial: Inertial | None) -> Rotation:
+def get_inertial_rotation(inertial: Inertial | None) -> Rotation:
     """Return the rotation of an inertial's frame in the link frame."""
-    return pose_of(inertial.origin if inertial else None).rotation
+    return make_pose(inertial.origin if inertial else None).rotation

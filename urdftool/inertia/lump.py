@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from ..lint.validate import validate
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..model.elements import Robot
-from ..model.kinematics import check_positions, limits_of, link_poses, with_mimics
+from ..model.kinematics import add_mimic_positions, check_positions, get_limits, link_poses
 from .inertia_error import InertiaError
 from .link_review import LinkReview
 from .requirements import combine
@@ -68,8 +68,8 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
         raise InertiaError(finding.message, at=finding.location)
     root = robot.tree.roots[0].name
     check_positions(robot, pose)
-    positions = with_mimics(robot, pose)
-    notes = _beyond_limits(robot, positions)
+    positions = add_mimic_positions(robot, pose)
+    notes = _list_beyond_limits(robot, positions)
     weights: dict[str, SpatialInertia] = {}
     for item in found:
         if item.written is not None and item.written.mass > 0:
@@ -90,20 +90,22 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
         if top not in poses:
             continue
         to_top = poses[top].inverse()
-        bodies = [weights[name].moved(to_top @ poses[name]) for name in members if name in weights]
+        bodies = [
+            weights[name].transform(to_top @ poses[name]) for name in members if name in weights
+        ]
         properties = combine(bodies) if bodies else None
         lumps.append(Lump(top, tuple(members), properties))
-    all_bodies = [body.moved(poses[name]) for name, body in weights.items() if name in poses]
+    all_bodies = [body.transform(poses[name]) for name, body in weights.items() if name in poses]
     whole = combine(all_bodies) if all_bodies else None
     for link in robot.tree.detached:
         notes.append(f"link '{link.name}' is not connected to the root and is left out")
     return Lumped(tuple(lumps), root, whole, positions, tuple(notes))
 
 
-def _beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[str]:
+def _list_beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[str]:
     notes = []
     for name, value in positions.items():
-        low, high = limits_of(robot.joint[name])
+        low, high = get_limits(robot.joint[name])
         if low < high and not low <= value <= high:
             notes.append(f"joint '{name}' at {value:g} is beyond its limits, {low:g} to {high:g}")
     return notes

@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import as_tensor, components_of
-from .rounding import DIGITS, number_text, numbers_text
+from ..mechanics.tensor import as_tensor, get_components
+from .rounding import DIGITS, format_numbers_text, number_text
 from .shapes import SHAPES, THICKNESS, Shape, Sizes
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
@@ -42,14 +42,14 @@ class Formula(NamedTuple):
     rise: str = ""
 
 
-def _edges(name: str, given: str) -> tuple[tuple[str, str], ...]:
+def _collect_edges(name: str, given: str) -> tuple[tuple[str, str], ...]:
     return tuple((axis, f"float({given}.split()[{i}])") for i, axis in enumerate(name))
 
 
 _BOX = ("mass * (y * y + z * z) / 12", "mass * (x * x + z * z) / 12", "mass * (x * x + y * y) / 12")
 
 FORMULAS = {
-    "box": Formula(_edges("xyz", "size"), _BOX),
+    "box": Formula(_collect_edges("xyz", "size"), _BOX),
     "cylinder": Formula(
         (("across", "mass * (3 * radius * radius + length * length) / 12"),),
         ("across", "across", "mass * radius * radius / 2"),
@@ -75,7 +75,7 @@ FORMULAS = {
         ),
     ),
     "ellipsoid": Formula(
-        _edges("abc", "radii"),
+        _collect_edges("abc", "radii"),
         (
             "mass * (b * b + c * c) / 5",
             "mass * (a * a + c * c) / 5",
@@ -89,7 +89,7 @@ FORMULAS = {
     ),
     "hollow_box": Formula(
         (
-            *_edges("xyz", "size"),
+            *_collect_edges("xyz", "size"),
             *((f"{axis}i", f"{axis} - 2 * thickness") for axis in "xyz"),
             ("volume", "2 * thickness * (y * z + xi * z + xi * yi)"),
             *(
@@ -140,15 +140,17 @@ FORMULAS = {
 }
 
 
-def macro_file() -> str:
+def get_macro_file() -> str:
     """Return a xacro file with a macro for each shape, solid and hollow."""
     names = [(shape, False) for shape in SHAPES]
     names += [(shape, True) for shape in SHAPES if shape.hollow]
-    body = "\n".join(_indented(shape_macro(shape, hollow=hollow)) for shape, hollow in names)
+    body = "\n".join(
+        _format_indented(get_shape_macro(shape, hollow=hollow)) for shape, hollow in names
+    )
     return f"{_HEAD}\n{body}\n</robot>\n"
 
 
-def shape_macro(shape: Shape, *, hollow: bool = False) -> str:
+def get_shape_macro(shape: Shape, *, hollow: bool = False) -> str:
     """Return the macro of one shape, to paste into a xacro file."""
     name = f"hollow_{shape.name}" if hollow else shape.name
     formula = FORMULAS[name]
@@ -156,14 +158,14 @@ def shape_macro(shape: Shape, *, hollow: bool = False) -> str:
     if hollow:
         params.append(THICKNESS.name)
         params += ["closed:=false"] if shape.ends else []
-    lines = [f'<xacro:macro name="{name}_inertia" params="{_params(params)}">']
+    lines = [f'<xacro:macro name="{name}_inertia" params="{_format_params(params)}">']
     lines += [
         f'  <xacro:property name="{key}" value="${{{value}}}"/>' for key, value in formula.values
     ]
-    ixx, iyy, izz = (_rounded(moment) for moment in formula.moments)
+    ixx, iyy, izz = (_format_rounded(moment) for moment in formula.moments)
     lines += [
         "  <inertial>",
-        f'    <origin xyz="{_raised(formula.rise)}" rpy="${{rpy}}"/>',
+        f'    <origin xyz="{_format_raised(formula.rise)}" rpy="${{rpy}}"/>',
         '    <mass value="${mass}"/>',
         f'    <inertia ixx="{ixx}" ixy="0" ixz="0"',
         f'             iyy="{iyy}" iyz="0"',
@@ -174,7 +176,7 @@ def shape_macro(shape: Shape, *, hollow: bool = False) -> str:
     return "\n".join(lines) + "\n"
 
 
-def shape_call(
+def get_shape_call(
     shape: Shape,
     sizes: Sizes,
     mass: float,
@@ -198,25 +200,27 @@ def shape_call(
     name = shape.name if thickness is None else f"hollow_{shape.name}"
     written = {"mass": number_text(mass)}
     for key, value in sizes.items():
-        written[key] = numbers_text(value) if isinstance(value, tuple) else number_text(value)
+        written[key] = (
+            format_numbers_text(value) if isinstance(value, tuple) else number_text(value)
+        )
     if thickness is not None:
         written["thickness"] = number_text(thickness)
         if closed:
             written["closed"] = "true"
-    written |= {"xyz": numbers_text(xyz), "rpy": numbers_text(rpy)}
+    written |= {"xyz": format_numbers_text(xyz), "rpy": format_numbers_text(rpy)}
     attributes = " ".join(f'{key}="{value}"' for key, value in written.items())
     return f"<xacro:{name}_inertia {attributes}/>\n"
 
 
-def mass_macro(name: str, properties: SpatialInertia) -> str:
+def get_mass_macro(name: str, properties: SpatialInertia) -> str:
     """Return a macro for a body of any shape; its mass parameter defaults to the body's mass."""
-    unit = components_of(as_tensor([part / properties.mass for part in properties.tensor]))
-    six = [f'{key}="{_rounded(f"mass * {value!r}")}"' for key, value in unit.items()]
+    unit = get_components(as_tensor([part / properties.mass for part in properties.tensor]))
+    six = [f'{key}="{_format_rounded(f"mass * {value!r}")}"' for key, value in unit.items()]
     return "\n".join(
         [
             f'<xacro:macro name="{name}_inertia" params="mass:={number_text(properties.mass)}">',
             "  <inertial>",
-            f'    <origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>',
+            f'    <origin xyz="{format_numbers_text(properties.com)}" rpy="0 0 0"/>',
             '    <mass value="${mass}"/>',
             f"    <inertia {' '.join(six)}/>",
             "  </inertial>",
@@ -226,15 +230,15 @@ def mass_macro(name: str, properties: SpatialInertia) -> str:
     )
 
 
-def _params(names: list[str]) -> str:
+def _format_params(names: list[str]) -> str:
     return " ".join([*names, "xyz:='0 0 0'", "rpy:='0 0 0'"])
 
 
-def _rounded(expression: str) -> str:
+def _format_rounded(expression: str) -> str:
     return f"${{'%.{DIGITS}g' % ({expression})}}"
 
 
-def _raised(rise: str) -> str:
+def _format_raised(rise: str) -> str:
     """Return ``xyz``, or the point at ``rise`` along the rotated z axis from it."""
     if not rise:
         return "${xyz}"
@@ -245,9 +249,10 @@ def _raised(rise: str) -> str:
         f"cos({pitch}) * cos({roll})",
     )
     return " ".join(
-        _rounded(f"float(xyz.split()[{i}]) + ({rise}) * ({part})") for i, part in enumerate(axis)
+        _format_rounded(f"float(xyz.split()[{i}]) + ({rise}) * ({part})")
+        for i, part in enumerate(axis)
     )
 
 
-def _indented(text: str) -> str:
+def _format_indented(text: str) -> str:
     return "".join(f"  {line}\n" for line in text.splitlines())

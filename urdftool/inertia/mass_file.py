@@ -32,13 +32,17 @@ def read_masses(path: str | Path) -> dict[str, float]:
         raise SourceError("is not text in UTF-8", path=path) from None
     if len(data) > MAX_BYTES:
         raise SourceError("is too large for a list of masses", path=path)
-    found = _yaml(text, file) if file.suffix.lower() in (".yaml", ".yml") else _csv(text, file)
+    found = (
+        _read_yaml(text, file)
+        if file.suffix.lower() in (".yaml", ".yml")
+        else _read_csv(text, file)
+    )
     if not found:
         raise SourceError("has no masses; expected rows of link,mass", path=path)
     return found
 
 
-def _csv(text: str, path: Path) -> dict[str, float]:
+def _read_csv(text: str, path: Path) -> dict[str, float]:
     separator = next((mark for mark in ("\t", ";") if mark in text), ",")
     found: dict[str, float] = {}
     rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
@@ -63,7 +67,7 @@ def _csv(text: str, path: Path) -> dict[str, float]:
     return found
 
 
-def _yaml(text: str, path: Path) -> dict[str, float]:
+def _read_yaml(text: str, path: Path) -> dict[str, float]:
     import yaml
 
     try:

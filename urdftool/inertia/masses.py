@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from ..suggestions import did_you_mean
+from ..suggestions import suggest_name
 from .inertia_error import InertiaError
 
 
@@ -36,7 +36,7 @@ def check_masses(masses: Masses, names: Sequence[str]) -> None:
     """
     for name, mass in masses.by_link.items():
         if name not in names:
-            hint = did_you_mean(name, names, 0.5) or f"; links are {_listed(names)}"
+            hint = suggest_name(name, names, 0.5) or f"; links are {_format_listed(names)}"
             raise InertiaError(f"the robot has no link '{name}'{hint}")
         _check(f"the mass of link '{name}'", mass, "kg")
     if masses.density is not None:
@@ -52,12 +52,12 @@ def _check(what: str, value: float, unit: str) -> None:
         raise InertiaError(f"{what} is {value:g} {unit}; must be above zero")
 
 
-def _listed(names: Sequence[str]) -> str:
+def _format_listed(names: Sequence[str]) -> str:
     shown = ", ".join(names[:8])
     return f"{shown}, …" if len(names) > 8 else shown
 
 
-def weigh(
+def assign_masses(
     masses: Masses,
     written: Mapping[str, float | None],
     volumes: Mapping[str, float | None],
@@ -90,7 +90,8 @@ def weigh(
     lost = [name for name in unknown if not found[name]]
     if masses.total is not None and lost:
         raise InertiaError(
-            f"the total mass cannot be distributed, since the volume of {_listed(lost)} is not "
+            f"the total mass cannot be distributed, since the volume of {_format_listed(lost)} is "
+            "not "
             "known; "
             f"give its mass with --mass {lost[0]}=KG, or its meshes"
         )
@@ -104,7 +105,8 @@ def weigh(
         rest = masses.total - assigned
         if rest <= 1e-12 * masses.total:
             raise InertiaError(
-                f"the total mass of {masses.total:g} kg leaves nothing for {_listed(shared)}: the "
+                f"the total mass of {masses.total:g} kg leaves nothing for "
+                f"{_format_listed(shared)}: the "
                 f"other links have {assigned:g} kg"
             )
         whole = math.fsum(volumes[name] or 0.0 for name in shared)

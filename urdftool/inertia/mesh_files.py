@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import UrdftoolError
-from ..parallel import Loss, cores, map_tasks
+from ..parallel import Loss, count_cores, map_tasks
 from ..source.description import Description, GltfUp
 from ..storage import DiskCache, cache_folder
 from .bodies import MeshBody, cached_mesh_body
@@ -48,31 +48,31 @@ def read_meshes(
             found[name] = error
     unique = list(dict.fromkeys(paths.values()))
     bodies: dict[Path, MeshBody | UrdftoolError] = {}
-    for path, body in _bodies(unique, jobs, description.gltf_up):
+    for path, body in _list_bodies(unique, jobs, description.gltf_up):
         bodies[path] = body
         if progress is not None:
             progress(len(bodies), len(unique), path.name)
     return found | {name: bodies[path] for name, path in paths.items()}
 
 
-def _bodies(
+def _list_bodies(
     paths: list[Path], jobs: int | None, gltf_up: GltfUp
 ) -> Iterator[tuple[Path, MeshBody | UrdftoolError]]:
-    workers = jobs or _worthwhile(paths)
+    workers = jobs or _choose_jobs(paths)
     if workers > 1:  # largest first, so that all processes finish at about the same time
-        paths = sorted(paths, key=_size, reverse=True)
-    read = partial(_body, gltf_up=gltf_up)
-    for index, body in map_tasks(read, paths, workers=workers, on_lost=_lost):
+        paths = sorted(paths, key=_get_size, reverse=True)
+    read = partial(_make_body, gltf_up=gltf_up)
+    for index, body in map_tasks(read, paths, workers=workers, on_lost=_make_worker_error):
         yield paths[index], body
 
 
-def _lost(path: Path, _: Loss) -> UrdftoolError:
+def _make_worker_error(path: Path, _: Loss) -> UrdftoolError:
     return UrdftoolError(
         "the process that read the mesh was killed twice (probably out of memory)", path=path
     )
 
 
-def _body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
+def _make_body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
     try:
         return cached_mesh_body(path, DiskCache(cache_folder("meshes")), gltf_up=gltf_up)
     except UrdftoolError as error:
@@ -84,13 +84,13 @@ def _body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
         )
 
 
-def _worthwhile(paths: list[Path]) -> int:
-    if len(paths) < 2 or sum(map(_size, paths)) < WORTH_IT:
+def _choose_jobs(paths: list[Path]) -> int:
+    if len(paths) < 2 or sum(map(_get_size, paths)) < WORTH_IT:
         return 1
-    return cores()
+    return count_cores()
 
 
-def _size(path: Path) -> int:
+def _get_size(path: Path) -> int:
     try:
         return path.stat().st_size
     except OSError:
@@ -105,7 +105,7 @@ class Meshes:
         self.read = read
         self.known: dict[str, MeshBody | UrdftoolError] = {}
 
-    def want(self, names: Iterator[str] | Sequence[str]) -> dict[str, MeshBody | UrdftoolError]:
+    def load(self, names: Iterator[str] | Sequence[str]) -> dict[str, MeshBody | UrdftoolError]:
         """Read missing meshes, and return all that have been read."""
         new = [name for name in dict.fromkeys(names) if name not in self.known]
         if new:

@@ -18,9 +18,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Array
-from .crossings import crossing_numbers
+from .crossings import compute_crossing_numbers
 from .sampling import spread_points
-from .winding import boxes_of, winding_numbers
+from .winding import compute_winding_numbers, sort_into_boxes
 
 PROBES = 24
 """Number of corners of a body that are tested for lying within another."""
@@ -65,9 +65,11 @@ def nest(corners: list[Array], volumes: Array) -> Nesting:
         meets &= np.abs(volumes) <= abs(volumes[outer])
         meets[outer] = False
         inners = np.flatnonzero(meets).tolist()
-        for inner, number in zip(inners, _probed(outer, inners, bodies, low, high), strict=True):
+        for inner, number in zip(
+            inners, _probe_corners(outer, inners, bodies, low, high), strict=True
+        ):
             shared = np.maximum(low[outer], low[inner]), np.minimum(high[outer], high[inner])
-            state = _relation(number, (bodies[inner], bodies[outer]), *shared)
+            state = _get_relation(number, (bodies[inner], bodies[outer]), *shared)
             within[inner, outer] = state == "within"
             overlaps = overlaps or state == "overlap"
     # largest first, so that enclosing bodies are settled before enclosed ones
@@ -76,7 +78,7 @@ def nest(corners: list[Array], volumes: Array) -> Nesting:
     turned = 0
     for body in np.argsort(-np.abs(volumes)):
         outside = int(settled[within[body]].sum())
-        root_sign = _outermost_sign(within, sign, int(body))
+        root_sign = _get_outermost_sign(within, sign, int(body))
         settled[body] = sign[body] * root_sign
         if outside + settled[body] < 0:
             settled[body] = 1
@@ -91,7 +93,9 @@ def nest(corners: list[Array], volumes: Array) -> Nesting:
     )
 
 
-def _outermost_sign(within: npt.NDArray[np.bool_], sign: npt.NDArray[np.int64], body: int) -> int:
+def _get_outermost_sign(
+    within: npt.NDArray[np.bool_], sign: npt.NDArray[np.int64], body: int
+) -> int:
     """Return the winding of the outermost body around this one, or its own if there is none."""
     hosts = np.flatnonzero(within[body])
     roots = [host for host in hosts if not within[host].any()]
@@ -106,7 +110,7 @@ class _Body(NamedTuple):
     high: Array
 
 
-def _probed(
+def _probe_corners(
     outer: int, inners: list[int], bodies: list[_Body], low: Array, high: Array
 ) -> list[Array]:
     """Compute the winding number of a body at some corners of each other body.
@@ -126,14 +130,16 @@ def _probed(
     if near.any():
         beside = points[near] + _ASIDE * float((high[outer] - low[outer]).max())
         owner = np.repeat(np.arange(len(probes)), [len(some) for some in probes])
-        met = owner[near][crossing_numbers(beside, bodies[outer].corners) != 0]
+        met = owner[near][compute_crossing_numbers(beside, bodies[outer].corners) != 0]
         near &= np.isin(owner, met)
     if near.any():
-        numbers[near] = np.abs(winding_numbers(points[near], boxes_of(bodies[outer].corners)))
+        numbers[near] = np.abs(
+            compute_winding_numbers(points[near], sort_into_boxes(bodies[outer].corners))
+        )
     return np.split(numbers, np.cumsum([len(some) for some in probes])[:-1])
 
 
-def _relation(number: Array, pair: tuple[_Body, _Body], low: Array, high: Array) -> str:
+def _get_relation(number: Array, pair: tuple[_Body, _Body], low: Array, high: Array) -> str:
     """Return ``"within"``, ``"overlap"`` or ``"apart"`` for two bodies whose bounding boxes meet.
 
     Args:
@@ -152,5 +158,5 @@ def _relation(number: Array, pair: tuple[_Body, _Body], low: Array, high: Array)
     for body in pair:
         near = ((body.high >= low) & (body.low <= [high[0], high[1], np.inf])).all(axis=1)
         if len(points):
-            points = points[crossing_numbers(points, body.corners[near]) != 0]
+            points = points[compute_crossing_numbers(points, body.corners[near]) != 0]
     return "overlap" if len(points) > 1 else "apart"

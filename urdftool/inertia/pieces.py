@@ -28,8 +28,8 @@ from ..model.elements import (
     UnknownShape,
     Visual,
 )
-from ..model.pose import pose_of
-from ..model.shapes import shape_name
+from ..model.pose import make_pose
+from ..model.shapes import get_shape_name
 from . import solids
 from .bodies import MeshBody
 from .inertia_error import InertiaError
@@ -115,12 +115,12 @@ class LinkBody:
         )
 
 
-def shapes_of(link: Link, source: str) -> Sequence[Shape]:
+def get_shapes(link: Link, source: str) -> Sequence[Shape]:
     """Return the visuals or collisions of a link."""
     return link.visuals if source == "visual" else link.collisions
 
 
-def mesh_names(shapes: Sequence[Shape]) -> Iterator[str]:
+def list_mesh_names(shapes: Sequence[Shape]) -> Iterator[str]:
     """Yield the mesh URIs of shapes, as written."""
     for shape in shapes:
         if isinstance(shape.geometry, Mesh):
@@ -136,9 +136,9 @@ def link_body(link: Link, source: str, meshes: Meshes) -> LinkBody | None:
         meshes: Body of each mesh, or the error, by its URI as written.
     """
     pieces, lacks = [], []
-    for shape in shapes_of(link, source):
+    for shape in get_shapes(link, source):
         try:
-            pieces.append(_piece(shape, meshes))
+            pieces.append(_make_piece(shape, meshes))
         except ArithmeticError:
             lacks.append(Lack(shape, "it is beyond what numbers can hold"))
         except UrdftoolError as error:
@@ -146,7 +146,7 @@ def link_body(link: Link, source: str, meshes: Meshes) -> LinkBody | None:
     return LinkBody(source, tuple(pieces), tuple(lacks)) if pieces or lacks else None
 
 
-def _piece(shape: Shape, meshes: Meshes) -> Piece:
+def _make_piece(shape: Shape, meshes: Meshes) -> Piece:
     geometry = shape.geometry
     if geometry is None:
         raise InertiaError("it has no geometry")
@@ -160,8 +160,8 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
             raise InertiaError("its mesh was not read")
         if isinstance(body, UrdftoolError):
             raise body
-        body = body.scaled(geometry.scale)
-        placed, lower, upper = _placed(shape, body.unit, (body.lower, body.upper))
+        body = body.scale(geometry.scale)
+        placed, lower, upper = _transform_to_link(shape, body.unit, (body.lower, body.upper))
         name = Path(geometry.filename).name
         return Piece(
             shape,
@@ -175,12 +175,12 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
             body.notes,
             body.suspicion,
         )
-    unit, half = _primitive(geometry)
-    placed, lower, upper = _placed(shape, unit, (-half, half))
-    return Piece(shape, shape_name(geometry), placed, lower, upper)
+    unit, half = _get_primitive(geometry)
+    placed, lower, upper = _transform_to_link(shape, unit, (-half, half))
+    return Piece(shape, get_shape_name(geometry), placed, lower, upper)
 
 
-def _primitive(geometry: Geometry) -> tuple[SpatialInertia, Array]:
+def _get_primitive(geometry: Geometry) -> tuple[SpatialInertia, Array]:
     """Return a primitive at 1 kg/m³ and half the edges [m] of its bounding box, in its frame."""
     make, half = _PRIMITIVES[type(geometry)]
     return make(geometry), np.array(half(geometry), dtype=np.float64)
@@ -190,30 +190,30 @@ _PRIMITIVES: dict[
     type, tuple[Callable[[Any], SpatialInertia], Callable[[Any], tuple[float, float, float]]]
 ] = {
     Box: (
-        lambda g: solids.box(g.size, density=1.0),
+        lambda g: solids.compute_box(g.size, density=1.0),
         lambda g: (g.size[0] / 2, g.size[1] / 2, g.size[2] / 2),
     ),
     Cylinder: (
-        lambda g: solids.cylinder(g.radius, g.length, density=1.0),
+        lambda g: solids.compute_cylinder(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2),
     ),
     Sphere: (
-        lambda g: solids.sphere(g.radius, density=1.0),
+        lambda g: solids.compute_sphere(g.radius, density=1.0),
         lambda g: (g.radius, g.radius, g.radius),
     ),
     Capsule: (
-        lambda g: solids.capsule(g.radius, g.length, density=1.0),
+        lambda g: solids.compute_capsule(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2 + g.radius),
     ),
-    Ellipsoid: (lambda g: solids.ellipsoid(g.radii, density=1.0), lambda g: g.radii),
+    Ellipsoid: (lambda g: solids.compute_ellipsoid(g.radii, density=1.0), lambda g: g.radii),
     Cone: (
-        lambda g: solids.cone(g.radius, g.length, density=1.0),
+        lambda g: solids.compute_cone(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2),
     ),
 }
 
 
-def _placed(
+def _transform_to_link(
     shape: Shape, unit: SpatialInertia, box: tuple[Array, Array]
 ) -> tuple[SpatialInertia, Array, Array]:
     """Transform a body and its bounding box into the link frame by the shape's ``<origin>``.
@@ -221,7 +221,7 @@ def _placed(
     Raises:
         ArithmeticError: A size, mass or position is beyond the range of floats.
     """
-    pose = pose_of(shape.origin)
+    pose = make_pose(shape.origin)
     rotation = np.array(pose.rotation, dtype=np.float64)
     xyz = np.array(pose.translation, dtype=np.float64)
     size = max(map(abs, unit.tensor))
@@ -231,4 +231,4 @@ def _placed(
         raise ArithmeticError
     middle, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
     centre, reach = rotation @ middle + xyz, np.abs(rotation) @ half
-    return unit.moved(pose), centre - reach, centre + reach
+    return unit.transform(pose), centre - reach, centre + reach

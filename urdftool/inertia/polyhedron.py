@@ -24,7 +24,7 @@ import numpy.typing as npt
 from ..errors import MeshError
 from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import inertia_from_second_moment, tensor_of_matrix
+from ..mechanics.tensor import compute_inertia_from_second_moment, from_matrix
 
 Faces = npt.NDArray[np.int64]
 
@@ -43,21 +43,23 @@ class Moments:
     def with_density(self, density: float) -> SpatialInertia:
         """Return the body with a density, [kg/m³] of a solid, [kg/m²] of a shell."""
         x, y, z = self.centroid.tolist()
-        second = tensor_of_matrix(density * self.second)
-        return SpatialInertia(density * self.measure, (x, y, z), inertia_from_second_moment(second))
+        second = from_matrix(density * self.second)
+        return SpatialInertia(
+            density * self.measure, (x, y, z), compute_inertia_from_second_moment(second)
+        )
 
     def with_mass(self, mass: float) -> SpatialInertia:
         """Return the body with a mass [kg]."""
         return self.with_density(mass / self.measure)
 
 
-def signed_volume(vertices: Array, faces: Faces) -> float:
+def compute_signed_volume(vertices: Array, faces: Faces) -> float:
     """Compute the volume [m³] that a closed mesh encloses; negative if its faces point inward."""
-    corners = (vertices - _middle(vertices))[faces]
-    return float(_triple(corners).sum() / 6)
+    corners = (vertices - _compute_center(vertices))[faces]
+    return float(_compute_triple_product(corners).sum() / 6)
 
 
-def solid_moments(vertices: Array, faces: Faces) -> Moments:
+def compute_solid_moments(vertices: Array, faces: Faces) -> Moments:
     """Compute the integrals over the inside of a closed, consistently wound mesh.
 
     Closedness is not checked; use ``estimate`` for meshes of unknown quality.
@@ -69,9 +71,9 @@ def solid_moments(vertices: Array, faces: Faces) -> Moments:
     Raises:
         MeshError: The mesh encloses no volume.
     """
-    middle = _middle(vertices)
+    middle = _compute_center(vertices)
     corners = (vertices - middle)[faces]
-    triple = _triple(corners)
+    triple = _compute_triple_product(corners)
     volume = float(triple.sum()) / 6
     extent = float(np.ptp(vertices, axis=0).max()) if len(vertices) else 0.0
     if abs(volume) <= 1e-12 * extent**3:
@@ -81,8 +83,8 @@ def solid_moments(vertices: Array, faces: Faces) -> Moments:
         )
     centroid = triple @ corners.sum(axis=1) / (24 * volume)
     corners -= centroid
-    triple = _triple(corners)
-    second = _corner_products(corners, triple) / 120
+    triple = _compute_triple_product(corners)
+    second = _sum_corner_products(corners, triple) / 120
     rest = triple @ corners.sum(axis=1) / 24
     volume = float(triple.sum()) / 6
     # removes the rounding error of the centroid from the first pass
@@ -91,7 +93,7 @@ def solid_moments(vertices: Array, faces: Faces) -> Moments:
     return Moments(volume, middle + centroid + centroid_error, second)
 
 
-def shell_moments(vertices: Array, faces: Faces) -> Moments:
+def compute_shell_moments(vertices: Array, faces: Faces) -> Moments:
     """Compute the integrals over the surface of a mesh, open or closed, with any winding.
 
     Args:
@@ -101,7 +103,7 @@ def shell_moments(vertices: Array, faces: Faces) -> Moments:
     Raises:
         MeshError: The mesh has no area.
     """
-    middle = _middle(vertices)
+    middle = _compute_center(vertices)
     corners = (vertices - middle)[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(normals, axis=1) / 2
@@ -110,17 +112,17 @@ def shell_moments(vertices: Array, faces: Faces) -> Moments:
         raise MeshError("the mesh has no area; at least one triangle must have an area")
     centroid = areas @ corners.sum(axis=1) / (3 * area)
     corners -= centroid
-    return Moments(area, middle + centroid, _corner_products(corners, areas) / 12)
+    return Moments(area, middle + centroid, _sum_corner_products(corners, areas) / 12)
 
 
-def _middle(vertices: Array) -> Array:
+def _compute_center(vertices: Array) -> Array:
     if not len(vertices):
         return np.zeros(3)
     middle: Array = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     return middle
 
 
-def _triple(corners: Array) -> Array:
+def _compute_triple_product(corners: Array) -> Array:
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     # np.cross takes three times as long, as it moves axes
     return np.asarray(
@@ -130,7 +132,7 @@ def _triple(corners: Array) -> Array:
     )
 
 
-def _corner_products(corners: Array, weights: Array) -> Array:
+def _sum_corner_products(corners: Array, weights: Array) -> Array:
     """Sum w (a aᵀ + b bᵀ + c cᵀ + s sᵀ) over all triangles."""
     total: Array = np.zeros((3, 3))
     for points in (corners[:, 0], corners[:, 1], corners[:, 2], corners.sum(axis=1)):

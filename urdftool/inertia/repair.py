@@ -41,7 +41,7 @@ def drop_duplicates(faces: Faces) -> Faces:
     """
     ordered = np.sort(faces, axis=1)
     _, first, inverse = np.unique(ordered, axis=0, return_index=True, return_inverse=True)
-    turned = _odd(faces)
+    turned = _is_odd_permutation(faces)
     net = np.bincount(inverse.reshape(-1), weights=np.where(turned, -1.0, 1.0))
     alive = net != 0
     if np.count_nonzero(alive) < 0.5 * len(first):
@@ -96,7 +96,7 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
     repeat = np.abs(surplus[rim])
     # a cap traverses the rim in the direction opposite to the adjacent face
     ends = np.where(surplus[rim, None] > 0, edges.pairs[rim][:, ::-1], edges.pairs[rim])
-    loops = _loops(np.repeat(ends, repeat, axis=0))
+    loops = _split_loops(np.repeat(ends, repeat, axis=0))
     caps: list[Faces] = []
     centres: list[Points] = []
     area = error = 0.0
@@ -121,14 +121,14 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
     return Filling(points, np.concatenate([faces, *caps]), len(caps), area, error)
 
 
-def _odd(faces: Faces) -> npt.NDArray[np.bool_]:
+def _is_odd_permutation(faces: Faces) -> npt.NDArray[np.bool_]:
     """Determine for each face whether sorting its vertices reverses its winding."""
     a, b, c = faces.T
     inversions = (a > b).astype(int) + (a > c) + (b > c)
     return np.asarray(inversions % 2 == 1)
 
 
-def _loops(directed: Faces) -> list[Faces]:
+def _split_loops(directed: Faces) -> list[Faces]:
     """Split directed edges into closed loops without repeated vertices."""
     onward: dict[int, list[int]] = {}
     for begin, end in directed.tolist():

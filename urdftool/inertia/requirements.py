@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from ..mechanics import spatial_inertia
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import consistency, moments_text
+from ..mechanics.tensor import format_moments_text, measure_consistency
 from .inertia_error import InertiaError
 
 ROUNDING = 1e-9
@@ -24,7 +24,7 @@ def is_consistent(properties: SpatialInertia, *, tolerance: float = ROUNDING) ->
     """
     if not properties.is_finite:
         return False
-    found = consistency(properties.tensor)
+    found = measure_consistency(properties.tensor)
     return found.size > 0 and found.excess <= tolerance and found.negativity <= ROUNDING
 
 
@@ -44,7 +44,7 @@ def require_consistent(properties: SpatialInertia, what: str = "the result") -> 
     if not is_consistent(properties):
         moments = "not finite"
         if all(map(math.isfinite, properties.tensor)):
-            moments = moments_text(properties.tensor)
+            moments = format_moments_text(properties.tensor)
         raise InertiaError(
             f"{what} has a physically inconsistent inertia: principal moments {moments} kg·m², of "
             "which each must be positive and none larger than the sum of the other two"

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from ..finding import Finding
 from ..lint.validate import validate
 from ..model.elements import Link, Robot
-from .bodies import weighed
+from .bodies import scale_to_mass
 from .judgement import Context, judge, read_written
 from .link_review import LinkReview
-from .masses import Masses, check_masses, weigh
+from .masses import Masses, assign_masses, check_masses
 from .mesh_files import Meshes, ReadMeshes
-from .pieces import SOURCES, link_body, mesh_names, shapes_of
+from .pieces import SOURCES, get_shapes, link_body, list_mesh_names
 
 
 def review(
@@ -43,9 +43,9 @@ def review(
     find_bodies(found, meshes, source)
     for item in found:
         read_written(item)
-    plan = weigh(
+    plan = assign_masses(
         masses,
-        {item.link.name: _written_mass(item.link) for item in found},
+        {item.link.name: _get_written_mass(item.link) for item in found},
         {item.link.name: item.volume for item in found},
         [item.link.name for item in found if item.body is not None and not item.body.complete],
     )
@@ -55,7 +55,7 @@ def review(
     for item in found:
         item.mass = plan[item.link.name]
         if item.mass and item.body is not None and item.body.complete:
-            item.implied = weighed(item.body.unit, "link", mass=item.mass)
+            item.implied = scale_to_mass(item.body.unit, "link", mass=item.mass)
         judge(item, by_link.get(item.link.name, ()), Context(robot, meshes))
     return [item for item in found if not only or item.link.name in only]
 
@@ -72,15 +72,17 @@ def find_bodies(found: list[LinkReview], meshes: Meshes, source: str | None = No
         todo = [
             item
             for item in found
-            if (item.body is None or not item.body.complete) and shapes_of(item.link, name)
+            if (item.body is None or not item.body.complete) and get_shapes(item.link, name)
         ]
-        meshes.want([mesh for item in todo for mesh in mesh_names(shapes_of(item.link, name))])
+        meshes.load(
+            [mesh for item in todo for mesh in list_mesh_names(get_shapes(item.link, name))]
+        )
         for item in todo:
             body = link_body(item.link, name, meshes.known)
             if item.body is None or (body is not None and body.complete):
                 item.body = body
 
 
-def _written_mass(link: Link) -> float | None:
+def _get_written_mass(link: Link) -> float | None:
     mass = link.inertial.mass if link.inertial else None
     return mass if mass and mass > 0 else None

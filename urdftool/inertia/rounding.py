@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import SymmetricTensor, as_tensor, consistency, trace_of
+from ..mechanics.tensor import SymmetricTensor, as_tensor, measure_consistency, trace_of
 from .requirements import ROUNDING, require_consistent
 
 DIGITS = 12
@@ -36,15 +36,15 @@ def round_properties(properties: SpatialInertia, what: str = "the result") -> Sp
         InertiaError: They are not physically consistent.
     """
     require_consistent(properties, what)
-    tensor = as_tensor(_without_noise(properties.tensor, 0.0))
+    tensor = as_tensor(_remove_noise(properties.tensor, 0.0))
     gyration = math.sqrt(trace_of(tensor) / properties.mass)
-    x, y, z = _rounded(_without_noise(properties.com, gyration), DIGITS)
+    x, y, z = _round_values(_remove_noise(properties.com, gyration), DIGITS)
     return require_consistent(
-        SpatialInertia(round_number(properties.mass), (x, y, z), _possible(tensor)), what
+        SpatialInertia(round_number(properties.mass), (x, y, z), _make_consistent(tensor)), what
     )
 
 
-def _without_noise(values: Sequence[float], size: float) -> list[float]:
+def _remove_noise(values: Sequence[float], size: float) -> list[float]:
     """Replace values below the noise of the largest value, or of a size, by zeros."""
     least = NOISE * max(size, *map(abs, values))
     return [0.0 if abs(value) < least else value for value in values]
@@ -62,20 +62,20 @@ def number_text(value: float) -> str:
     return repr(float(value))
 
 
-def numbers_text(values: Iterable[float]) -> str:
+def format_numbers_text(values: Iterable[float]) -> str:
     """Format numbers separated by spaces."""
     return " ".join(number_text(float(value)) for value in values)
 
 
-def _possible(tensor: SymmetricTensor) -> SymmetricTensor:
-    allowed = max(_EXACT, consistency(tensor).excess)
+def _make_consistent(tensor: SymmetricTensor) -> SymmetricTensor:
+    allowed = max(_EXACT, measure_consistency(tensor).excess)
     for digits in range(DIGITS, 17):
-        rounded = as_tensor(_rounded(tensor, digits))
-        found = consistency(rounded)
+        rounded = as_tensor(_round_values(tensor, digits))
+        found = measure_consistency(rounded)
         if found.size > 0 and found.excess <= allowed and found.negativity <= ROUNDING:
             return rounded
     return tensor
 
 
-def _rounded(values: Sequence[float], digits: int) -> list[float]:
+def _round_values(values: Sequence[float], digits: int) -> list[float]:
     return [round_number(value, digits) for value in values]

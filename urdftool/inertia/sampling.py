@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry.mesh import Array
-from .crossings import crossing_numbers
+from .crossings import compute_crossing_numbers
 from .polyhedron import Moments
-from .winding import boxes_of, winding_numbers
+from .winding import compute_winding_numbers, sort_into_boxes
 
 SAMPLES = 30_000
 """Number of points in the bounding box, in both halves together."""
@@ -28,7 +28,7 @@ def spread_points(count: int, lower: Array, upper: Array, *, start: int = 0) -> 
     return lower + (upper - lower) * ((0.5 + numbers[:, None] * steps) % 1.0)
 
 
-def sampled_moments(
+def compute_sampled_moments(
     corners: Array, samples: int = SAMPLES, *, caps: Array | None = None
 ) -> tuple[Moments, Moments] | None:
     """Compute the moments of the space that a surface encloses, from each half of the samples.
@@ -49,7 +49,7 @@ def sampled_moments(
     results = []
     for start in (0, half):
         points = spread_points(half, low, high, start=start)
-        numbers = winding_with_caps(points, corners, caps)
+        numbers = compute_winding_with_caps(points, corners, caps)
         inside = points[np.abs(numbers) > 0.5]
         if len(inside) < 20:
             return None
@@ -60,7 +60,7 @@ def sampled_moments(
     return results[0], results[1]
 
 
-def winding_with_caps(points: Array, corners: Array, caps: Array | None) -> Array:
+def compute_winding_with_caps(points: Array, corners: Array, caps: Array | None) -> Array:
     """Compute the winding number of a surface at each point, faster than from solid angles.
 
     For an open surface it is that of the surface with its caps, an integer that ray crossings give,
@@ -72,8 +72,8 @@ def winding_with_caps(points: Array, corners: Array, caps: Array | None) -> Arra
         caps: Triangles [m] that close the surface, shape (c, 3, 3); None for a closed one.
     """
     if caps is None or not len(caps):
-        return crossing_numbers(points, corners)
+        return compute_crossing_numbers(points, corners)
     if len(caps) > len(corners):
-        return winding_numbers(points, boxes_of(corners))
-    whole = crossing_numbers(points, np.concatenate([corners, caps]))
-    return np.asarray(whole - winding_numbers(points, boxes_of(caps)))
+        return compute_winding_numbers(points, sort_into_boxes(corners))
+    whole = compute_crossing_numbers(points, np.concatenate([corners, caps]))
+    return np.asarray(whole - compute_winding_numbers(points, sort_into_boxes(caps)))

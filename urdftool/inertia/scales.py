@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import UrdftoolError
 from ..model.elements import Robot
 from ..source.description import Description
-from .bodies import weighed
+from .bodies import scale_to_mass
 from .link_review import LinkReview
 from .mesh_files import Meshes, read_meshes
 from .review import find_bodies
@@ -36,7 +36,7 @@ class Scales:
         assert description is not None
 
         def read(wanted: Sequence[str]) -> dict[str, Any]:
-            keys = {name: _key(description, name) for name in wanted}
+            keys = {name: _get_key(description, name) for name in wanted}
             new = [name for name in wanted if keys[name] not in self.known]
             for name, body in read_meshes(description, new, jobs=1).items():
                 self.known[keys[name]] = body
@@ -50,14 +50,14 @@ class Scales:
                 body = item.body
                 if body is None or not body.complete or not body.volume > 0:
                     continue
-                whole = weighed(body.unit, "link", density=self.density)
+                whole = scale_to_mass(body.unit, "link", density=self.density)
                 weights[item.link.name] = whole.mass, whole.com, whole.tensor
         except UrdftoolError:
             return {}
         return weights
 
 
-def _key(description: Description, name: str) -> tuple[str, str]:
+def _get_key(description: Description, name: str) -> tuple[str, str]:
     """Return the file of a URI and its up axis; if not found, the description and the URI."""
     try:
         return str(description.resolve(name)), description.gltf_up

@@ -75,7 +75,7 @@ def find_shape(name: str) -> Shape | None:
     return next((shape for shape in SHAPES if shape.name == name), None)
 
 
-def shape_properties(
+def compute_shape_properties(
     shape: Shape,
     sizes: Sizes,
     *,

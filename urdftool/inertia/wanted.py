@@ -10,14 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import COMPONENTS, as_tensor, components_of, rotate_tensor
+from ..mechanics.tensor import COMPONENTS, as_tensor, get_components, rotate_tensor
 from ..model.elements import Link
 from ..model.pose import transpose
-from ..model.read import number, numbers
+from ..model.read import number, parse_numbers
 from ..source.document import Element
-from .link_review import LinkReview, inertial_rotation
+from .link_review import LinkReview, get_inertial_rotation
 from .requirements import require_consistent
-from .rounding import number_text, numbers_text, round_properties
+from .rounding import format_numbers_text, number_text, round_properties
 
 _SAME = 1e-11
 
@@ -55,7 +55,7 @@ class Wanted:
         return self.item.link
 
 
-def wanted_for(item: LinkReview, *, recompute: bool) -> Wanted:
+def determine_edits(item: LinkReview, *, recompute: bool) -> Wanted:
     """Determine the changes to a link whose implied mass properties are known.
 
     Args:
@@ -69,40 +69,40 @@ def wanted_for(item: LinkReview, *, recompute: bool) -> Wanted:
     result = round_properties(item.implied, f"link '{item.link.name}'")
     inertial = item.link.inertial
     if inertial is None:
-        lines = ("<inertial>", *(f"\t{line}" for line in _children(result)), "</inertial>")
+        lines = ("<inertial>", *(f"\t{line}" for line in _collect_children(result)), "</inertial>")
         want = Want(item.link.element, child="inertial", lines=lines)
         return Wanted(item, result, [want])
     element = inertial.element
     origin, mass, inertia = (element.child(tag) for tag in ("origin", "mass", "inertia"))
-    back = transpose(inertial_rotation(inertial))
+    back = transpose(get_inertial_rotation(inertial))
     along = round_properties(
         replace(result, tensor=rotate_tensor(result.tensor, back)),
         f"link '{item.link.name}'",
     )
     if not element.children:
-        return Wanted(item, result, [Want(element, child="mass", lines=_children(along))])
+        return Wanted(item, result, [Want(element, child="mass", lines=_collect_children(along))])
     found = Wanted(item, result)
-    texts = dict(zip(("origin", "mass", "inertia"), _children(along), strict=True))
+    texts = dict(zip(("origin", "mass", "inertia"), _collect_children(along), strict=True))
     if origin is None:
         if any(along.com):
             found.wants.append(Want(element, child="origin", lines=(texts["origin"],)))
-    elif recompute and not _same(origin.get("xyz") or "0 0 0", along.com):
-        found.wants.append(Want(origin, "xyz", numbers_text(along.com)))
+    elif recompute and not _is_same_number(origin.get("xyz") or "0 0 0", along.com):
+        found.wants.append(Want(origin, "xyz", format_numbers_text(along.com)))
     if mass is None or "value" not in mass.attributes:
         if mass is None:
             found.wants.append(Want(element, child="mass", lines=(texts["mass"],), after="origin"))
         else:
             found.wants.append(Want(mass, "value", number_text(along.mass)))
-    elif recompute and not _same(mass.get("value"), [along.mass]):
+    elif recompute and not _is_same_number(mass.get("value"), [along.mass]):
         found.wants.append(Want(mass, "value", number_text(along.mass)))
     if inertia is None:
         found.wants.append(Want(element, child="inertia", lines=(texts["inertia"],), after="mass"))
     else:
-        found.wants += _numbers(inertia, along, recompute=recompute)
+        found.wants += _set_numbers(inertia, along, recompute=recompute)
     return found
 
 
-def _numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) -> list[Want]:
+def _set_numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) -> list[Want]:
     """Set those of the six numbers that differ, or are missing.
 
     Unless ``recompute``, a missing product of inertia is set to 0 if all moments are written.
@@ -110,7 +110,7 @@ def _numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) -> lis
     Raises:
         InertiaError: The written numbers with the missing ones added are inconsistent.
     """
-    meant = components_of(along.tensor)
+    meant = get_components(along.tensor)
     missing = [name for name in COMPONENTS if name not in inertia.attributes]
     if not recompute:
         if not any(name in missing for name in ("ixx", "iyy", "izz")):
@@ -124,22 +124,22 @@ def _numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) -> lis
     return [
         Want(inertia, name, number_text(meant[name]))
         for name in COMPONENTS
-        if not _same(inertia.get(name), [meant[name]], scale=max(map(abs, along.tensor)))
+        if not _is_same_number(inertia.get(name), [meant[name]], scale=max(map(abs, along.tensor)))
     ]
 
 
-def _children(properties: SpatialInertia) -> tuple[str, str, str]:
-    six = components_of(properties.tensor)
+def _collect_children(properties: SpatialInertia) -> tuple[str, str, str]:
+    six = get_components(properties.tensor)
     numbers_written = " ".join(f'{name}="{number_text(six[name])}"' for name in COMPONENTS)
     return (
-        f'<origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>',
+        f'<origin xyz="{format_numbers_text(properties.com)}" rpy="0 0 0"/>',
         f'<mass value="{number_text(properties.mass)}"/>',
         f"<inertia {numbers_written}/>",
     )
 
 
-def _same(text: str | None, values: Sequence[float], scale: float = 0.0) -> bool:
-    written = numbers(text, len(values))
+def _is_same_number(text: str | None, values: Sequence[float], scale: float = 0.0) -> bool:
+    written = parse_numbers(text, len(values))
     if written is None:
         return False
     size = max(scale, *(abs(value) for value in values))

@@ -45,7 +45,7 @@ class Boxes:
     """Distance [m] from that center to the farthest corner."""
 
 
-def boxes_of(corners: Array) -> Boxes:
+def sort_into_boxes(corners: Array) -> Boxes:
     """Sort triangles [m], shape (m, 3, 3), into boxes of a grid, about a dozen in each."""
     centres = corners.mean(axis=1)
     low = corners.reshape(-1, 3).min(axis=0)
@@ -73,7 +73,7 @@ def boxes_of(corners: Array) -> Boxes:
     )
 
 
-def winding_numbers(points: Array, boxes: Boxes) -> Array:
+def compute_winding_numbers(points: Array, boxes: Boxes) -> Array:
     """Compute the generalized winding number of the surface at each point, to about 0.01.
 
     Args:
@@ -83,11 +83,11 @@ def winding_numbers(points: Array, boxes: Boxes) -> Array:
     result = np.empty(len(points))
     step = max(1, _DENSE // max(1, len(boxes.radius)))
     for begin in range(0, len(points), step):
-        result[begin : begin + step] = _chunk(points[begin : begin + step], boxes)
+        result[begin : begin + step] = _compute_chunk(points[begin : begin + step], boxes)
     return result / (4 * np.pi)
 
 
-def solid_angles(points: Array, corners: Array) -> Array:
+def compute_solid_angles(points: Array, corners: Array) -> Array:
     """Compute the signed solid angle [sr] of triangle i at point i; positive from behind it.
 
     Args:
@@ -110,7 +110,7 @@ def solid_angles(points: Array, corners: Array) -> Array:
     return np.asarray(2 * np.arctan2(above, below))
 
 
-def _chunk(points: Array, boxes: Boxes) -> Array:
+def _compute_chunk(points: Array, boxes: Boxes) -> Array:
     square = (
         np.einsum("ij,ij->i", points, points)[:, None]
         + np.einsum("ij,ij->i", boxes.middle, boxes.middle)
@@ -132,7 +132,7 @@ def _chunk(points: Array, boxes: Boxes) -> Array:
         point = np.repeat(which[begin:stop], some)
         first = np.repeat(boxes.starts[box[begin:stop]] - (np.cumsum(some) - some), some)
         triangle = first + np.arange(len(point))
-        angles = solid_angles(points[point], boxes.corners[triangle])
+        angles = compute_solid_angles(points[point], boxes.corners[triangle])
         result += np.bincount(point, weights=angles, minlength=len(points))
         begin = stop
     return result

@@ -79,25 +79,25 @@ def count(robot: Robot) -> Counts:
         frames=len(robot.links) - len(bodies),
         joints=dict(sorted(types.items(), key=lambda item: -item[1])),
         mimics=sum(joint.mimic is not None for joint in robot.joints),
-        freedom=degrees_of_freedom(robot.joints),
+        freedom=count_degrees_of_freedom(robot.joints),
         mass=fsum(link.mass for link in robot.links),
         massless=sum(link.inertial is None or link.inertial.mass is None for link in bodies),
         roots=[link.name for link in robot.tree.roots],
-        depth=_depth(robot),
-        plugins=_plugins(robot),
-        sensors=_sensors(robot),
+        depth=_compute_depth(robot),
+        plugins=_collect_plugins(robot),
+        sensors=_collect_sensors(robot),
         hardware=[Named(c.name, c.plugin or "", None) for c in robot.ros2_controls],
         transmissions=[transmission.name for transmission in robot.transmissions],
-        packages=_packages(robot),
+        packages=_find_packages(robot),
     )
 
 
-def degrees_of_freedom(joints: Iterable[Joint]) -> int:
+def count_degrees_of_freedom(joints: Iterable[Joint]) -> int:
     """Return the degrees of freedom of all joints that are not mimic joints."""
     return sum(FREEDOMS.get(joint.type, 0) for joint in joints if joint.mimic is None)
 
 
-def _depth(robot: Robot) -> int:
+def _compute_depth(robot: Robot) -> int:
     depths: dict[str, int] = {}
     for name in robot.tree.order:
         joint = robot.tree.parent_joint(name)
@@ -105,7 +105,7 @@ def _depth(robot: Robot) -> int:
     return max(depths.values(), default=0)
 
 
-def _plugins(robot: Robot) -> list[Named]:
+def _collect_plugins(robot: Robot) -> list[Named]:
     return [
         Named(plugin.name, plugin.filename, block.reference)
         for block in robot.gazebo
@@ -113,7 +113,7 @@ def _plugins(robot: Robot) -> list[Named]:
     ]
 
 
-def _sensors(robot: Robot) -> list[Named]:
+def _collect_sensors(robot: Robot) -> list[Named]:
     simulated = [
         Named(sensor.name, sensor.type, block.reference)
         for block in robot.gazebo
@@ -129,7 +129,7 @@ def _sensors(robot: Robot) -> list[Named]:
     ]
 
 
-def _packages(robot: Robot) -> dict[str, str | None]:
+def _find_packages(robot: Robot) -> dict[str, str | None]:
     """Return the folders of packages used by xacro and by meshes; None if not found."""
     found: dict[str, str | None] = {}
     if robot.source is not None:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import UrdftoolError
-from ..model.bounds import Bounds, bounds_at
+from ..model.bounds import Bounds, compute_bounds_at
 from ..model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..model.kinematics import link_poses
-from ..model.pose import Pose, pose_of
+from ..model.pose import Pose, make_pose
 
 Progress = Callable[[int, int, str], None]
 
@@ -72,7 +72,7 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
         if isinstance(shape.geometry, Mesh):
             uses.setdefault(shape.geometry.filename, []).append((at, shape))
         elif at is not None:
-            box = _primitive(shape, at)
+            box = _compute_primitive_bounds(shape, at)
             boxes += [] if box is None else [box]
     for number, (uri, shapes) in enumerate(uses.items(), 1):
         progress(number, len(uses), uri)
@@ -91,9 +91,9 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
     return measured
 
 
-def _primitive(shape: Visual | Collision, at: Pose) -> Bounds | None:
+def _compute_primitive_bounds(shape: Visual | Collision, at: Pose) -> Bounds | None:
     """Return the bounding box of a primitive in the frame of the link pose."""
-    return bounds_at(shape.geometry, at @ pose_of(shape.origin))
+    return compute_bounds_at(shape.geometry, at @ make_pose(shape.origin))
 
 
 def _read(
@@ -119,11 +119,11 @@ def _read(
         mesh.triangles = len(read.faces)
         for at, shape in same:
             if at is not None:
-                pose = at @ pose_of(shape.origin)
-                yield _around(read.vertices, pose)
+                pose = at @ make_pose(shape.origin)
+                yield _compute_bounds(read.vertices, pose)
 
 
-def _around(vertices: Any, pose: Pose) -> Bounds:
+def _compute_bounds(vertices: Any, pose: Pose) -> Bounds:
     """Return the bounding box of points, an array of shape (n, 3), at a pose [m]."""
     low, high = [], []
     for row, shift in zip(pose.rotation, pose.translation, strict=True):

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from ..errors import ConfigError
 from ..finding import Finding
-from .fingerprint import fingerprint
+from .fingerprint import compute_fingerprint
 from .outcome import Outcome
 
 _KEYS = {"path", "rule", "element", "fingerprint", "count"}
@@ -51,15 +51,15 @@ class Baseline:
     path: str
     counts: Mapping[Entry, int] = field(default_factory=dict)
 
-    def entry(self, finding: Finding) -> Entry:
+    def get_entry(self, finding: Finding) -> Entry:
         """Return the entry of a finding in this file."""
         path = finding.location.path
         if finding.location.file.path != "<stdin>":
             folder = os.path.dirname(os.path.abspath(self.path))
             path = os.path.relpath(os.path.abspath(path), folder).replace(os.sep, "/")
-        return Entry(path, finding.code, finding.kind, finding.name, fingerprint(finding))
+        return Entry(path, finding.code, finding.kind, finding.name, compute_fingerprint(finding))
 
-    def file_of(self, entry: Entry) -> str:
+    def get_file(self, entry: Entry) -> str:
         """Return the absolute path of the file of an entry."""
         return os.path.abspath(
             os.path.join(os.path.dirname(os.path.abspath(self.path)), entry.path)
@@ -97,12 +97,12 @@ def read_baseline(path: str) -> Baseline:
         )
     counts: dict[Entry, int] = {}
     for number, record in enumerate(table["findings"], start=1):
-        entry, count = _entry(record, number, path)
+        entry, count = _read_entry(record, number, path)
         counts[entry] = max(count, counts.get(entry, 0))
     return Baseline(path, counts)
 
 
-def _entry(record: Any, number: int, path: str) -> tuple[Entry, int]:
+def _read_entry(record: Any, number: int, path: str) -> tuple[Entry, int]:
     fault = f"entry {number} must have path, rule, element, fingerprint and count"
     if not isinstance(record, dict) or set(record) != _KEYS:
         raise ConfigError(fault, path=path)
@@ -125,7 +125,7 @@ def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]
     known: list[Finding] = []
     matched: set[Entry] = set()
     for finding in outcome.findings:
-        entry = baseline.entry(finding)
+        entry = baseline.get_entry(finding)
         if left[entry] > 0 and not finding.unchecked:
             left[entry] -= 1
             matched.add(entry)
@@ -136,7 +136,7 @@ def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]
     return replace(outcome, findings=new, known=known), unmatched
 
 
-def baseline_of(path: str, findings: Iterable[Finding], kept: Mapping[Entry, int]) -> Baseline:
+def make_baseline(path: str, findings: Iterable[Finding], kept: Mapping[Entry, int]) -> Baseline:
     """Return a baseline with the present findings.
 
     Args:
@@ -144,7 +144,7 @@ def baseline_of(path: str, findings: Iterable[Finding], kept: Mapping[Entry, int
         findings: Present findings.
         kept: Entries to keep, with their counts.
     """
-    counts = Counter(map(Baseline(path).entry, findings))
+    counts = Counter(map(Baseline(path).get_entry, findings))
     return Baseline(path, {**kept, **counts})
 
 

@@ -24,10 +24,10 @@ from ..dependencies import (
     Dependencies,
     Question,
     Stamp,
-    answer,
+    compute_answer,
     has_stamp,
     is_settled,
-    stamp_of,
+    read_stamp,
 )
 from ..extras import EXTRA_OF, is_installed
 from ..source.location import SourceFile
@@ -53,13 +53,13 @@ class Cache:
     def __init__(self, store: DiskCache) -> None:
         """Set the cache on disk."""
         self.store = store
-        self._code = _code()
+        self._code = _hash_code()
         self._stamps: dict[Question, Stamp | None] = {}
         self._answers: dict[Question, tuple[str, Stamp | None]] = {}
         self._sets: dict[Dependencies, str] = {}
         self._valid: dict[str, bool] = {}
 
-    def key(
+    def get_key(
         self,
         path: str | Path,
         options: Options,
@@ -69,8 +69,12 @@ class Cache:
         """Return the key of a check: a digest of its inputs."""
         facts = [
             *(_FORMAT, self._code, os.getcwd(), str(path), sorted(options.arguments.items())),
-            *(_folders(options.packages), [str(path) for path in options.package_paths]),
-            *(configuration.path, _folders(configuration.packages), _plain(settings)),
+            *(_collect_folders(options.packages), [str(path) for path in options.package_paths]),
+            *(
+                configuration.path,
+                _collect_folders(configuration.packages),
+                _list_settings(settings),
+            ),
             options.fixes,
             [library for library in EXTRA_OF if is_installed(library)],
             options.gltf_up or configuration.gltf_up,
@@ -96,7 +100,7 @@ class Cache:
         if report.error is not None or report.failed_rules:
             return
         try:
-            rows = self._rows(read)
+            rows = self._get_rows(read)
             if rows is None:
                 return
             for shared in read.shared:
@@ -110,7 +114,7 @@ class Cache:
             return
         self.store.put(key, pickle.dumps((rows, stream.getvalue()), 5))
 
-    def source(self, path: str, encoding: str, digest: str) -> SourceFile:
+    def get_source(self, path: str, encoding: str, digest: str) -> SourceFile:
         """Return a file that is unchanged since the check.
 
         Raises:
@@ -123,13 +127,13 @@ class Cache:
             raise ValueError(path)
         return SourceFile(path, data, encoding)
 
-    def _rows(self, read: Dependencies) -> list[Row] | None:
+    def _get_rows(self, read: Dependencies) -> list[Row] | None:
         """Return the queries with their answers; None if a stamp has changed since the query."""
         rows: list[Row] = []
         for question, stamp in read.asked.items():
             if question not in self._answers:
-                said = answer(question)
-                self._answers[question] = said, stamp_of(question)
+                said = compute_answer(question)
+                self._answers[question] = said, read_stamp(question)
             said, now = self._answers[question]
             if now != stamp and said != "folder":
                 return None
@@ -139,7 +143,7 @@ class Cache:
     def _set(self, read: Dependencies) -> str | None:
         """Store the queries of a shared result; return their digest, None if a stamp changed."""
         if read not in self._sets:
-            rows = self._rows(read)
+            rows = self._get_rows(read)
             if rows is None:
                 return None
             data = pickle.dumps(rows, 5)
@@ -154,13 +158,13 @@ class Cache:
             return self._set_holds(path)
         question = kind, path
         if question not in self._stamps:
-            self._stamps[question] = stamp_of(question)
+            self._stamps[question] = read_stamp(question)
         now = self._stamps[question]
         known = has_stamp(question) and (now is None) == (said == ABSENT)
         if known and (now is None or now == stamp):
             return True
         if question not in self._answers:
-            self._answers[question] = answer(question), now
+            self._answers[question] = compute_answer(question), now
         return self._answers[question][0] == said
 
     def _set_holds(self, digest: str) -> bool:
@@ -221,14 +225,14 @@ class _Reader(pickle.Unpickler):
                 self.files[pid] = SourceFile(path, content, encoding)
             else:
                 assert self.cache is not None
-                self.files[pid] = self.cache.source(path, encoding, content)
+                self.files[pid] = self.cache.get_source(path, encoding, content)
         return self.files[pid]
 
 
 _BUILTINS = {("builtins", "frozenset"), ("builtins", "set")}
 
 
-def _code() -> str:
+def _hash_code() -> str:
     """Return a digest of the code that runs: files of urdftool, Python, installed libraries."""
     root = Path(__file__).parents[1]
     folders = [str(root)]
@@ -241,11 +245,11 @@ def _code() -> str:
                     files.append((entry.path, status.st_size, status.st_mtime_ns))
                 elif "." not in entry.name and entry.name != "__pycache__" and entry.is_dir():
                     folders.append(entry.path)
-    facts = [__version__, sys.version, sorted(files), list(_installed(sys.path))]
+    facts = [__version__, sys.version, sorted(files), list(_list_library_folders(sys.path))]
     return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
 
 
-def _installed(path: Iterable[str]) -> Iterable[tuple[str, int]]:
+def _list_library_folders(path: Iterable[str]) -> Iterable[tuple[str, int]]:
     """Yield the library folders with their modification times [ns]."""
     for folder in path:
         if os.path.basename(folder) in ("site-packages", "dist-packages"):
@@ -255,11 +259,11 @@ def _installed(path: Iterable[str]) -> Iterable[tuple[str, int]]:
                 continue
 
 
-def _folders(packages: Mapping[str, str | Path]) -> list[tuple[str, str]]:
+def _collect_folders(packages: Mapping[str, str | Path]) -> list[tuple[str, str]]:
     return sorted((name, str(folder)) for name, folder in packages.items())
 
 
-def _plain(settings: Settings) -> list[Any]:
+def _list_settings(settings: Settings) -> list[Any]:
     """Return the settings as a list, sorted where order is irrelevant."""
     return [
         *(settings.select, settings.extend_select, settings.ignore),

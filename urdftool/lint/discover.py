@@ -17,25 +17,25 @@ def find_descriptions(paths: Iterable[str]) -> list[str]:
     """
     found: dict[str, str] = {}
     for path in paths:
-        files = _below(path) if os.path.isdir(path) else [path]
+        files = _list_files(path) if os.path.isdir(path) else [path]
         for file in files:
             found.setdefault(os.path.realpath(file) if file != "-" else file, file)
     return list(found.values())
 
 
-def parts_below(paths: Iterable[str]) -> list[str]:
+def list_parts(paths: Iterable[str]) -> list[str]:
     """Return the ``.xacro`` files below named folders that are not descriptions by their name."""
     folders = [path for path in paths if os.path.isdir(path)]
-    found = (path for folder in folders for path in _below(folder, (".xacro",)))
+    found = (path for folder in folders for path in _list_files(folder, (".xacro",)))
     return [path for path in dict.fromkeys(found) if not path.endswith(ENDINGS)]
 
 
-def nothing_below(paths: Iterable[str]) -> str:
+def explain_nothing_found(paths: Iterable[str]) -> str:
     """Return the message for folders without a description, with a ``.xacro`` that may be one."""
     folders = list(paths)
     said = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
     for folder in folders:
-        for path in _below(folder, (".xacro",)):
+        for path in _list_files(folder, (".xacro",)):
             if _has_name(path):
                 return (
                     f"{said}; .xacro files may be parts of robots: give {path} itself if it is "
@@ -53,7 +53,7 @@ def _has_name(path: str) -> bool:
         return False
 
 
-def _below(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
+def _list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
     for root, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(files):

@@ -28,7 +28,7 @@ def word_at(finding: Finding) -> bytes:
 _WORD = re.compile(rb"<?[\w:.-]+")
 
 
-def fingerprint(finding: Finding) -> str:
+def compute_fingerprint(finding: Finding) -> str:
     """Return 16 hexadecimal digits of the rule, kind and name of the element, and its attributes.
 
     Lines, whitespace and the order of attributes are ignored, so that edits elsewhere in the file
@@ -37,13 +37,13 @@ def fingerprint(finding: Finding) -> str:
     """
     from hashlib import sha256
 
-    words = [finding.code, finding.kind, finding.name, *_written(finding)]
+    words = [finding.code, finding.kind, finding.name, *_get_source_attributes(finding)]
     if finding.members:
-        words = [finding.code, *sorted(map(fingerprint, finding.members))]
+        words = [finding.code, *sorted(map(compute_fingerprint, finding.members))]
     return sha256("\0".join(words).encode("utf-8", "surrogateescape")).hexdigest()[:16]
 
 
-def _written(finding: Finding) -> list[str]:
+def _get_source_attributes(finding: Finding) -> list[str]:
     """Return the attributes of the tag at the location of a finding, or the text there."""
     file, start, end, _ = finding.location
     data = file.data[start:end]

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ..diagnostic import Fix, Replacement
-from ..extras import missing_library
+from ..extras import find_missing_library
 from ..finding import Finding
 from ..model.elements import Robot
 from ..rules import get_rule
@@ -69,11 +69,13 @@ def add_fixes(
     for group in groups.values():
         name = group[0].code
         try:
-            proposals = [_proposal(finding, origins.get(id(finding)), context) for finding in group]
+            proposals = [
+                _get_proposal(finding, origins.get(id(finding)), context) for finding in group
+            ]
             whole = [proposal for proposal in proposals if proposal is not None]
             if len(whole) < len(proposals) or not whole:
                 continue
-            replacements, rewrites = settler.settle(whole), settler.rewrites(whole)
+            replacements, rewrites = settler.settle(whole), settler.get_rewrites(whole)
         except OutsideError as error:
             report.outside.append((group[0], str(error)))
             continue
@@ -81,21 +83,21 @@ def add_fixes(
             report.unmended.append((group[0], str(error)))
             continue
         except Exception as error:
-            library = missing_library(error)
+            library = find_missing_library(error)
             if library is not None:
                 report.skipped_fixes[name] = library
                 continue
             report.failed_rules[name] = f"its fix: {type(error).__name__}: {error}"
             continue
         if replacements or rewrites:
-            safe = all(proposal.safe for proposal in whole) and not _lost_comments(replacements)
+            safe = all(proposal.safe for proposal in whole) and not _deletes_comments(replacements)
             group[0].fixes = (Fix(safe, whole[0].message, replacements, rewrites),)
 
 
 _COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)
 
 
-def _lost_comments(replacements: Sequence[Replacement]) -> bool:
+def _deletes_comments(replacements: Sequence[Replacement]) -> bool:
     """Tell whether the replacements delete comments of the user, which makes a fix unsafe."""
     kept = b"".join(replacement.data for replacement in replacements)
     return any(
@@ -105,7 +107,7 @@ def _lost_comments(replacements: Sequence[Replacement]) -> bool:
     )
 
 
-def _proposal(finding: Finding, origin: Origin | None, context: FixContext) -> Proposal | None:
+def _get_proposal(finding: Finding, origin: Origin | None, context: FixContext) -> Proposal | None:
     """Return the fix that the rule of a finding proposes.
 
     Findings without an origin concern files that could not be expanded; only fixes of files

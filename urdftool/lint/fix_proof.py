@@ -65,24 +65,24 @@ class Wrong(NamedTuple):
     subjects: frozenset[tuple[str, str]] = frozenset()
 
 
-def key_of(finding: Finding) -> Key:
+def get_key(finding: Finding) -> Key:
     """Return the identity of a finding, which does not depend on the preceding bytes."""
     place = finding.location
     start = place.start if finding.kind == "file" else None
-    return place.path, start, *likeness(finding)
+    return place.path, start, *get_likeness(finding)
 
 
-def likeness(finding: Finding) -> Key:
+def get_likeness(finding: Finding) -> Key:
     """Return what equal findings in different descriptions have in common."""
     return *fact_of(finding), word_at(finding)
 
 
-def subject_of(finding: Finding) -> tuple[str, str]:
+def get_subject(finding: Finding) -> tuple[str, str]:
     """Return kind and name of the object of a finding."""
     return finding.kind, finding.name
 
 
-def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | None:
+def find_regression(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | None:
     """Return what is worse after the fixes of ``chosen``; None if nothing is."""
     if after.error is not None and before.error is None:
         return Wrong(f"the file could not be read: {after.error.message}")
@@ -91,33 +91,33 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
     broke = after.failed_rules.keys() - before.failed_rules.keys()
     if broke:
         return Wrong(f"rule {min(broke)} fails with an internal error")
-    stops = [_stops(before), _stops(after)]
+    stops = [_list_blocking(before), _list_blocking(after)]
     if len(stops[1]) > len(stops[0]) or (stops[1] and not stops[0]):
         return Wrong(f"the file could not be read: {stops[1][0].message}")
-    left = Counter(map(key_of, after.findings))
-    there = Counter(map(key_of, before.findings))
-    still = [finding for finding in chosen if left[key_of(finding)] >= there[key_of(finding)]]
+    left = Counter(map(get_key, after.findings))
+    there = Counter(map(get_key, before.findings))
+    still = [finding for finding in chosen if left[get_key(finding)] >= there[get_key(finding)]]
     if still:
-        return Wrong("the finding remains", subjects=frozenset(map(subject_of, still)))
+        return Wrong("the finding remains", subjects=frozenset(map(get_subject, still)))
     if stops[0] or any(finding.code in REVEALING for finding in chosen):
         return None
     for level in (Severity.ERROR, Severity.WARNING):
-        now, then = _counted(after, level), _counted(before, level)
+        now, then = _count_by_subject(after, level), _count_by_subject(before, level)
         more = frozenset(subject for subject, count in now.items() if count > then[subject])
         # a sum over several fixes would hide one that adds as many findings as it resolves
         gone = sum(one.severity >= level for one in chosen) if more and len(chosen) > 1 else 0
         if sum(now.values()) > sum(then.values()) - gone:
-            new = [f for f in after.findings if f.severity >= level and not there[key_of(f)]]
+            new = [f for f in after.findings if f.severity >= level and not there[get_key(f)]]
             what = f"then {new[0].message} [{new[0].code}]" if new else ""
             return Wrong(what or "it would cause more findings", subjects=more)
     return None
 
 
-def _stops(report: Report) -> list[Finding]:
+def _list_blocking(report: Report) -> list[Finding]:
     """Return the findings that prevent reading the robot."""
     return [f for f in report.findings if f.kind == "file" and f.severity is Severity.ERROR]
 
 
-def _counted(report: Report, level: Severity) -> Counter[tuple[str, str]]:
+def _count_by_subject(report: Report, level: Severity) -> Counter[tuple[str, str]]:
     """Return the number of findings of each object, from a severity on."""
-    return Counter(subject_of(f) for f in report.findings if f.severity >= level)
+    return Counter(get_subject(f) for f in report.findings if f.severity >= level)

@@ -18,12 +18,12 @@ from typing import NamedTuple
 from ..diagnostic import FileRewrite
 from ..errors import UrdftoolError
 from ..finding import Finding
-from ..rules.file_rewrites import rewritten_bytes
+from ..rules.file_rewrites import compute_rewritten_bytes
 from ..rules.table import FIXES
 from ..workspace import Workspace
-from .fix_proof import REVEALING, Key, Wrong, key_of, likeness, subject_of, worse
+from .fix_proof import REVEALING, Key, Wrong, find_regression, get_key, get_likeness, get_subject
 from .outcome import Options, Report
-from .run import lint_file
+from .run import check_file
 
 MAX_ROUNDS = 200
 
@@ -83,7 +83,9 @@ class Mended:
     unmade: dict[str, str] = field(default_factory=dict)
 
 
-def mend(report: Report, options: Options, *, unsafe: bool = False, meshes: bool = False) -> Mended:
+def fix_description(
+    report: Report, options: Options, *, unsafe: bool = False, meshes: bool = False
+) -> Mended:
     """Apply the fixes of one description.
 
     Args:
@@ -120,7 +122,7 @@ def apply_fixes(
         if not chosen:
             break
         _Round(result, options, banned, doubted).prove(chosen)
-    result.groups = _groups(result)
+    result.groups = _get_groups(result)
     return result
 
 
@@ -147,7 +149,7 @@ def _choose(
             fix = finding.fix
             if fix is None or not (fix.safe or unsafe) or (fix.rewrites and not meshes):
                 continue
-            if key_of(finding) in banned:
+            if get_key(finding) in banned:
                 continue
             spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
             spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.rewrites]
@@ -191,7 +193,7 @@ class _Round:
             self._index(number, report)
 
     def _index(self, number: int, report: Report) -> None:
-        for path in _paths(report) if report.error is None and not report.skipped else ():
+        for path in _collect_paths(report) if report.error is None and not report.skipped else ():
             self.concerned.setdefault(path, set()).add(number)
 
     def prove(self, chosen: Sequence[_Wanted]) -> None:
@@ -202,26 +204,26 @@ class _Round:
         findings then have other objects. A fix like one that failed in another description, such as
         a variant of the robot, is tried separately too.
         """
-        for part in self._apart(chosen):
+        for part in self._partition(chosen):
             self.kept = []
             groups: dict[object, list[_Wanted]] = {}
             for one in part:
-                key: object = likeness(one.finding)
+                key: object = get_likeness(one.finding)
                 if key not in self.doubted:
                     key = one.finding.code in REVEALING, FIXES[one.finding.code].renames
                 groups.setdefault(key, []).append(one)
             for some in sorted(groups.values(), key=len, reverse=True):
-                self._halve(self._current(some))
+                self._halve(self._list_pending(some))
 
-    def _current(self, some: Sequence[_Wanted]) -> list[_Wanted]:
+    def _list_pending(self, some: Sequence[_Wanted]) -> list[_Wanted]:
         """Return the fixes whose findings still exist; the next round handles the others."""
         there = {
-            number: set(map(key_of, self.result.reports[number].findings))
+            number: set(map(get_key, self.result.reports[number].findings))
             for number in {one.number for one in some}
         }
-        return [one for one in some if key_of(one.finding) in there[one.number]]
+        return [one for one in some if get_key(one.finding) in there[one.number]]
 
-    def _apart(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
+    def _partition(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
         """Partition fixes into lists that concern no common description."""
         group = {n: n for n in range(len(self.result.reports))}
 
@@ -247,35 +249,35 @@ class _Round:
         """
         if not chosen:
             return
-        wrong = self._attempt(chosen)
+        wrong = self._try_fixes(chosen)
         if wrong is None:
             return
         if len(chosen) == 1:
             finding = chosen[0].finding
-            self.banned.add(key_of(finding))
-            self.doubted.add(likeness(finding))
+            self.banned.add(get_key(finding))
+            self.doubted.add(get_likeness(finding))
             kind = self.result.unmade if wrong.of_a_file else self.result.broken
             kind.setdefault(finding.code, f"{finding.location}: {wrong.text}")
             return
-        suspects = [one for one in chosen if subject_of(one.finding) in wrong.subjects]
-        others = [one for one in chosen if subject_of(one.finding) not in wrong.subjects]
+        suspects = [one for one in chosen if get_subject(one.finding) in wrong.subjects]
+        others = [one for one in chosen if get_subject(one.finding) not in wrong.subjects]
         if suspects and others:
             self._halve(others)
-            self._halve(self._current(suspects))
+            self._halve(self._list_pending(suspects))
             return
-        if len({subject_of(one.finding) for one in suspects}) == len(chosen):
+        if len({get_subject(one.finding) for one in suspects}) == len(chosen):
             for one in suspects:  # every object got worse by itself
-                self._halve(self._current([one]))
+                self._halve(self._list_pending([one]))
             return
-        middle = _middle(chosen)
+        middle = _choose_split(chosen)
         self._halve(chosen[:middle])
-        self._halve(self._current(chosen[middle:]))
+        self._halve(self._list_pending(chosen[middle:]))
 
-    def _attempt(self, some: Sequence[_Wanted]) -> Wrong | None:
+    def _try_fixes(self, some: Sequence[_Wanted]) -> Wrong | None:
         """Apply fixes in addition to the kept ones; return what is worse, None if they are kept."""
         result = self.result
         try:
-            before, edited = self._edited([*self.kept, *some])
+            before, edited = self._edit_files([*self.kept, *some])
         except _UnmadeError as error:
             return Wrong(str(error), True)
         after = {**result.after, **edited}
@@ -286,8 +288,8 @@ class _Round:
         trial = self.options.workspace.with_overlay(after)
         for number in dict.fromkeys((*own, *others)):
             old = result.reports[number]
-            new = lint_file(old.path, replace(self.options, workspace=trial))
-            wrong = worse(old, new, [one.finding for one in some if one.number == number])
+            new = check_file(old.path, replace(self.options, workspace=trial))
+            wrong = find_regression(old, new, [one.finding for one in some if one.number == number])
             if wrong:
                 return wrong
             fresh[number] = new
@@ -302,7 +304,7 @@ class _Round:
         self.kept += some
         return None
 
-    def _edited(
+    def _edit_files(
         self, chosen: Sequence[_Wanted]
     ) -> tuple[dict[str, bytes | None], dict[str, bytes]]:
         """Return the bytes of the files that fixes change, before and after.
@@ -317,16 +319,19 @@ class _Round:
             for replacement in finding.fix.replacements:
                 place = replacement.place
                 if place.path not in files:
-                    files[place.path] = self._bytes_of(number, place.path, place.file.data)
+                    files[place.path] = self._get_bytes(number, place.path, place.file.data)
                 replaced.setdefault(place.path, []).append(
                     (place.start, place.end, replacement.data)
                 )
-        edited = {path: _spliced(files[path], spans) for path, spans in replaced.items()}
+        edited = {path: _splice(files[path], spans) for path, spans in replaced.items()}
         before: dict[str, bytes | None] = dict(files)
         workspace = self.options.workspace.with_overlay(self.start)
-        for rewrite in _rewrites(one.finding for one in chosen):
+        for rewrite in _list_rewrites(one.finding for one in chosen):
             try:
-                now, made = _now(workspace, rewrite.path), rewritten_bytes(workspace, rewrite)
+                now, made = (
+                    _read_current(workspace, rewrite.path),
+                    compute_rewritten_bytes(workspace, rewrite),
+                )
             except (UrdftoolError, OSError) as error:
                 text = f"{rewrite.origin} cannot be made {rewrite.how}: {error}"
                 raise _UnmadeError(text) from error
@@ -334,7 +339,7 @@ class _Round:
                 before[rewrite.path], edited[rewrite.path] = now, made
         return before, edited
 
-    def _bytes_of(self, number: int, path: str, data: bytes) -> bytes:
+    def _get_bytes(self, number: int, path: str, data: bytes) -> bytes:
         """Return the bytes to which spans of a file refer; the original of a repaired file."""
         if path in self.start:
             return self.start[path]
@@ -348,7 +353,7 @@ class _UnmadeError(Exception):
     """Error for a file of a fix that cannot be computed; the text gives the reason."""
 
 
-def _middle(chosen: Sequence[_Wanted]) -> int:
+def _choose_split(chosen: Sequence[_Wanted]) -> int:
     """Return where to split fixes: near the middle, between two rules, since most fail by rule."""
     half = len(chosen) / 2
     edges = [
@@ -357,7 +362,7 @@ def _middle(chosen: Sequence[_Wanted]) -> int:
     return min(edges, key=lambda n: abs(n - half), default=len(chosen) // 2)
 
 
-def _groups(result: FixResult) -> list[set[str]]:
+def _get_groups(result: FixResult) -> list[set[str]]:
     """Return the changed files, grouped by descriptions and fixes that they share."""
     group = {path: {path} for path in result.after}
     linked = [set(report.files) for report in result.reports]
@@ -371,12 +376,12 @@ def _groups(result: FixResult) -> list[set[str]]:
     return list({id(one): one for one in group.values()}.values())
 
 
-def _rewrites(chosen: Iterable[Finding]) -> Iterator[FileRewrite]:
+def _list_rewrites(chosen: Iterable[Finding]) -> Iterator[FileRewrite]:
     for finding in chosen:
         yield from finding.fix.rewrites if finding.fix is not None else ()
 
 
-def _now(workspace: Workspace, path: str) -> bytes | None:
+def _read_current(workspace: Workspace, path: str) -> bytes | None:
     """Return the contents of a file; None if it does not exist."""
     return workspace.read_bytes(path) if workspace.exists_or_is_link(path) else None
 
@@ -384,7 +389,7 @@ def _now(workspace: Workspace, path: str) -> bytes | None:
 _LATE = "content-before-declaration"
 
 
-def _spliced(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
+def _splice(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
     parts, position = [], 0
     for start, end, new in sorted(spans, key=lambda span: span[:2]):
         parts += [data[position:start], new]
@@ -394,8 +399,8 @@ def _spliced(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
 
 def concerns(report: Report, paths: Iterable[str]) -> bool:
     """Tell whether a description or one of its fixes uses any of the files."""
-    return not _paths(report).isdisjoint(paths)
+    return not _collect_paths(report).isdisjoint(paths)
 
 
-def _paths(report: Report) -> set[str]:
+def _collect_paths(report: Report) -> set[str]:
     return set(report.files).union(*(f.fix.paths for f in report.findings if f.fix is not None))

@@ -20,7 +20,7 @@ from ..source.description import Description
 from ..source.document import STDIN, Element
 from ..source.escape import escape, unescape
 from ..source.location import Place, SourceFile
-from ..source.packages import shown_path
+from ..source.packages import shorten_path
 
 _QUOTES = {"&quot;": '"', "&apos;": "'"}
 
@@ -46,7 +46,7 @@ class Settler:
             RefusedError: The source cannot be edited in that way.
         """
         spans = [c for p in proposals for c in p.changes if isinstance(c, Span)]
-        found = [self._span(span) for span in dict.fromkeys(spans)]
+        found = [self._make_span(span) for span in dict.fromkeys(spans)]
         by_element: dict[int, tuple[Element, dict[tuple[object, ...], Change]]] = {}
         for proposal in proposals:
             for change in proposal.changes:
@@ -62,19 +62,19 @@ class Settler:
                     if list(by_element.get(id(user), (None, {}))[1]) != list(wanted):
                         raise RefusedError(
                             "its source is also used elsewhere, where it must not "
-                            f"change in this way ({_named(user)})"
+                            f"change in this way ({_format_element(user)})"
                         )
             if site not in done:
                 done.add(site)
                 for change in wanted.values():
-                    found += self._edits(change)
+                    found += self._list_edits(change)
         found.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
         for one, other in pairwise(found):
             if one.place.path == other.place.path and other.place.start < one.place.end:
                 raise RefusedError("its parts overlap")
         return tuple(found)
 
-    def rewrites(self, proposals: Sequence[Proposal]) -> tuple[FileRewrite, ...]:
+    def get_rewrites(self, proposals: Sequence[Proposal]) -> tuple[FileRewrite, ...]:
         """Return the files that the proposals of one finding rewrite.
 
         Raises:
@@ -85,20 +85,20 @@ class Settler:
             self._check_inside(rewrite.path)
         return tuple(dict.fromkeys(found))
 
-    def _span(self, span: Span) -> Replacement:
+    def _make_span(self, span: Span) -> Replacement:
         self._check_file(span.file)
         return Replacement(Place(span.file, span.start, span.end), span.data)
 
-    def _edits(self, change: Change) -> Iterator[Replacement]:
+    def _list_edits(self, change: Change) -> Iterator[Replacement]:
         element = change.element
-        source = self._source(element.file)
+        source = self._get_source(element.file)
         raw = source.elements.get(element.start)
         if raw is None or raw.tag != element.tag:
             raise RefusedError("it is not a separate element in the source")
-        for one in _edits(source, raw, change):
+        for one in _edit_element(source, raw, change):
             yield Replacement(Place(element.file, one.start, one.end), one.text)
 
-    def _source(self, file: SourceFile) -> edit.Source:
+    def _get_source(self, file: SourceFile) -> edit.Source:
         if file.path not in self.sources:
             self._check_file(file)
             try:
@@ -120,36 +120,36 @@ class Settler:
         files, packages = self.description.workspace, self.description.packages
         root = files.real_path(packages.own[1] if packages.own else packages.file.parent)
         if self.main == STDIN or not files.real_path(file).startswith(root + os.sep):
-            raise OutsideError(f"{file}, outside of {shown_path(root)}")
+            raise OutsideError(f"{file}, outside of {shorten_path(root)}")
 
 
-def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.Edit]:
+def _edit_element(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.Edit]:
     """Yield the edits that apply one change to an element as written."""
     kind, name, value = change.kind, change.name, change.value
     if kind == "set":
-        written = edit.literal(raw, name)
+        written = edit.read_literal(raw, name)
         if written is None and change.element.get(name) is not None:
             raise RefusedError(f"{name} is computed")
         if written is not None and "$" in written:
             raise RefusedError(f'{name}="{written}" is computed')
         yield edit.set_attribute(source, raw, name, value)
     elif kind == "sub":
-        written = edit.literal(raw, name) or ""
+        written = edit.read_literal(raw, name) or ""
         new = re.sub(change.pattern, value, written)
         if new == written:
             raise RefusedError(f'{name}="{written}" is computed')
         yield edit.set_attribute(source, raw, name, new)
     elif kind == "unset":
-        yield _without(source, raw, name)
+        yield _remove_attribute(source, raw, name)
     elif kind == "rename":
-        begin, _ = _spans(raw, name)
+        begin, _ = _collect_spans(raw, name)
         yield edit.Edit(begin, begin + len(name.encode()), value.encode())
     elif kind == "retag":
-        yield from _retagged(source, raw, value)
+        yield from _rename_tag(source, raw, value)
     elif kind in ("text", "sub-text"):
-        yield _retold(source, raw, change)
+        yield _replace_text(source, raw, change)
     elif kind == "remove":
-        yield _removed(source, raw)
+        yield _remove_element(source, raw)
     elif kind == "replace":
         yield edit.replace_element(source, raw, change.blocks)
     else:
@@ -163,23 +163,23 @@ def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.E
             yield edit.insert_child(source, parent, ascii_lines, after=behind)
 
 
-def _spans(raw: Element, name: str) -> tuple[int, int]:
+def _collect_spans(raw: Element, name: str) -> tuple[int, int]:
     span = raw.file.attribute_spans(raw.start).get(name)
     if span is None:
         raise RefusedError(f"{name} is not in the source")
     return span
 
 
-def _without(source: edit.Source, raw: Element, name: str) -> edit.Edit:
+def _remove_attribute(source: edit.Source, raw: Element, name: str) -> edit.Edit:
     """Return the edit that removes an attribute and the whitespace before it."""
-    begin, end = _spans(raw, name)
+    begin, end = _collect_spans(raw, name)
     data = source.file.data
     while data[begin - 1 : begin].isspace():
         begin -= 1
     return edit.Edit(begin, end, b"")
 
 
-def _removed(source: edit.Source, raw: Element) -> edit.Edit:
+def _remove_element(source: edit.Source, raw: Element) -> edit.Edit:
     """Return the edit that removes an element; a comment after it moves to its place."""
     made = edit.remove_element(source, raw)
     data = source.file.data
@@ -190,7 +190,7 @@ def _removed(source: edit.Source, raw: Element) -> edit.Edit:
     return made
 
 
-def _retagged(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Edit]:
+def _rename_tag(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Edit]:
     data, old, new = source.file.data, raw.tag.encode(), tag.encode()
     yield edit.Edit(raw.start + 1, raw.start + 1 + len(old), new)
     tag_end = source.file.tag_end(raw.start)
@@ -199,7 +199,7 @@ def _retagged(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Edit
         yield edit.Edit(close, close + len(old), new)
 
 
-def _retold(source: edit.Source, raw: Element, change: Change) -> edit.Edit:
+def _replace_text(source: edit.Source, raw: Element, change: Change) -> edit.Edit:
     """Return the edit that replaces the text of an element, keeping surrounding whitespace."""
     data = source.file.data
     begin, end = source.file.tag_end(raw.start), data.rfind(b"</", 0, raw.end)
@@ -220,7 +220,7 @@ def _retold(source: edit.Source, raw: Element, change: Change) -> edit.Edit:
     return edit.Edit(begin, end, escape(new).encode("ascii", "xmlcharrefreplace"))
 
 
-def _named(element: Element) -> str:
+def _format_element(element: Element) -> str:
     parent: Element | None = element
     while parent is not None and "name" not in parent.attributes:
         parent = parent.parent

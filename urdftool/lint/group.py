@@ -15,14 +15,14 @@ from typing import Any
 from ..diagnostic import FileRewrite, Fix, Replacement, Severity
 from ..finding import Cause, Finding, Group, Site
 from .fingerprint import fact_of
-from .merge import in_order
+from .merge import sort_findings
 from .outcome import Outcome
 
 NAMES = 5
 """Maximum number of names in the message of a group; the others are counted."""
 
 
-def together(outcome: Outcome) -> Outcome:
+def group_outcome(outcome: Outcome) -> Outcome:
     """Return a run with grouped findings.
 
     Args:
@@ -31,7 +31,7 @@ def together(outcome: Outcome) -> Outcome:
     robots: dict[Any, int] = {}
     for number, report in enumerate(outcome.reports):
         for finding in report.findings:
-            robots.setdefault(_identity(finding), number)
+            robots.setdefault(_make_identity(finding), number)
     return replace(
         outcome,
         findings=group(outcome.findings, robots),
@@ -50,10 +50,10 @@ def group(findings: Iterable[Finding], robots: Mapping[Any, int] | None = None) 
         robots: Index of the description of each finding; without it, all belong to one.
     """
     shown = [f for f in findings if not (f.moot and f.severity is Severity.INFO)]
-    return in_order(_grouped(_nested(shown), robots or {}))
+    return sort_findings(_merge_groups(_nest_consequences(shown), robots or {}))
 
 
-def _nested(findings: list[Finding]) -> list[Finding]:
+def _nest_consequences(findings: list[Finding]) -> list[Finding]:
     """Return the findings without those that another explains, nested as its consequences."""
     if not any(finding.cause for finding in findings):
         return findings
@@ -64,21 +64,23 @@ def _nested(findings: list[Finding]) -> list[Finding]:
     for number, finding in enumerate(findings):
         if finding.cause is None:
             continue
-        for candidate in _candidates(finding.cause, causes):
+        for candidate in _list_candidates(finding.cause, causes):
             if _explains(findings[candidate], finding) and not _is_above(number, candidate, above):
                 above[number] = candidate
                 break
     if not above:
         return findings
     made = [replace(f, consequences=list(f.consequences)) for f in findings]
-    for number in sorted(above, key=lambda n: -_depth(n, above)):
+    for number in sorted(above, key=lambda n: -_get_depth(n, above)):
         cause = made[above[number]]
         cause.consequences.append(made[number])
         cause.severity = max(cause.severity, made[number].severity)
     return [finding for number, finding in enumerate(made) if number not in above]
 
 
-def _candidates(cause: Cause, causes: Mapping[tuple[str, Site | None], list[int]]) -> Iterable[int]:
+def _list_candidates(
+    cause: Cause, causes: Mapping[tuple[str, Site | None], list[int]]
+) -> Iterable[int]:
     for rule in cause.rules:
         yield from causes.get((rule, cause.site), ())
 
@@ -99,37 +101,37 @@ def _is_above(number: int, other: int, above: Mapping[int, int]) -> bool:
     return other == number
 
 
-def _depth(number: int, above: Mapping[int, int]) -> int:
+def _get_depth(number: int, above: Mapping[int, int]) -> int:
     depth = 0
     while number in above:
         number, depth = above[number], depth + 1
     return depth
 
 
-def _grouped(findings: Iterable[Finding], robots: Mapping[Any, int]) -> list[Finding]:
+def _merge_groups(findings: Iterable[Finding], robots: Mapping[Any, int]) -> list[Finding]:
     groups: dict[Any, list[Finding]] = {}
     for finding in findings:
-        groups.setdefault(_key(finding, robots), []).append(finding)
+        groups.setdefault(_get_key(finding, robots), []).append(finding)
     return [found[0] if len(found) == 1 else _as_one(found) for found in groups.values()]
 
 
-def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
+def _get_key(finding: Finding, robots: Mapping[Any, int]) -> Any:
     """Return what the findings of one group have in common."""
     if finding.group is None:
         return id(finding)
-    where: Any = robots.get(_identity(finding), 0)
+    where: Any = robots.get(_make_identity(finding), 0)
     if finding.group.by == "repository":
-        where = _repository(os.path.dirname(os.path.abspath(finding.location.path)))
+        where = _find_repository(os.path.dirname(os.path.abspath(finding.location.path)))
     effects = tuple(finding.effects.items())
     return finding.code, finding.severity, finding.group.alike, effects, finding.variants, where
 
 
-def _identity(finding: Finding) -> Any:
+def _make_identity(finding: Finding) -> Any:
     place = finding.location
     return place.path, place.start, place.end, fact_of(finding)
 
 
-def _repository(folder: str) -> str:
+def _find_repository(folder: str) -> str:
     """Return the nearest folder with a ``.git``, from a folder upward; empty if there is none."""
     for above in (Path(folder), *Path(folder).parents):
         if (above / ".git").exists():
@@ -151,22 +153,22 @@ def _as_one(found: Sequence[Finding]) -> Finding:
         others=[*first.others, *rest],
         hint=first.hint if len(hints) == 1 else "",
         fixes=_combine_fixes(found),
-        consequences=_grouped(consequences, {}),
+        consequences=_merge_groups(consequences, {}),
     )
     assert first.group is not None
-    whole.message = _sentence(first.group, whole)
+    whole.message = _format_sentence(first.group, whole)
     return whole
 
 
-def _sentence(group: Group, whole: Finding) -> str:
+def _format_sentence(group: Group, whole: Finding) -> str:
     if group.sentence:
         sentence = group.sentence.replace("{count}", str(whole.count))
-        return sentence.replace("{names}", _listed(whole.names))
-    names = f": {_listed(whole.names[1:])}" if whole.names[1:] else ""
+        return sentence.replace("{names}", _format_names(whole.names))
+    names = f": {_format_names(whole.names[1:])}" if whole.names[1:] else ""
     return f"{whole.message} (and {whole.count - 1} more{names})"
 
 
-def _listed(names: Sequence[str]) -> str:
+def _format_names(names: Sequence[str]) -> str:
     """Return names as ``'a', 'b' and 7 more``."""
     shown = ", ".join(f"'{name}'" for name in names[:NAMES])
     more = len(names) - NAMES
@@ -185,7 +187,7 @@ def _combine_fixes(found: Sequence[Finding]) -> tuple[Fix, ...]:
     covered = 0
     for fix in chosen:
         new = [r for r in fix.replacements if r not in replacements]
-        if any(_overlap(one, other) for one in new for other in replacements):
+        if any(_overlaps(one, other) for one in new for other in replacements):
             continue
         covered += 1
         replacements += new
@@ -199,6 +201,6 @@ def _combine_fixes(found: Sequence[Finding]) -> tuple[Fix, ...]:
     return (Fix(bool(safe), message, tuple(replacements), tuple(rewrites)),)
 
 
-def _overlap(one: Replacement, other: Replacement) -> bool:
+def _overlaps(one: Replacement, other: Replacement) -> bool:
     a, b = one.place, other.place
     return a.path == b.path and a.start < b.end and b.start < a.end

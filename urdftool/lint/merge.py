@@ -33,7 +33,7 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
     return list(merged.values())
 
 
-def in_order(findings: Iterable[Finding]) -> list[Finding]:
+def sort_findings(findings: Iterable[Finding]) -> list[Finding]:
     """Sort findings by file, place and rule."""
     return sorted(findings, key=lambda f: (f.location.file.path, f.location.start, f.code))
 
@@ -41,10 +41,12 @@ def in_order(findings: Iterable[Finding]) -> list[Finding]:
 def gather(reports: Iterable[Report]) -> Outcome:
     """Merge all reports; a finding in a file that several descriptions include appears once."""
     reports = list(reports)
-    findings = in_order(merge(f for report in reports for f in report.findings))
+    findings = sort_findings(merge(f for report in reports for f in report.findings))
     ignored: dict[str, list[Finding]] = {}
     for report in reports:
         for finding, reason in report.ignored:
             ignored.setdefault(reason, []).append(finding)
-    excused = [(f, reason) for reason, found in ignored.items() for f in in_order(merge(found))]
+    excused = [
+        (f, reason) for reason, found in ignored.items() for f in sort_findings(merge(found))
+    ]
     return Outcome(reports, findings, excused)

@@ -10,8 +10,8 @@ from pathlib import Path
 from .. import rules
 from ..finding import Finding
 from ..model.elements import Collision, Mesh, Robot, Visual
-from ..model.mesh_formats import ending_of, rejecting_readers
-from ..rules.gazebo.kept import is_named_as_link, kept_links
+from ..model.mesh_formats import find_rejecting_readers, get_suffix
+from ..rules.gazebo.lumped_model import find_kept_links, is_named_as_link
 from ..rules.inertia.presence import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
 from ..rules.rule import GAZEBO
@@ -43,7 +43,7 @@ class Rejections:
 
     def _add_massless(self, robot: Robot) -> None:
         """Add rejections that are reported by rules which are off for some targets."""
-        kept = kept_links(robot)
+        kept = find_kept_links(robot)
         if kept is not None:
             rejecting = set() if kept else {"massless-root-body"}
             if any(is_named_as_link(robot, joint, kept) for joint in robot.joints):
@@ -62,12 +62,12 @@ class Rejections:
             shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
             for shape in shapes:
                 if isinstance(shape.geometry, Mesh):
-                    ending = ending_of(shape.geometry.filename)
+                    ending = get_suffix(shape.geometry.filename)
                     formats.add((ending, isinstance(shape, Collision)))
         if ("obj", True) in formats and _has_flat_first_object(robot):
             self._by_reader.setdefault("mujoco", set())
         for ending, collides in formats:
-            for reader in rejecting_readers(ending, collides):
+            for reader in find_rejecting_readers(ending, collides):
                 self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)
 
     def add(self, rule: str, keys: Iterable[str]) -> None:
@@ -86,7 +86,7 @@ class Rejections:
                 for one in (reader, *others):
                     self._by_reader.setdefault(one, set()).add(rule)
 
-    def without_moot(self, finding: Finding, *, selected: bool = False) -> Finding:
+    def remove_moot_effects(self, finding: Finding, *, selected: bool = False) -> Finding:
         """Remove the readers from a finding that reject the robot only for other defects.
 
         Args:
@@ -102,7 +102,7 @@ class Rejections:
             left = [r for r in readers if finding.code in self._by_reader.get(r, {finding.code})]
             if left:
                 one = len(left) == 1 < len(readers)
-                effects[", ".join(left)] = in_singular(effect) if one else effect
+                effects[", ".join(left)] = convert_to_singular(effect) if one else effect
         if effects == finding.effects:
             return finding
         return replace(finding, effects=effects, moot=not effects and not selected)
@@ -113,19 +113,19 @@ def _has_flat_first_object(robot: Robot) -> bool:
 
     It reads the first object alone, and rejects one without a volume (run with MuJoCo 4.0).
     """
+    from ..rules.mesh.mesh_uses import get_mesh_uses
     from ..rules.mesh.obj_objects import is_first_object_flat
-    from ..rules.mesh.uses import mesh_uses
 
     if robot.source is None:
         return False
     return any(
         use.path is not None and use.exists and is_first_object_flat(use.workspace, use.path)
-        for use in mesh_uses(robot, robot.source)
-        if use.collides and ending_of(use.uri) == "obj"
+        for use in get_mesh_uses(robot, robot.source)
+        if use.collides and get_suffix(use.uri) == "obj"
     )
 
 
-def in_singular(effect: str) -> str:
+def convert_to_singular(effect: str) -> str:
     """Return an effect for one reader instead of several: ``take it`` becomes ``takes it``."""
     verb, space, rest = effect.partition(" ")
     verb, colon = (verb[:-1], ":") if verb.endswith(":") else (verb, "")

@@ -62,9 +62,9 @@ def refuse_other_roots(description: Description) -> None:
     """
     root = description.document.root
     if root.tag != "robot":
-        from ..rules.xml.document import fault_of_root
+        from ..rules.xml.document import describe_root
 
-        raise SourceError(fault_of_root(root), at=root.place, rule="wrong-root")
+        raise SourceError(describe_root(root), at=root.place, rule="wrong-root")
     if description.expansion is None and "xmlns:xacro" not in root.attributes:
         tags = [element for element in root.walk() if element.tag.startswith("xacro:")]
         if tags:
@@ -72,16 +72,16 @@ def refuse_other_roots(description: Description) -> None:
             raise SourceError(
                 f"the file has {count} of xacro but does not declare its namespace, so nothing is "
                 'expanded. Write xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
-                at=_first(tags).place,
+                at=_get_first_element(tags).place,
                 rule="missing-xmlns",
             )
 
 
-def _first(elements: list[Element]) -> Element:
+def _get_first_element(elements: list[Element]) -> Element:
     return min(elements, key=lambda element: element.start)
 
 
-def finding_of(
+def convert_error(
     failure: UrdftoolError, severities: Mapping[str, Severity | None], *, unchecked: bool
 ) -> Finding:
     """Return an error of reading a description as a finding.
@@ -101,23 +101,23 @@ def finding_of(
         failure.message,
         place,
         "file",
-        effects=_effects_of(rule, failure),
+        effects=_get_effects(rule, failure),
         hint="; ".join(failure.notes),
         unchecked=unchecked,
         data={"case": failure.case, **failure.data} if failure.case else failure.data,
     )
 
 
-def _effects_of(name: str, failure: UrdftoolError) -> dict[str, str]:
+def _get_effects(name: str, failure: UrdftoolError) -> dict[str, str]:
     """Return the effects of a failure on readers, from the documentation of its rule.
 
     A missing package is an effect on xacro only; no other reader gets that far.
     """
     from ..rules import get_rule
-    from ..rules.rule import holding
+    from ..rules.rule import select_holding
 
     rule = get_rule(name)
-    keys = holding(rule.effects, failure.case)
+    keys = select_holding(rule.effects, failure.case)
     if isinstance(failure, PackageNotFound):
         keys = [key for key in rule.effects if key.partition(" (")[0] == "xacro"]
-    return rule.effects_in(keys)
+    return rule.select_effects(keys)

@@ -6,12 +6,14 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from .outcome import Options, Report
-from .run import known_report, lint_file
+from .run import check_file, find_cached_report
 
 WORTH_IT = 40  # files; below, starting workers costs more than it saves
 
 
-def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) -> Iterator[Report]:
+def check_files(
+    paths: Sequence[str], options: Options, jobs: int | None = None
+) -> Iterator[Report]:
     """Yield a report for each description, in the order given.
 
     Args:
@@ -22,7 +24,7 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
     if options.cache is None:
         yield from _check(paths, options, jobs)
         return
-    known = {path: known_report(path, options) for path in paths}
+    known = {path: find_cached_report(path, options) for path in paths}
     missing = [path for path in paths if known[path] is None]
     fresh = _check(missing, options, jobs)
     for path in paths:
@@ -34,13 +36,15 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
 def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator[Report]:
     """Yield a report for each description, without the cache of reports."""
     if len(paths) < WORTH_IT and not jobs:  # avoids an import in most calls
-        yield from (lint_file(path, options) for path in paths)
+        yield from (check_file(path, options) for path in paths)
         return
-    from ..parallel import cores, in_order, map_tasks
+    from ..parallel import count_cores, map_tasks, yield_in_order
 
-    wanted = jobs or cores()
+    wanted = jobs or count_cores()
     workers = 1 if "-" in paths else wanted
     if workers > 1 and len(paths) > 1:
-        yield lint_file(paths[0], options)  # imports the rules before workers are forked
+        yield check_file(paths[0], options)  # imports the rules before workers are forked
         paths = paths[1:]
-    yield from in_order(map_tasks(partial(lint_file, options=options), paths, workers=workers))
+    yield from yield_in_order(
+        map_tasks(partial(check_file, options=options), paths, workers=workers)
+    )

@@ -10,7 +10,7 @@ from typing import Any
 from ..configuration import Configuration, find_configuration
 from ..diagnostic import Severity
 from ..errors import ConfigError, SourceError, UrdftoolError
-from ..extras import missing_library
+from ..extras import find_missing_library
 from ..finding import Cause, Finding, Group, Site
 from ..model.elements import Robot
 from ..model.read import read_robot
@@ -20,9 +20,9 @@ from ..rules.table import APPLIES_TO, FIXES
 from ..source.description import Description, GltfUp, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
-from ..source.well_formed import mend
+from ..source.well_formed import repair
 from ..workspace import Workspace
-from .merge import in_order, merge
+from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import (
     UNUSED_JOINT,
@@ -31,12 +31,12 @@ from .motion import (
     is_link_unused,
     is_welded_in_mujoco,
 )
-from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
+from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
-from .settings import Settings, check_selectors, check_targets, settings_for
-from .suppress import read_suppressions, suppress, unused
+from .settings import Settings, check_selectors, check_targets, read_settings
+from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
-from .variants import as_one, label, variants_for
+from .variants import as_one, get_variants, label
 
 
 def check(
@@ -84,7 +84,7 @@ def check(
         if robot.source is None:
             raise ConfigError("the robot was not read from a description; use urdftool.load")
         configuration = find_configuration(robot.source.path, config)
-        settings = settings_for(robot.source.path, configuration, line)
+        settings = read_settings(robot.source.path, configuration, line)
         report = Report(robot.source.path)
         source = robot.source.unread()
         again = replace(robot, source=source)
@@ -92,7 +92,7 @@ def check(
     else:
         options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
         options.fixes, options.gltf_up = fixes, gltf_up
-        report = lint_file(robot, options)
+        report = check_file(robot, options)
         if report.error is not None:
             raise report.error
     if not grouped:
@@ -102,16 +102,16 @@ def check(
     return group(report.findings)
 
 
-def lint_file(path: str | Path, options: Options) -> Report:
+def check_file(path: str | Path, options: Options) -> Report:
     """Check one description; all its defects are in the report.
 
     Raises:
         ConfigError: The configuration is invalid.
     """
-    return _as_one([_checked(*question) for question in _questions(path, options)])
+    return _as_one([_check_with_cache(*question) for question in _list_checks(path, options)])
 
 
-def known_report(path: str | Path, options: Options) -> Report | None:
+def find_cached_report(path: str | Path, options: Options) -> Report | None:
     """Return the cached report of a description; None if it must be checked.
 
     Raises:
@@ -121,8 +121,8 @@ def known_report(path: str | Path, options: Options) -> Report | None:
     if cache is None or str(path) == "-":
         return None
     reports = []
-    for question in _questions(path, options):
-        report = cache.read(cache.key(*question))
+    for question in _list_checks(path, options):
+        report = cache.read(cache.get_key(*question))
         if report is None:
             return None
         reports.append((label(question[1].arguments), report))
@@ -132,29 +132,29 @@ def known_report(path: str | Path, options: Options) -> Report | None:
 _Question = tuple[str | Path, Options, Configuration, Settings]
 
 
-def _questions(path: str | Path, options: Options) -> list[_Question]:
+def _list_checks(path: str | Path, options: Options) -> list[_Question]:
     """Return the checks of a description: one for each set of xacro arguments."""
     configuration = find_configuration(path, options.config, options.workspace)
-    settings = settings_for(path, configuration, options.settings)
+    settings = read_settings(path, configuration, options.settings)
     each = [options]
     if configuration.lint.get("variants") is not None:
-        variants = variants_for(path, configuration)
+        variants = get_variants(path, configuration)
         if variants and not options.arguments:
             each = [replace(options, arguments=variant) for variant in variants]
     return [(path, chosen, configuration, settings) for chosen in each]
 
 
-def _checked(
+def _check_with_cache(
     path: str | Path, options: Options, configuration: Configuration, settings: Settings
 ) -> tuple[str, Report]:
     """Return the label of the xacro arguments and the report, which is cached if possible."""
     question = path, options, configuration, settings
     if options.cache is None or str(path) == "-":
-        return label(options.arguments), _lint_once(*question)
+        return label(options.arguments), _check_variant(*question)
     view = options.workspace.recorded()
-    report = _lint_once(path, replace(options, workspace=view), configuration, settings)
+    report = _check_variant(path, replace(options, workspace=view), configuration, settings)
     assert view.dependencies is not None
-    options.cache.write(options.cache.key(*question), report, view.dependencies)
+    options.cache.write(options.cache.get_key(*question), report, view.dependencies)
     return label(options.arguments), report
 
 
@@ -162,7 +162,7 @@ def _as_one(reports: list[tuple[str, Report]]) -> Report:
     return reports[0][1] if len(reports) == 1 else as_one(dict(reports))
 
 
-def _lint_once(
+def _check_variant(
     path: str | Path, options: Options, configuration: Configuration, settings: Settings
 ) -> Report:
     """Check a description with one set of xacro arguments."""
@@ -180,9 +180,9 @@ def _lint_once(
         if description is not None:
             root = description.document.root
             if description.expansion and not (root.child("link") or root.child("joint")):
-                from .skipped import why_without_links
+                from .skipped import explain_no_links
 
-                report.skipped = why_without_links(description)
+                report.skipped = explain_no_links(description)
                 return report
             refuse_srdf(description)
     except SourceError as error:
@@ -199,7 +199,7 @@ def _lint_once(
             settings = replace(settings, select=(), extend_select=())
     if robot is None or description is None:
         report.stopped = failures[0].message
-        description = _unexpanded(file, failures, options.workspace)
+        description = _make_unexpanded(file, failures, options.workspace)
     _check_description(description, robot, settings, report, failures, options)
     return report
 
@@ -221,7 +221,7 @@ def _read_mended(
     file: SourceFile, options: Options, configuration: Configuration
 ) -> Description | None:
     """Read a file that is not well-formed as tolerant readers do, to check the rest of it."""
-    mended = None if is_xacro(file) else mend(file)
+    mended = None if is_xacro(file) else repair(file)
     if mended is None:
         return None
     try:
@@ -230,7 +230,7 @@ def _read_mended(
         return None
 
 
-def _unexpanded(
+def _make_unexpanded(
     file: SourceFile, failures: list[UrdftoolError], workspace: Workspace
 ) -> Description:
     """Return a description without a robot, for its source files."""
@@ -261,10 +261,10 @@ def _check_description(
         targets = frozenset()
     report.targets = targets
     report.files = tuple(file.path for file in description.files)
-    rules = _rules(settings, targets, description)
-    documents = list(_documents(description))
+    rules = _select_rules(settings, targets, description)
+    documents = list(_list_documents(description))
     findings = [
-        finding_of(failure, settings.severity, unchecked=robot is None) for failure in failures
+        convert_error(failure, settings.severity, unchecked=robot is None) for failure in failures
     ]
     subjects: dict[str, Any] = {
         "robot": robot,
@@ -280,31 +280,33 @@ def _check_description(
         ran.add(rule.name)
         for document in documents if "document" in rule.needs else [None]:
             subjects["document"] = document
-            problems = _problems(rule, subjects, settings, report)
+            problems = _run_rule(rule, subjects, settings, report)
             for problem in problems:
-                finding = _finding(rule, problem, settings, targets, robot)
+                finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
                 findings.append(finding)
                 if finding.effects:
-                    rejections.add(rule.name, rule.keys_in(problem.effects))
+                    rejections.add(rule.name, rule.select_keys(problem.effects))
                 if options.fixes and rule.name in FIXES:
                     origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)
     if suppressions or wrong:
         findings, report.ignored = suppress(findings, suppressions)
-        selected = set(settings.names())
-        tags = _tags(description)
+        selected = set(settings.get_names())
+        tags = _collect_tags(description)
         idle = {name for name in selected if not applies_to(name, tags)}
-        stale = unused(suppressions, ran | idle) if robot is not None else ()
+        stale = report_unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.code in selected]
     if options.fixes and any(f.code in FIXES for f in findings):
         from .fix import Origin, add_fixes
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
         add_fixes(report, findings, made, robot, description, options)
-    findings = [rejections.without_moot(one, selected=bool(settings.select)) for one in findings]
-    report.findings = in_order(merge(findings))
+    findings = [
+        rejections.remove_moot_effects(one, selected=bool(settings.select)) for one in findings
+    ]
+    report.findings = sort_findings(merge(findings))
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot
 
@@ -312,13 +314,15 @@ def _check_description(
 _TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)
 
 
-def _rules(settings: Settings, targets: frozenset[str], description: Description) -> list[Rule]:
+def _select_rules(
+    settings: Settings, targets: frozenset[str], description: Description
+) -> list[Rule]:
     """Return the rules to run, computed once for descriptions with equal tags and targets."""
-    tags = frozenset(_tags(description) & _TELLING)
-    return settings.memo.get((targets, tags), lambda: settings.rules(targets, tags))
+    tags = frozenset(_collect_tags(description) & _TELLING)
+    return settings.memo.get((targets, tags), lambda: settings.get_rules(targets, tags))
 
 
-def _tags(description: Description) -> set[str]:
+def _collect_tags(description: Description) -> set[str]:
     tags: set[str] = set()
     todo = [description.document.root]
     while todo:
@@ -328,7 +332,7 @@ def _tags(description: Description) -> set[str]:
     return tags
 
 
-def _documents(description: Description) -> Iterator[Document]:
+def _list_documents(description: Description) -> Iterator[Document]:
     """Yield the source files, unexpanded, without those that are not well-formed."""
     if description.expansion is None and description.document.root.tag:
         yield description.document
@@ -340,7 +344,7 @@ def _documents(description: Description) -> Iterator[Document]:
             continue
 
 
-def _problems(
+def _run_rule(
     rule: Rule, subjects: Mapping[str, Any], settings: Settings, report: Report
 ) -> list[Problem]:
     """Return the problems that a rule finds; an exception is recorded as a bug of urdftool."""
@@ -352,7 +356,7 @@ def _problems(
         if unknown:
             raise LookupError(f"no effect on {sorted(unknown)}")
     except Exception as error:
-        library = missing_library(error)
+        library = find_missing_library(error)
         if library is None:
             report.failed_rules[rule.name] = f"{type(error).__name__}: {error}"
         else:
@@ -360,7 +364,7 @@ def _problems(
     return found
 
 
-def _finding(
+def _convert_finding(
     rule: Rule,
     problem: Problem,
     settings: Settings,
@@ -369,16 +373,16 @@ def _finding(
 ) -> Finding | None:
     """Convert a problem to a finding; None for a defect in motion of a link fixed to the world."""
     severity = settings.severity.get(rule.name)
-    effects = rule.effects_in(problem.effects)
+    effects = rule.select_effects(problem.effects)
     if severity is None:
-        severity = problem.severity or rule.severity_for(targets)
+        severity = problem.severity or rule.get_severity(targets)
         if rule.of_motion and severity is not Severity.ERROR:
             if is_link_unused(robot, problem.element):
                 return None
             if is_joint_unused(robot, problem.element):
                 severity, effects = Severity.INFO, {"every reader": UNUSED_JOINT}
             elif is_welded_in_mujoco(robot, problem.element):
-                effects = _without_mujoco(effects)
+                effects = _replace_mujoco(effects)
     causes = rule.caused_by if problem.caused_by is None else problem.caused_by
     concerned = targets if rule.on is None else targets.intersection(rule.on)
     return Finding(
@@ -391,15 +395,15 @@ def _finding(
         tuple(sorted(concerned)) if rule.on is not None else (),
         effects,
         problem.hint,
-        site=_site(problem.element),
+        site=_make_site(problem.element),
         group=Group(rule.group, problem.group, problem.alike) if rule.group else None,
-        cause=Cause(causes, _site(problem.cause_element)) if causes else None,
+        cause=Cause(causes, _make_site(problem.cause_element)) if causes else None,
         owner=problem.owner,
         data=problem.data,
     )
 
 
-def _without_mujoco(effects: dict[str, str]) -> dict[str, str]:
+def _replace_mujoco(effects: dict[str, str]) -> dict[str, str]:
     """Replace the effect on MuJoCo by ``WELDED`` where it is one of at least three readers."""
     found = {}
     for key, effect in effects.items():
@@ -413,5 +417,5 @@ def _without_mujoco(effects: dict[str, str]) -> dict[str, str]:
     return found
 
 
-def _site(element: Element) -> Site:
+def _make_site(element: Element) -> Site:
     return element.file.path, element.start

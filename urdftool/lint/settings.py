@@ -14,8 +14,8 @@ from ..diagnostic import Severity
 from ..errors import ConfigError
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.rule import TARGETS, Rule
-from ..suggestions import did_you_mean
 from ..suggestions import nearest as nearest_name
+from ..suggestions import suggest_name
 from ..workspace import Memo
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
@@ -45,7 +45,7 @@ class Settings:
     thresholds: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 
-    def names(self) -> list[str]:
+    def get_names(self) -> list[str]:
         """Return the selected rules, whether or not they are on for the targets."""
         wanted = set(FAMILY_OF) if self.select is None else _expand(self.select)
         wanted |= _expand(self.extend_select)
@@ -56,7 +56,7 @@ class Settings:
             if name in wanted and self.severity.get(name, Severity.INFO) is not None
         ]
 
-    def rules(self, targets: frozenset[str], tags: Set[str]) -> list[Rule]:
+    def get_rules(self, targets: frozenset[str], tags: Set[str]) -> list[Rule]:
         """Return the rules to run.
 
         Args:
@@ -65,10 +65,10 @@ class Settings:
         """
         named = {*(self.select or ()), *self.extend_select}
         chosen = []
-        for name in self.names():
+        for name in self.get_names():
             if applies_to(name, tags):
                 rule = get_rule(name)
-                if name in named or (rule.default and rule.is_on_for(targets)):
+                if name in named or (rule.default and rule.is_enabled_for(targets)):
                     chosen.append(rule)
         return chosen
 
@@ -102,21 +102,21 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
         if prefix is not None and any(name.startswith(prefix) for name in FAMILY_OF):
             continue
         raise ConfigError(
-            f"there is no rule '{word}'{nearest_rule(word)}",
+            f"there is no rule '{word}'{suggest_rule(word)}",
             path=path,
             data={"name": word, "suggestion": nearest_name(word, (*FAMILY_OF, *FAMILIES), 0.5)},
         )
     return tuple(words)
 
 
-def nearest_rule(word: str) -> str:
+def suggest_rule(word: str) -> str:
     """Return a suggestion of the nearest rule or family, as the end of a message."""
-    return nearest(word, (*FAMILY_OF, *FAMILIES)) or "; --list-rules lists all rules"
+    return suggest_word(word, (*FAMILY_OF, *FAMILIES)) or "; --list-rules lists all rules"
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
+def suggest_word(word: str, known: Iterable[str]) -> str:
     """Return a suggestion of the nearest known word; empty if none is near."""
-    return did_you_mean(word, known, 0.5)
+    return suggest_name(word, known, 0.5)
 
 
 def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[str] | None:
@@ -128,12 +128,12 @@ def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[
     words = [word.strip() for text in targets for word in text.split(",") if word.strip()]
     for word in words:
         if word not in TARGETS:
-            hint = nearest(word, TARGETS) or f"; there are {', '.join(TARGETS)}"
+            hint = suggest_word(word, TARGETS) or f"; there are {', '.join(TARGETS)}"
             raise ConfigError(f"there is no target '{word}'{hint}", path=path)
     return frozenset(words) if words else None
 
 
-def settings_for(file: str | Path, configuration: Configuration, line: Settings) -> Settings:
+def read_settings(file: str | Path, configuration: Configuration, line: Settings) -> Settings:
     """Return the settings of a file.
 
     Args:
@@ -149,7 +149,7 @@ def settings_for(file: str | Path, configuration: Configuration, line: Settings)
         return line
     path = configuration.path
     said = _from_table(table, path)
-    ignores = _per_file_ignores(file, table.get("per-file-ignores", {}), path)
+    ignores = _read_per_file_ignores(file, table.get("per-file-ignores", {}), path)
     return replace(
         said,
         select=said.select if line.select is None else line.select,
@@ -168,21 +168,21 @@ def _from_table(table: Mapping[str, Any], path: str | None) -> Settings:
                 raise ConfigError(f"lint.{key} must be a list of names", path=path)
             lists[key] = value
         elif key in FAMILY_OF:
-            thresholds[key] = _thresholds(key, value, path)
+            thresholds[key] = _read_thresholds(key, value, path)
         elif key not in _KEYS:
-            hint = nearest(key, (*_KEYS, *FAMILY_OF)) or f"; there are {', '.join(_KEYS)}"
+            hint = suggest_word(key, (*_KEYS, *FAMILY_OF)) or f"; there are {', '.join(_KEYS)}"
             raise ConfigError(f"there is no option lint.{key}{hint}", path=path)
     return Settings(
         select=check_selectors(lists["select"], path) if "select" in lists else None,
         extend_select=check_selectors(lists.get("extend-select", ()), path),
         ignore=check_selectors(lists.get("ignore", ()), path),
         targets=check_targets(lists.get("targets", ()), path),
-        severity=_severities(table.get("severity", {}), path),
+        severity=_read_severities(table.get("severity", {}), path),
         thresholds=thresholds,
     )
 
 
-def _severities(table: object, path: str | None) -> dict[str, Severity | None]:
+def _read_severities(table: object, path: str | None) -> dict[str, Severity | None]:
     if not isinstance(table, dict):
         raise ConfigError(
             ("lint.severity must have lines such as zero-effort-limit = 'info'"), path=path
@@ -190,14 +190,14 @@ def _severities(table: object, path: str | None) -> dict[str, Severity | None]:
     found: dict[str, Severity | None] = {}
     for selector, level in table.items():
         if level not in _LEVELS:
-            hint = nearest(str(level), _LEVELS) or f"; there are {', '.join(_LEVELS)}"
+            hint = suggest_word(str(level), _LEVELS) or f"; there are {', '.join(_LEVELS)}"
             raise ConfigError(f"lint.severity.{selector} is '{level}'{hint}", path=path)
         for name in _expand(check_selectors([selector], path)):
             found[name] = None if level == "off" else Severity[level.upper()]
     return found
 
 
-def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
+def _read_thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
     known = get_rule(name).thresholds
     if not isinstance(table, dict):
         raise ConfigError(f"lint.{name} must be a table of thresholds", path=path)
@@ -206,7 +206,7 @@ def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
         parameter = key.replace("-", "_")
         if parameter not in known:
             names = [k.replace("_", "-") for k in known]
-            hint = nearest(key, names) or f"; it has {', '.join(names) or 'none'}"
+            hint = suggest_word(key, names) or f"; it has {', '.join(names) or 'none'}"
             raise ConfigError(f"{name} has no threshold '{key}'{hint}", path=path)
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ConfigError(f"lint.{name}.{key} must be a number", path=path)
@@ -214,7 +214,7 @@ def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
     return found
 
 
-def _per_file_ignores(file: str | Path, table: object, path: str | None) -> tuple[str, ...]:
+def _read_per_file_ignores(file: str | Path, table: object, path: str | None) -> tuple[str, ...]:
     if not isinstance(table, dict):
         raise ConfigError(
             ("lint.per-file-ignores must have lines such as 'x/*' = ['mesh']"), path=path

@@ -12,18 +12,18 @@ from ..errors import ConfigError, SourceError
 from ..source.description import Description
 from ..source.document import parse, read_file
 from ..workspace import Workspace
-from .discover import parts_below
+from .discover import list_parts
 from .outcome import Report
 
 _NAMES = 3
 _DEFINITIONS = frozenset(f"xacro:{word}" for word in ("macro", "property", "arg", "include"))
 
 
-def why_without_links(description: Description) -> str:
+def explain_no_links(description: Description) -> str:
     """Return why a xacro file that expands to no link is not checked."""
-    from ..rules.xacro.definitions import macro_names
+    from ..rules.xacro.definitions import get_macro_names
 
-    macros = sorted(macro_names(description))
+    macros = sorted(get_macro_names(description))
     tags = dict.fromkeys(child.tag for child in description.document.root.children)
     if macros:
         more = "" if len(macros) <= _NAMES else f" and {len(macros) - _NAMES} more"
@@ -35,7 +35,7 @@ def why_without_links(description: Description) -> str:
     return f"{what}, without a link; lint the robot that includes it"
 
 
-def with_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Report]:
+def add_skipped_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Report]:
     """Yield the reports, then a skipped report for each unread ``.xacro`` file of named folders.
 
     Args:
@@ -46,12 +46,12 @@ def with_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Repo
     for report in reports:
         read.update(os.path.realpath(path) for path in (report.path, *report.files))
         yield report
-    for path in parts_below(paths):
+    for path in list_parts(paths):
         if os.path.realpath(path) not in read:
-            yield Report(path, skipped=_why(path))
+            yield Report(path, skipped=_explain_skipped(path))
 
 
-def _why(path: str) -> str:
+def _explain_skipped(path: str) -> str:
     """Return why a ``.xacro`` file in a folder is not checked separately."""
     try:
         root = parse(read_file(path)).root
@@ -65,7 +65,7 @@ def _why(path: str) -> str:
     return "a part that none of the checked descriptions includes"
 
 
-def without_excluded(
+def exclude_files(
     files: Sequence[str], named: Collection[str], config: str | None, workspace: Workspace
 ) -> tuple[list[str], list[Report]]:
     """Return the files to check, and a skipped report for each file matching ``lint.exclude``.
@@ -82,7 +82,7 @@ def without_excluded(
     kept: list[str] = []
     excluded: list[Report] = []
     for file in files:
-        pattern = None if file in named else _pattern(file, config, workspace)
+        pattern = None if file in named else _get_pattern(file, config, workspace)
         if pattern is None:
             kept.append(file)
         else:
@@ -90,7 +90,7 @@ def without_excluded(
     return kept, excluded
 
 
-def _pattern(file: str, config: str | None, workspace: Workspace) -> str | None:
+def _get_pattern(file: str, config: str | None, workspace: Workspace) -> str | None:
     """Return the pattern that excludes a file; None if there is none."""
     configuration = find_configuration(file, config, workspace)
     patterns = configuration.lint.get("exclude", [])

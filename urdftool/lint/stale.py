@@ -12,7 +12,7 @@ from .outcome import Outcome
 from .settings import Settings
 
 
-def looked_for(
+def list_expired_candidates(
     entries: Iterable[Entry], baseline: Baseline, outcome: Outcome, line: Settings
 ) -> list[Entry]:
     """Return the entries whose file was read or is gone, and whose rule has run or is unknown.
@@ -26,11 +26,11 @@ def looked_for(
     checked = [report for report in outcome.reports if report.checked]
     files = {os.path.abspath(path) for report in checked for path in report.files}
     targets = frozenset(name for report in checked for name in report.targets)
-    selected = set(line.names())
+    selected = set(line.get_names())
     return [
         entry
         for entry in entries
-        if _was_read(baseline.file_of(entry), files)
+        if _was_read(baseline.get_file(entry), files)
         and _has_run(entry.rule, selected, targets, line)
     ]
 
@@ -52,4 +52,4 @@ def _has_run(name: str, selected: set[str], targets: frozenset[str], line: Setti
         return False
     rule = get_rule(name)
     named = name in (line.select or ()) or name in line.extend_select
-    return named or (rule.default and rule.is_on_for(targets))
+    return named or (rule.default and rule.is_enabled_for(targets))

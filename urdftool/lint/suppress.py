@@ -19,7 +19,7 @@ from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..source.document import Document
 from ..source.location import Place
-from .settings import check_selectors, nearest
+from .settings import check_selectors, suggest_word
 
 _WORD = re.compile(r"\s*(urdftool-[\w-]+)\s*(?:\[|$)")
 _WORDS = ("urdftool-ignore", "urdftool-ignore-file")
@@ -76,27 +76,29 @@ def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression],
             place = Place(document.file, comment.start, comment.end)
             word = _WORD.match(comment.text)
             if word is not None and word[1] not in _WORDS:
-                wrong.append(_unknown(word[1], place))
+                wrong.append(_report_unknown(word[1], place))
                 continue
             match = _COMMENT.match(comment.text)
             if match is None:
                 continue
-            wrong.extend(_faults(match[2], place))
+            wrong.extend(_report_faults(match[2], place))
             names = tuple(w.strip() for w in (match[2] or "").split(",") if w.strip())
             whole = bool(match[1])
-            start, end = _covered(document, place) if not whole else (0, len(document.file.data))
+            start, end = (
+                _get_covered_range(document, place) if not whole else (0, len(document.file.data))
+            )
             reason = " ".join(comment.text[match.end() :].split())
             found.append(Suppression(names, place, start, end, reason))
     return found, wrong
 
 
-def _unknown(word: str, place: Place) -> Finding:
-    hint = nearest(word, _WORDS) or f"; there are {' and '.join(_WORDS)}"
+def _report_unknown(word: str, place: Place) -> Finding:
+    hint = suggest_word(word, _WORDS) or f"; there are {' and '.join(_WORDS)}"
     message = f"there is no comment '{word}'{hint}"
     return Finding("unknown-rule", Severity.ERROR, message, place, "comment")
 
 
-def _faults(names: str | None, place: Place) -> Iterator[Finding]:
+def _report_faults(names: str | None, place: Place) -> Iterator[Finding]:
     """Yield findings on unknown rules, and on a comment without rules."""
     if not (names or "").strip():
         yield Finding(
@@ -120,13 +122,13 @@ def _faults(names: str | None, place: Place) -> Iterator[Finding]:
             )
 
 
-def _covered(document: Document, comment: Place) -> tuple[int, int]:
+def _get_covered_range(document: Document, comment: Place) -> tuple[int, int]:
     """Return the range of bytes to which a comment applies: its line, or the next element."""
     data = document.file.data
     line_start = data.rfind(b"\n", 0, comment.start) + 1
     if data[line_start : comment.start].strip():
         line_end = data.find(b"\n", comment.start)
-        return _with_element(document, line_start, len(data) if line_end < 0 else line_end)
+        return _extend_to_element(document, line_start, len(data) if line_end < 0 else line_end)
     elements = sorted(document.root.walk(), key=lambda element: element.start)
     index = bisect_left([element.start for element in elements], comment.end)
     if index == len(elements):
@@ -135,7 +137,7 @@ def _covered(document: Document, comment: Place) -> tuple[int, int]:
     return following.start, following.end
 
 
-def _with_element(document: Document, start: int, end: int) -> tuple[int, int]:
+def _extend_to_element(document: Document, start: int, end: int) -> tuple[int, int]:
     """Return the range of a line, extended to the start of a tag that ends on it."""
     inside = [
         element.start
@@ -162,7 +164,7 @@ def suppress(
     return kept, ignored
 
 
-def unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Finding]:
+def report_unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Finding]:
     """Yield a finding for each comment that suppresses nothing though a rule of it has run."""
     for suppression in suppressions:
         if suppression.used or not any(suppression._names(rule) for rule in ran):

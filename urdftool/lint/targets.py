@@ -7,7 +7,7 @@ from pathlib import Path
 from ..model.elements import Robot
 from ..model.gazebo_plugins import is_for_gz
 from ..source.description import Description
-from ..workspace import Workspace, memoized
+from ..workspace import Workspace, memoize_by_workspace
 
 _CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_", "librotors_gazebo_")
 _CLASSIC_DEPENDENCIES = ("gazebo_ros", "gazebo_plugins", "gazebo_ros_pkgs", "gazebo_ros_control")
@@ -28,7 +28,7 @@ def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
     such a plugin, a ``<gazebo>`` tag counts for gz if the targets include ROS 2, else for Gazebo
     Classic. The package.xml distinguishes ROS 1 from ROS 2.
     """
-    targets = set(_of_package(description))
+    targets = set(_infer_from_package(description))
     for plugin in robot.plugins:
         name = plugin.filename.rpartition("/")[2]
         if is_for_gz(plugin.element):
@@ -56,7 +56,7 @@ def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
     return frozenset(targets)
 
 
-def _of_package(description: Description) -> frozenset[str]:
+def _infer_from_package(description: Description) -> frozenset[str]:
     own = description.packages.own
     if own is None:
         return frozenset()
@@ -68,7 +68,7 @@ def _has_srdf(description: Description) -> bool:
     return bool(description.workspace.glob(folder, "*.srdf"))
 
 
-@memoized
+@memoize_by_workspace
 def _read_manifest(workspace: Workspace, path: Path) -> frozenset[str]:
     import re
 

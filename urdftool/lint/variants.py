@@ -12,14 +12,14 @@ from ..configuration import Configuration
 from ..errors import ConfigError
 from ..finding import Finding
 from .fingerprint import fact_of
-from .merge import in_order
+from .merge import sort_findings
 from .outcome import Report
-from .settings import nearest
+from .settings import suggest_word
 
 _KEYS = ("file", "args")
 
 
-def variants_for(file: str | Path, configuration: Configuration) -> list[dict[str, str]]:
+def get_variants(file: str | Path, configuration: Configuration) -> list[dict[str, str]]:
     """Return the sets of arguments that the configuration has for a file.
 
     Raises:
@@ -45,17 +45,17 @@ def _read(variant: Any, number: int, path: str | None) -> tuple[str, dict[str, s
     where = f"lint.variants {number}"
     for key in variant if isinstance(variant, dict) else ():
         if key not in _KEYS:
-            hint = nearest(key, _KEYS) or "; there are file and args"
+            hint = suggest_word(key, _KEYS) or "; there are file and args"
             raise ConfigError(f"{where} has no option '{key}'{hint}", path=path)
     if not isinstance(variant, dict) or not isinstance(variant.get("file"), str):
         raise ConfigError(f"{where} must have a file and its args", path=path)
     arguments = variant.get("args", {})
     if not isinstance(arguments, dict):
         raise ConfigError(f"{where}: args must be a table, {{name = 'value'}}", path=path)
-    return variant["file"], {k: _text(v, f"{where}: {k}", path) for k, v in arguments.items()}
+    return variant["file"], {k: _check_text(v, f"{where}: {k}", path) for k, v in arguments.items()}
 
 
-def _text(value: Any, where: str, path: str | None) -> str:
+def _check_text(value: Any, where: str, path: str | None) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str | int | float):
@@ -82,18 +82,20 @@ def as_one(reports: Mapping[str, Report]) -> Report:
     if not checked:
         return next(iter(reports.values()))
     stopped = {name: report.stopped for name, report in checked.items() if report.stopped}
-    findings = _merged({name: report.findings for name, report in checked.items()}, len(reports))
-    reasons = {_key(f): reason for report in checked.values() for f, reason in report.ignored}
+    findings = _merge({name: report.findings for name, report in checked.items()}, len(reports))
+    reasons = {_get_key(f): reason for report in checked.values() for f, reason in report.ignored}
     first = next(iter(checked.values()))
-    hidden = _merged(
+    hidden = _merge(
         {name: [finding for finding, _ in report.ignored] for name, report in checked.items()},
         len(reports),
     )
     return replace(
         first,
-        findings=in_order(f for f in findings if not (f.variants and f.code.startswith("unused-"))),
+        findings=sort_findings(
+            f for f in findings if not (f.variants and f.code.startswith("unused-"))
+        ),
         targets=frozenset().union(*(report.targets for report in checked.values())),
-        ignored=[(finding, reasons[_key(finding)]) for finding in hidden],
+        ignored=[(finding, reasons[_get_key(finding)]) for finding in hidden],
         files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
         stopped="; ".join(f"with {name}: {reason}" for name, reason in stopped.items()),
         failed_rules={k: v for r in checked.values() for k, v in r.failed_rules.items()},
@@ -101,17 +103,17 @@ def as_one(reports: Mapping[str, Report]) -> Report:
     )
 
 
-def _key(finding: Finding) -> tuple[str, str, int, int]:
+def _get_key(finding: Finding) -> tuple[str, str, int, int]:
     place = finding.location
     return finding.code, place.file.path, place.start, place.end
 
 
-def _merged(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Finding]:
+def _merge(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Finding]:
     """Merge findings of one rule at one place, even if arguments change their messages."""
     groups: dict[tuple[str, str, int, int], list[tuple[Finding, list[str]]]] = {}
     for name, findings in by_variant.items():
         for finding in findings:
-            group = groups.setdefault(_key(finding), [])
+            group = groups.setdefault(_get_key(finding), [])
             open_ones = [pair for pair in group if name not in pair[1]]
             same = [pair for pair in open_ones if fact_of(pair[0]) == fact_of(finding)]
             chosen = next(iter(same or open_ones), None)

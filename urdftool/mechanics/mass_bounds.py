@@ -56,7 +56,7 @@ class Misfit(NamedTuple):
     certain: bool
 
 
-def shapes_in_words(attached: Iterable[str], shown: int = 2) -> str:
+def name_shapes(attached: Iterable[str], shown: int = 2) -> str:
     """Name the shapes in the bounding box of a link: its own, and those of attached links."""
     names = [f"'{name}'" for name in attached]
     if not names:
@@ -85,13 +85,13 @@ def spread_ratio(
     half_trace = (xx + yy + zz) / 2
     worst = (0.0, 0)
     for i, moment in enumerate((xx, yy, zz)):
-        room = _room(box, com, i) * mass
+        room = _get_largest_variance(box, com, i) * mass
         if room > 0:
             worst = max(worst, ((half_trace - moment) / (room + rounding * half_trace), i))
     return worst
 
 
-def _room(box: Bounds, com: Vector, axis: int) -> float:
+def _get_largest_variance(box: Bounds, com: Vector, axis: int) -> float:
     """Return the largest variance [m²] of a mass in a box; 0 if its center is outside.
 
     A center near an end of the box is moved to ``NEAR`` of the length from it: there the center of
@@ -105,7 +105,7 @@ def _room(box: Bounds, com: Vector, axis: int) -> float:
     return (high - center) * (center - low)
 
 
-def misfit_of_spread(
+def check_spread(
     box: Bounds,
     mass: float,
     com: Vector,
@@ -151,7 +151,7 @@ def misfit_of_spread(
     return Misfit(sentence, axis, times, not rough or ratio > certain)
 
 
-def misfit_of_com(
+def check_com(
     box: Bounds,
     com: Vector,
     has_mesh: bool,

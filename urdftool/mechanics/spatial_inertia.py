@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 
 from ..model.attached import Attached
 from ..model.elements import ZERO, Link, Vector
-from ..model.pose import Pose, Rotation, cross, dot, norm, pose_of, rotate
+from ..model.pose import Pose, Rotation, compute_cross, compute_dot, compute_norm, make_pose, rotate
 from .tensor import (
     ZERO_TENSOR,
     SymmetricTensor,
     as_tensor,
-    components_of,
-    matrix_of,
-    noise_of,
-    principal_moments,
+    compute_principal_moments,
+    from_matrix,
+    get_components,
+    get_noise,
+    get_written_tensor,
     rotate_tensor,
     scale_tensor,
     shift_from_com,
-    tensor_of_matrix,
-    written_tensor,
+    to_matrix,
 )
 
 if TYPE_CHECKING:
@@ -47,17 +47,17 @@ class SpatialInertia:
     def from_arrays(cls, mass: float, com: Array, inertia: Array) -> SpatialInertia:
         """Create one from a center of mass [m], shape (3,), and a tensor [kg·m²], shape (3, 3)."""
         x, y, z = com.tolist()
-        return cls(float(mass), (x, y, z), tensor_of_matrix(inertia))
+        return cls(float(mass), (x, y, z), from_matrix(inertia))
 
     @property
     def inertia(self) -> Array:
         """Return the tensor [kg·m²] as an array, shape (3, 3)."""
-        return matrix_of(self.tensor)
+        return to_matrix(self.tensor)
 
     @property
     def is_thin(self) -> bool:
         """Tell whether the inertia about some axis is zero, except for rounding."""
-        return principal_moments(self.tensor)[0] <= noise_of(self.mass)
+        return compute_principal_moments(self.tensor)[0] <= get_noise(self.mass)
 
     @property
     def is_finite(self) -> bool:
@@ -69,12 +69,12 @@ class SpatialInertia:
         """Return the tensor about the origin of the frame [kg·m²]."""
         return shift_from_com(self.tensor, self.mass, self.com)
 
-    def moved(self, pose: Pose) -> SpatialInertia:
+    def transform(self, pose: Pose) -> SpatialInertia:
         """Express the body in the parent frame, in which its own frame has this pose."""
         tensor = rotate_tensor(self.tensor, pose.rotation)
         return SpatialInertia(self.mass, pose.transform(self.com), tensor)
 
-    def rotated(self, rotation: Rotation) -> SpatialInertia:
+    def rotate(self, rotation: Rotation) -> SpatialInertia:
         """Express the body in a rotated frame of the same origin.
 
         Args:
@@ -83,20 +83,20 @@ class SpatialInertia:
         tensor = rotate_tensor(self.tensor, rotation)
         return SpatialInertia(self.mass, rotate(rotation, self.com), tensor)
 
-    def moment_about(self, point: Vector, axis: Vector) -> float:
+    def compute_moment_about(self, point: Vector, axis: Vector) -> float:
         """Compute the moment of inertia [kg·m²] about an axis.
 
         Args:
             point: A point of the axis [m].
             axis: Its direction, of nonzero length.
         """
-        length = norm(axis)
+        length = compute_norm(axis)
         unit = x, y, z = axis[0] / length, axis[1] / length, axis[2] / length
         a, b, c, d, e, f = self.tensor
         about_com = x * x * a + y * y * d + z * z * f + 2 * (x * y * b + x * z * c + y * z * e)
         (p, q, r), (s, t, u) = self.com, point
-        arm = cross((p - s, q - t, r - u), unit)
-        return about_com + self.mass * dot(arm, arm)
+        arm = compute_cross((p - s, q - t, r - u), unit)
+        return about_com + self.mass * compute_dot(arm, arm)
 
     def with_mass(self, mass: float) -> SpatialInertia:
         """Scale the density of the body so that its mass is this one [kg], above zero."""
@@ -111,7 +111,7 @@ class SpatialInertia:
         return {
             "mass": self.mass,
             "com": list(self.com),
-            "inertia": components_of(self.tensor),
+            "inertia": get_components(self.tensor),
         }
 
 
@@ -153,8 +153,8 @@ def link_inertia(link: Link) -> SpatialInertia:
     """
     if link.inertial is None:
         return SpatialInertia()
-    own = SpatialInertia(link.mass, ZERO, written_tensor(link.inertial.inertia))
-    return own.moved(pose_of(link.inertial.origin))
+    own = SpatialInertia(link.mass, ZERO, get_written_tensor(link.inertial.inertia))
+    return own.transform(make_pose(link.inertial.origin))
 
 
 def combine_links(members: Attached) -> SpatialInertia:
@@ -169,8 +169,8 @@ def combine_links(members: Attached) -> SpatialInertia:
         The rigid body in that frame.
     """
     return combine(
-        SpatialInertia(link.mass, ZERO, written_tensor(link.inertial.inertia)).moved(
-            pose @ pose_of(link.inertial.origin)
+        SpatialInertia(link.mass, ZERO, get_written_tensor(link.inertial.inertia)).transform(
+            pose @ make_pose(link.inertial.origin)
         )
         for link, pose in members
         if link.inertial is not None and link.mass > 0

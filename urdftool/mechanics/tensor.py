@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..model.elements import Inertia, Vector
-from ..model.pose import UPRIGHT, Rotation, matrix_product, transpose
+from ..model.pose import IDENTITY_ROTATION, Rotation, multiply_matrices, transpose
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,7 +54,7 @@ class Consistency(NamedTuple):
     negativity: float
 
 
-def consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> Consistency:
+def measure_consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> Consistency:
     """Measure the deviation of a tensor from physical consistency; the caller picks a tolerance.
 
     Args:
@@ -62,20 +62,20 @@ def consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> Consiste
         least_size: Smallest size [kg·m²] to which excess and negativity are relative, see
             :func:`noise_of`.
     """
-    moments = low, middle, high = principal_moments(tensor)
+    moments = low, middle, high = compute_principal_moments(tensor)
     size = max(abs(low), abs(high), least_size)
     if size == 0.0:
         return Consistency(moments, 0.0, 0.0, 0.0)
     return Consistency(moments, size, (high - low - middle) / size, -low / size)
 
 
-def noise_of(mass: float) -> float:
+def get_noise(mass: float) -> float:
     """Return the moment [kg·m²] below which moments of a body of this mass [kg] are noise."""
     return abs(mass) * MIN_GYRATION_RADIUS**2
 
 
 @lru_cache(maxsize=4096)
-def principal_moments(tensor: SymmetricTensor) -> Vector:
+def compute_principal_moments(tensor: SymmetricTensor) -> Vector:
     """Compute the eigenvalues, ascending.
 
     Uses the closed form, which has half the digits if two eigenvalues are equal. If one is near
@@ -89,7 +89,7 @@ def principal_moments(tensor: SymmetricTensor) -> Vector:
         return low, middle, high
     size = max(map(abs, tensor))
     if 0.0 < size <= _SMALL or 1 / _SMALL <= size < math.inf:  # avoids overflow in the cube
-        low, middle, high = principal_moments(as_tensor([part / size for part in tensor]))
+        low, middle, high = compute_principal_moments(as_tensor([part / size for part in tensor]))
         return low * size, middle * size, high * size
     mean = (xx + yy + zz) / 3
     a, b, c = xx - mean, yy - mean, zz - mean
@@ -101,11 +101,11 @@ def principal_moments(tensor: SymmetricTensor) -> Vector:
     middle = 3 * mean - high - low
     size = max(abs(low), abs(high))
     if min(abs(low), abs(low + middle - high)) <= _CLOSE * size:
-        return _jacobi(tensor)
+        return _diagonalize(tensor)
     return low, middle, high
 
 
-def _jacobi(tensor: SymmetricTensor) -> Vector:
+def _diagonalize(tensor: SymmetricTensor) -> Vector:
     xx, xy, xz, yy, yz, zz = tensor
     matrix = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
     for _ in range(12):
@@ -130,7 +130,7 @@ def _jacobi(tensor: SymmetricTensor) -> Vector:
     return low, middle, high
 
 
-def principal_axes(tensor: SymmetricTensor) -> tuple[Array, Array]:
+def compute_principal_axes(tensor: SymmetricTensor) -> tuple[Array, Array]:
     """Compute principal moments and axes with numpy.
 
     Returns:
@@ -139,7 +139,7 @@ def principal_axes(tensor: SymmetricTensor) -> tuple[Array, Array]:
     """
     import numpy as np
 
-    moments, axes = np.linalg.eigh(matrix_of(tensor))
+    moments, axes = np.linalg.eigh(to_matrix(tensor))
     if np.linalg.det(axes) < 0:
         axes = axes * np.array([1.0, 1.0, -1.0])
     return moments, axes
@@ -152,12 +152,12 @@ def rotate_tensor(tensor: SymmetricTensor, rotation: Rotation) -> SymmetricTenso
         tensor: Along the axes of the rotated frame.
         rotation: Matrix R that maps coordinates of the rotated frame to the parent's.
     """
-    if rotation is UPRIGHT:
+    if rotation is IDENTITY_ROTATION:
         return tensor
     xx, xy, xz, yy, yz, zz = tensor
     matrix = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
-    (a, b, c), (_, d, e), (_, _, f) = matrix_product(
-        matrix_product(rotation, matrix), transpose(rotation)
+    (a, b, c), (_, d, e), (_, _, f) = multiply_matrices(
+        multiply_matrices(rotation, matrix), transpose(rotation)
     )
     return a, b, c, d, e, f
 
@@ -189,7 +189,7 @@ def shift_to_com(tensor: SymmetricTensor, mass: float, offset: Vector) -> Symmet
     return shift_from_com(tensor, -mass, offset)
 
 
-def second_moment(tensor: SymmetricTensor) -> SymmetricTensor:
+def compute_second_moment(tensor: SymmetricTensor) -> SymmetricTensor:
     """Return S = ∫ x xᵀ dm [kg·m²] of an inertia tensor: S = ½ tr(I) E − I.
 
     A tensor is physically consistent exactly if S has no negative eigenvalue (Wensing, Kim and
@@ -201,24 +201,24 @@ def second_moment(tensor: SymmetricTensor) -> SymmetricTensor:
     return half - xx, 0.0 - xy, 0.0 - xz, half - yy, 0.0 - yz, half - zz
 
 
-def inertia_from_second_moment(moment: SymmetricTensor) -> SymmetricTensor:
+def compute_inertia_from_second_moment(moment: SymmetricTensor) -> SymmetricTensor:
     """Return the inertia tensor I = tr(S) E − S [kg·m²] of S = ∫ x xᵀ dm."""
     xx, xy, xz, yy, yz, zz = moment
     trace = xx + yy + zz
     return trace - xx, 0.0 - xy, 0.0 - xz, trace - yy, 0.0 - yz, trace - zz
 
 
-def written_tensor(inertia: Inertia | None) -> SymmetricTensor:
+def get_written_tensor(inertia: Inertia | None) -> SymmetricTensor:
     """Return the six numbers of an ``<inertia>`` [kg·m²]; zeros if it is None."""
     return ZERO_TENSOR if inertia is None else inertia.six
 
 
-def diagonal_of(tensor: SymmetricTensor) -> Vector:
+def get_diagonal(tensor: SymmetricTensor) -> Vector:
     """Return the moments xx, yy, zz."""
     return tensor[0], tensor[3], tensor[5]
 
 
-def diagonal_tensor(xx: float, yy: float, zz: float) -> SymmetricTensor:
+def make_diagonal_tensor(xx: float, yy: float, zz: float) -> SymmetricTensor:
     """Return the tensor with these moments and zero products of inertia."""
     return xx, 0.0, 0.0, yy, 0.0, zz
 
@@ -234,9 +234,9 @@ def as_tensor(values: Sequence[float]) -> SymmetricTensor:
     return xx, xy, xz, yy, yz, zz
 
 
-def moments_text(tensor: SymmetricTensor) -> str:
+def format_moments_text(tensor: SymmetricTensor) -> str:
     """Format the principal moments for a message, ascending."""
-    return ", ".join(f"{moment:.6g}" for moment in principal_moments(tensor))
+    return ", ".join(f"{moment:.6g}" for moment in compute_principal_moments(tensor))
 
 
 def add_tensors(*tensors: SymmetricTensor) -> SymmetricTensor:
@@ -249,12 +249,12 @@ def scale_tensor(tensor: SymmetricTensor, factor: float) -> SymmetricTensor:
     return as_tensor([factor * value for value in tensor])
 
 
-def components_of(tensor: SymmetricTensor) -> dict[str, float]:
+def get_components(tensor: SymmetricTensor) -> dict[str, float]:
     """Return the six numbers by their URDF names."""
     return dict(zip(COMPONENTS, tensor, strict=True))
 
 
-def matrix_of(tensor: SymmetricTensor) -> Array:
+def to_matrix(tensor: SymmetricTensor) -> Array:
     """Return the tensor as an array, shape (3, 3)."""
     import numpy as np
 
@@ -262,7 +262,7 @@ def matrix_of(tensor: SymmetricTensor) -> Array:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
 
 
-def tensor_of_matrix(matrix: Array) -> SymmetricTensor:
+def from_matrix(matrix: Array) -> SymmetricTensor:
     """Return the symmetric part of an array, shape (3, 3)."""
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = (0.5 * (matrix + matrix.T)).tolist()
     return xx, xy, xz, yy, yz, zz

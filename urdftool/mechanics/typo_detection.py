@@ -17,7 +17,7 @@ from typing import NamedTuple
 from ..model.bounds import Bounds
 from ..model.elements import Vector
 from ..model.pose import Rotation, transpose
-from .tensor import COMPONENTS, SymmetricTensor, consistency, rotate_tensor, shift_to_com
+from .tensor import COMPONENTS, SymmetricTensor, measure_consistency, rotate_tensor, shift_to_com
 
 DIAGONAL = (0, 3, 5)
 """Positions of the three moments among the six numbers."""
@@ -135,26 +135,26 @@ def infer_intended_tensor(
     """
     if not (mass > 0 and 1 / _LARGEST < max(map(abs, tensor)) < _LARGEST):
         return None
-    size = 0.0 if solid is None else _squared_norm(solid)
+    size = 0.0 if solid is None else _compute_squared_norm(solid)
     if size == 0.0:
         solid = None
-    room = None if box is None else _room(mass, com, box)
-    wrong = not is_consistent(tensor) or not _within(tensor, room)
-    away = 0.0 if solid is None else math.sqrt(_squared_distance(tensor, solid) / size)
-    copied = None if solid is None else _copied(tensor, solid)
+    room = None if box is None else _compute_largest_moments(mass, com, box)
+    wrong = not is_consistent(tensor) or not _is_within(tensor, room)
+    away = 0.0 if solid is None else math.sqrt(_compute_squared_distance(tensor, solid) / size)
+    copied = None if solid is None else _propose_copy(tensor, solid)
     if copied is not None or (not wrong and away <= GROSS):
         return copied
     limit = LOOSE_FIT if wrong else min(FIT, away / 3)
     reach = limit * limit * size
     found: list[tuple[float, _Candidate]] = []
-    for candidate in _candidates(mass, com, tensor, rotation):
+    for candidate in _list_candidates(mass, com, tensor, rotation):
         meant = candidate.tensor
-        off = 0.0 if solid is None else _squared_distance(meant, solid)
-        if off > reach or not _within(meant, room) or not is_consistent(meant):
+        off = 0.0 if solid is None else _compute_squared_distance(meant, solid)
+        if off > reach or not _is_within(meant, room) or not is_consistent(meant):
             continue
         if candidate.kind == "decimal" and not _is_near(candidate, solid, room):
             continue
-        if not any(_alike(meant, other.tensor) for _, other in found):
+        if not any(_is_close(meant, other.tensor) for _, other in found):
             found.append((off, candidate))
     if not found:
         return None
@@ -163,7 +163,7 @@ def infer_intended_tensor(
         (first, _), (second, _) = found[:2]
         if second <= 9 * first:
             return None
-    return _proposal(found[0][1], tensor, solid is not None or box is not None)
+    return _create_proposal(found[0][1], tensor, solid is not None or box is not None)
 
 
 def infer_intended_moment(mass: float, tensor: SymmetricTensor, size: Vector) -> Proposal | None:
@@ -190,14 +190,14 @@ def infer_intended_moment(mass: float, tensor: SymmetricTensor, size: Vector) ->
             continue
         before, after = tensor[:entry], tensor[entry + 1 :]
         for power in SLIPS:
-            meant: SymmetricTensor = (*before, _moved(value, power), *after)  # type: ignore[assignment]
+            meant: SymmetricTensor = (*before, _move_decimal_point(value, power), *after)  # type: ignore[assignment]
             if not is_consistent(meant):
                 continue
             if entry not in DIAGONAL:
                 return None
             if _is_in_proportion(meant, solid, DIAGONAL.index(entry)):
                 found.append(_Candidate("decimal", meant, str(abs(power)), entry))
-    return _proposal(found[0], tensor, True) if len(found) == 1 else None
+    return _create_proposal(found[0], tensor, True) if len(found) == 1 else None
 
 
 def _is_in_proportion(tensor: SymmetricTensor, solid: tuple[float, ...], axis: int) -> bool:
@@ -219,11 +219,11 @@ def is_consistent(tensor: SymmetricTensor) -> bool:
         return False
     if 2 * largest > (xx + yy + zz) * (1 + 2 * ROUNDING):
         return False
-    found = consistency(tensor)
+    found = measure_consistency(tensor)
     return found.size > 0 and found.negativity <= 1e-6 and found.excess <= ROUNDING
 
 
-def _room(mass: float, com: Vector, box: Bounds) -> Vector:
+def _compute_largest_moments(mass: float, com: Vector, box: Bounds) -> Vector:
     """Compute the largest second moments [kg·m²] along x, y and z of a body in a box.
 
     Mass inside the interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
@@ -239,7 +239,7 @@ def _room(mass: float, com: Vector, box: Bounds) -> Vector:
     return x, y, z
 
 
-def _within(tensor: SymmetricTensor, room: Vector | None) -> bool:
+def _is_within(tensor: SymmetricTensor, room: Vector | None) -> bool:
     if room is None:
         return True
     xx, _, _, yy, _, zz = tensor
@@ -247,12 +247,12 @@ def _within(tensor: SymmetricTensor, room: Vector | None) -> bool:
     return half - xx <= room[0] and half - yy <= room[1] and half - zz <= room[2]
 
 
-def _squared_norm(tensor: SymmetricTensor) -> float:
+def _compute_squared_norm(tensor: SymmetricTensor) -> float:
     xx, xy, xz, yy, yz, zz = tensor
     return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)
 
 
-def _squared_distance(tensor: SymmetricTensor, other: SymmetricTensor) -> float:
+def _compute_squared_distance(tensor: SymmetricTensor, other: SymmetricTensor) -> float:
     """Compute the squared norm of the difference of two tensors."""
     xx, xy, xz, yy, yz, zz = tensor
     a, b, c, d, e, f = other
@@ -260,8 +260,8 @@ def _squared_distance(tensor: SymmetricTensor, other: SymmetricTensor) -> float:
     return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)
 
 
-def _alike(tensor: SymmetricTensor, other: SymmetricTensor) -> bool:
-    return _squared_distance(tensor, other) <= 1e-18 * _squared_norm(other)
+def _is_close(tensor: SymmetricTensor, other: SymmetricTensor) -> bool:
+    return _compute_squared_distance(tensor, other) <= 1e-18 * _compute_squared_norm(other)
 
 
 def _is_near(candidate: _Candidate, solid: SymmetricTensor | None, room: Vector | None) -> bool:
@@ -276,7 +276,7 @@ def _is_near(candidate: _Candidate, solid: SymmetricTensor | None, room: Vector 
     return abs(value - wanted) <= 0.25 * abs(wanted)
 
 
-def _copied(tensor: SymmetricTensor, solid: SymmetricTensor) -> Proposal | None:
+def _propose_copy(tensor: SymmetricTensor, solid: SymmetricTensor) -> Proposal | None:
     """Return the geometry's tensor if one of its moments was written on all three axes."""
     moment = tensor[0]
     if not moment == tensor[3] == tensor[5] or tensor[1] or tensor[2] or tensor[4]:
@@ -297,7 +297,7 @@ def _copied(tensor: SymmetricTensor, solid: SymmetricTensor) -> Proposal | None:
     )
 
 
-def _candidates(
+def _list_candidates(
     mass: float, com: Vector, tensor: SymmetricTensor, rotation: Rotation | None
 ) -> Iterator[_Candidate]:
     for entry, value in enumerate(tensor):
@@ -307,7 +307,7 @@ def _candidates(
         for power in SLIPS:
             yield _Candidate(
                 "decimal",
-                (*before, _moved(value, power), *after),  # type: ignore[arg-type]
+                (*before, _move_decimal_point(value, power), *after),  # type: ignore[arg-type]
                 str(abs(power)),
                 entry,
             )
@@ -316,8 +316,8 @@ def _candidates(
         for detail, order in orders:
             yield _Candidate(kind, tuple([tensor[i] for i in order]), detail)  # type: ignore[arg-type]
     for power in POWERS:
-        scaled = tuple([_moved(value, power) for value in tensor])
-        yield _Candidate("unit", scaled, _unit(power))  # type: ignore[arg-type]
+        scaled = tuple([_move_decimal_point(value, power) for value in tensor])
+        yield _Candidate("unit", scaled, _format_unit(power))  # type: ignore[arg-type]
     if any(com):
         yield _Candidate("origin", shift_to_com(tensor, mass, com))
     if rotation is not None:
@@ -325,19 +325,19 @@ def _candidates(
         yield _Candidate("frame", rotate_tensor(tensor, rotation), "turned")
 
 
-def _moved(value: float, power: int) -> float:
+def _move_decimal_point(value: float, power: int) -> float:
     """Move the decimal point of a number; dividing by 1e3 rounds better than times 1e-3."""
     return float(value * 10**power if power > 0 else value / 10**-power)
 
 
-def _unit(power: int) -> str:
+def _format_unit(power: int) -> str:
     text = f"all six numbers times 1e{power:+d} fit the geometry: "
     if power in _UNITS:
         return f"{text}they were in {_UNITS[power]} instead of kg·m²"
     return f"{text}the decimal point of all six is misplaced"
 
 
-def _proposal(candidate: _Candidate, tensor: SymmetricTensor, fits: bool) -> Proposal:
+def _create_proposal(candidate: _Candidate, tensor: SymmetricTensor, fits: bool) -> Proposal:
     """Create the proposal with its sentence."""
     kind, meant, detail, entry = candidate
     is_so = "is possible and fits the geometry" if fits else "is possible"

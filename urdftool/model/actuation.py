@@ -5,7 +5,7 @@ from __future__ import annotations
 from .elements import Joint, Robot
 
 
-def actuated_joints(robot: Robot) -> set[str]:
+def find_actuated_joints(robot: Robot) -> set[str]:
     """Return the joints that a transmission, ros2_control or a Gazebo plugin actuates.
 
     Joints of ros2_control without a command interface are excluded, and joints that only a joint
@@ -26,7 +26,7 @@ def is_passive(joint: Joint, actuated: set[str]) -> bool:
     return bool(actuated) and joint.name not in actuated
 
 
-def measured_joints(robot: Robot) -> set[str]:
+def find_measured_joints(robot: Robot) -> set[str]:
     """Return the joints that ros2_control lists and nothing actuates."""
     named = {joint.name for control in robot.ros2_controls for joint in control.joints}
-    return (named & set(robot.joint)) - actuated_joints(robot)
+    return (named & set(robot.joint)) - find_actuated_joints(robot)

@@ -8,14 +8,14 @@ rigidly attached, ancestors and descendants.
 from __future__ import annotations
 
 from .elements import Link, Robot
-from .pose import IDENTITY, Pose, pose_of
+from .pose import IDENTITY, Pose, make_pose
 from .world import WORLD
 
 Attached = list[tuple[Link, Pose]]
 """Links with the pose of each in the frame of the first [m]."""
 
 
-def attached_links(robot: Robot, link: Link) -> Attached:
+def find_attached_links(robot: Robot, link: Link) -> Attached:
     """Return the links of a rigid body, starting with one of them.
 
     Fixed joints are followed to parents and children. The link ``world`` is not part of a body;
@@ -36,11 +36,11 @@ def attached_links(robot: Robot, link: Link) -> Attached:
     for member, pose in found:  # the loop appends to this list
         above = tree.parent_joint(member.name)
         steps = [
-            (joint.child, pose @ pose_of(joint.origin), joint)
+            (joint.child, pose @ make_pose(joint.origin), joint)
             for joint in tree.child_joints(member.name)
         ]
         if above is not None:
-            steps.append((above.parent, pose @ pose_of(above.origin).inverse(), above))
+            steps.append((above.parent, pose @ make_pose(above.origin).inverse(), above))
         for name, at, joint in steps:
             if joint.is_fixed and name in robot.link and name not in seen and name != WORLD:
                 seen.add(name)

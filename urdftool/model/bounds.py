@@ -18,7 +18,7 @@ from .elements import (
     Vector,
     Visual,
 )
-from .pose import Pose, Rotation, pose_of, rotate
+from .pose import Pose, Rotation, make_pose, rotate
 
 
 class Bounds(NamedTuple):
@@ -62,7 +62,7 @@ class Bounds(NamedTuple):
         )
 
 
-def size_of(geometry: Geometry | None) -> Vector | None:
+def compute_size(geometry: Geometry | None) -> Vector | None:
     """Return the lengths of a primitive along its own axes [m]; None for other geometry."""
     if isinstance(geometry, Box):
         x, y, z = geometry.size
@@ -82,19 +82,19 @@ def size_of(geometry: Geometry | None) -> Vector | None:
     return None
 
 
-def bounds_of(shape: Visual | Collision) -> Bounds | None:
+def compute_bounds(shape: Visual | Collision) -> Bounds | None:
     """Return the bounding box of a primitive in its link frame; None for other geometry."""
-    return bounds_at(shape.geometry, pose_of(shape.origin))
+    return compute_bounds_at(shape.geometry, make_pose(shape.origin))
 
 
-def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
+def compute_bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
     """Return the bounding box of a primitive at a pose; None for other geometry.
 
     Args:
         geometry: The geometry.
         pose: Its pose; the box is in the parent frame [m].
     """
-    size = size_of(geometry)
+    size = compute_size(geometry)
     if size is None:
         return None
     if isinstance(geometry, Box):
@@ -110,7 +110,7 @@ def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
             for row in pose.rotation
         ]
     elif isinstance(geometry, Cone):
-        return _bounds_of_cone(size[0] / 2, size[2] / 2, pose)
+        return _get_bounds_of_cone(size[0] / 2, size[2] / 2, pose)
     else:  # half extent of a disc of radius r along an axis: r·sin(angle to the disc's axis)
         rounded = isinstance(geometry, Capsule)
         radius, along = size[0] / 2, (size[2] - size[0] * rounded) / 2
@@ -124,7 +124,7 @@ def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
     return Bounds((x - a, y - b, z - c), (x + a, y + b, z + c))
 
 
-def _bounds_of_cone(radius: float, half: float, pose: Pose) -> Bounds:
+def _get_bounds_of_cone(radius: float, half: float, pose: Pose) -> Bounds:
     """Return the bounding box of a disc at -half and a tip at +half along z, at a pose."""
     low, high = [], []
     for row, shift in zip(pose.rotation, pose.translation, strict=True):

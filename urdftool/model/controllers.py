@@ -74,12 +74,12 @@ class Controller:
         return [one for one in nodes if one.text]
 
 
-def joint_of(node: Node) -> str:
+def extract_joint(node: Node) -> str:
     """Return the joint that a scalar names, without a controller prefix."""
     return (node.text or "").rpartition("/")[2]
 
 
-def controllers_in(root: Node) -> Iterator[Controller]:
+def list_controllers(root: Node) -> Iterator[Controller]:
     """Yield each controller with its parameters, which ROS 2 writes apart from its type."""
     parameters: dict[str, Node] = {}
     for path, node in root.walk():

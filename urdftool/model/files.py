@@ -11,14 +11,14 @@ from ..source.document import STDIN
 from .elements import Mesh, Robot
 
 
-def sources(robot: Robot) -> set[str]:
+def list_sources(robot: Robot) -> set[str]:
     """Return the paths of the files, including missing meshes; without standard input."""
     if robot.source is None:
         return set()
     found = {file.path for file in robot.source.files}
     if robot.source.expansion is not None:
         found.update(robot.source.expansion.dependencies)
-    for uri in _named(robot):
+    for uri in _list_uris(robot):
         try:
             path = robot.source.resolve(uri)
         except (UrdftoolError, ValueError):
@@ -29,7 +29,7 @@ def sources(robot: Robot) -> set[str]:
     return {path for path in found if path not in ("", "-", STDIN) and _is_path(path)}
 
 
-def _named(robot: Robot) -> Iterator[str]:
+def _list_uris(robot: Robot) -> Iterator[str]:
     """Yield the URIs of meshes and textures."""
     for _, shape in robot.shapes:
         if isinstance(shape.geometry, Mesh) and shape.geometry.filename:

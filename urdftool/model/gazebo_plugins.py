@@ -262,7 +262,7 @@ class Carried(NamedTuple):
     left: list[str]
 
 
-def carried(plugin: Element, system: System) -> Carried:
+def convert_parameters(plugin: Element, system: System) -> Carried:
     """Return the parameters of a plugin as a system reads them, including the plugin's defaults."""
     said: list[tuple[str, str | Element]] = []
     left = []
@@ -273,20 +273,20 @@ def carried(plugin: Element, system: System) -> Carried:
         elif child.children:
             said.append((new, child))
         else:
-            said += [(new, text) for text in _texts(system, child)]
+            said += [(new, text) for text in _collect_texts(system, child)]
     there = {tag for tag, _ in said}
-    for old, new in _remappings(plugin).items():
+    for old, new in _collect_remappings(plugin).items():
         tag = system.remapped.get(old)
         if tag is not None and tag not in there:
             said.append((tag, new))
             there.add(tag)
     said += [(tag, text) for tag, text in system.defaults.items() if tag not in there]
-    others = {tag for one in SYSTEM_PLUGINS[library(plugin)] for tag in one.parameters}
+    others = {tag for one in SYSTEM_PLUGINS[get_library(plugin)] for tag in one.parameters}
     known = others | _SETUP
     return Carried(said, [tag for tag in dict.fromkeys(left) if tag not in known])
 
 
-def _texts(system: System, child: Element) -> list[str]:
+def _collect_texts(system: System, child: Element) -> list[str]:
     text = child.text.strip()
     if child.tag in system.halved:
         value = number(text)
@@ -296,7 +296,7 @@ def _texts(system: System, child: Element) -> list[str]:
     return [text] if text else []
 
 
-def _remappings(element: Element) -> dict[str, str]:
+def _collect_remappings(element: Element) -> dict[str, str]:
     ros = element.child("ros")
     if ros is None:
         return {}
@@ -304,17 +304,17 @@ def _remappings(element: Element) -> dict[str, str]:
     return {old.strip(): new.strip() for old, arrow, new in pairs if arrow}
 
 
-def file_of(system: System) -> str:
+def get_file(system: System) -> str:
     """Return the library of a system."""
     return f"gz-sim-{system.word}-system"
 
 
-def class_of(system: System) -> str:
+def get_class(system: System) -> str:
     """Return the class of a system."""
     return f"gz::sim::systems::{system.name}"
 
 
-def library(element: Element) -> str:
+def get_library(element: Element) -> str:
     """Return the library name of a plugin, without folder, ``lib`` and ``.so``."""
     name = (element.get("filename") or "").strip().rpartition("/")[2]
     return name.removeprefix("lib").removesuffix(".so")
@@ -322,7 +322,7 @@ def library(element: Element) -> str:
 
 def is_for_gz(element: Element) -> bool:
     """Tell whether a plugin belongs to gz, by its library or class."""
-    name, words = (element.get("name") or ""), library(element)
+    name, words = (element.get("name") or ""), get_library(element)
     return words.startswith(("gz-", "gz_", "ignition-", "ign_")) or name.startswith(
         ("gz::", "ignition::", "gz_ros2_control::", "ign_ros2_control::")
     )
@@ -330,7 +330,7 @@ def is_for_gz(element: Element) -> bool:
 
 def is_for_classic(element: Element) -> bool:
     """Tell whether a plugin is known to belong to Gazebo Classic."""
-    words = library(element)
+    words = get_library(element)
     return words.startswith(("gazebo_", "hector_gazebo_", "rotors_gazebo_")) or any(
         words in table for table in (SYSTEM_PLUGINS, SENSOR_PLUGINS, MIMIC_PLUGINS)
     )

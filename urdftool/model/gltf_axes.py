@@ -17,7 +17,7 @@ def is_gltf(shape: Visual | Collision) -> bool:
     return isinstance(mesh, Mesh) and mesh.filename.lower().endswith((".glb", ".gltf"))
 
 
-def gltf_note(robot: Robot) -> str:
+def describe_gltf_axes(robot: Robot) -> str:
     """Return a note on how the glTF meshes of a robot are read; empty if none is rotated."""
     if robot.source is not None and robot.source.gltf_up == "z":
         return ""

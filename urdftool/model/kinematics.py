@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 
 from ..errors import ModelError
-from ..suggestions import did_you_mean
+from ..suggestions import suggest_name
 from .elements import Joint, Robot
-from .pose import IDENTITY, Pose, pose_of
+from .pose import IDENTITY, Pose, make_pose
 
 MOVABLE = ("revolute", "continuous", "prismatic")
 """Types of joints with one position."""
@@ -32,13 +32,13 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
         if joint is None:
             poses[name] = IDENTITY
         elif joint.parent in poses:
-            at = poses[joint.parent] @ pose_of(joint.origin)
+            at = poses[joint.parent] @ make_pose(joint.origin)
             value = positions.get(joint.name, 0.0)
-            poses[name] = at @ motion_of(joint, value) if value else at
+            poses[name] = at @ compute_motion(joint, value) if value else at
     return poses
 
 
-def motion_of(joint: Joint, value: float) -> Pose:
+def compute_motion(joint: Joint, value: float) -> Pose:
     """Return the transform of the child that a joint position [rad, m] causes.
 
     Rotations use Rodrigues' formula. The result is the identity for fixed joints and for types
@@ -66,19 +66,19 @@ def motion_of(joint: Joint, value: float) -> Pose:
     )
 
 
-def with_mimics(robot: Robot, positions: Mapping[str, float]) -> dict[str, float]:
+def add_mimic_positions(robot: Robot, positions: Mapping[str, float]) -> dict[str, float]:
     """Return the positions [rad, m] of all joints with one position, computed through ``<mimic>``.
 
     Given positions are kept. Chains of mimic joints are followed; joints in a loop start from 0.
     """
-    movable = movable_joints(robot)
+    movable = find_movable_joints(robot)
     return {
         name: positions[name] if name in positions else _follow(joint, movable, positions)
         for name, joint in movable.items()
     }
 
 
-def movable_joints(robot: Robot) -> dict[str, Joint]:
+def find_movable_joints(robot: Robot) -> dict[str, Joint]:
     """Return the joints with one position, by name, in the order of the file."""
     return {joint.name: joint for joint in robot.joints if _has_position(joint)}
 
@@ -95,7 +95,7 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
         ModelError: The robot has no such joint, the joint does not have one position, or the
             position is not finite. Positions beyond a limit are allowed.
     """
-    movable = movable_joints(robot)
+    movable = find_movable_joints(robot)
     for name, value in positions.items():
         if name not in movable:
             if name in robot.joint:
@@ -104,7 +104,7 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
                     f"joint '{name}' is {kind}; only joints with one degree of freedom "
                     "have a position"
                 )
-            hint = did_you_mean(name, movable, 0.5) or f"; movable joints: {', '.join(movable)}"
+            hint = suggest_name(name, movable, 0.5) or f"; movable joints: {', '.join(movable)}"
             if not movable:
                 hint = "; the robot has no movable joints"
             raise ModelError(f"movable joint '{name}' does not exist{hint}")
@@ -112,7 +112,7 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
             raise ModelError(f"position of joint '{name}' is {value:g}, not a finite number")
 
 
-def limits_of(joint: Joint) -> tuple[float, float]:
+def get_limits(joint: Joint) -> tuple[float, float]:
     """Return the lower and upper limit of a joint [rad, m], as URDF readers interpret it.
 
     A missing bound is 0; the limits of a continuous joint and of a joint without ``<limit>`` are
@@ -123,7 +123,7 @@ def limits_of(joint: Joint) -> tuple[float, float]:
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 
 
-def chain_of(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, float]:
+def follow_mimic_chain(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, float]:
     """Follow the ``<mimic>`` chain of a joint.
 
     Args:

@@ -11,7 +11,7 @@ from .elements import Robot
 from .read import read_robot
 
 
-def robot_of(description: Description) -> Robot:
+def make_robot(description: Description) -> Robot:
     """Return the robot of a description.
 
     Raises:
@@ -30,7 +30,7 @@ def robot_of(description: Description) -> Robot:
 
 def read_again(robot: Robot) -> Robot:
     """Return the robot as its description defines it, without later modifications."""
-    return robot if robot.source is None else robot_of(robot.source)
+    return robot if robot.source is None else make_robot(robot.source)
 
 
 def load(
@@ -61,4 +61,4 @@ def load(
     description = read_description(
         path, args, packages=packages, package_paths=package_paths, gltf_up=gltf_up
     )
-    return robot_of(description)
+    return make_robot(description)

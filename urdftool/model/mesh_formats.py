@@ -22,7 +22,7 @@ collision mesh.
 """
 
 
-def ending_of(uri: str) -> str:
+def get_suffix(uri: str) -> str:
     """Return the suffix of a file name in lower case, without the dot; empty where it has none."""
     return uri.rpartition("/")[2].rpartition(".")[2].lower() if "." in uri else ""
 
@@ -32,7 +32,7 @@ def is_odd(ending: str) -> bool:
     return len(ending) > 5 or not ending.isalnum()
 
 
-def rejecting_readers(ending: str, collides: bool) -> frozenset[str]:
+def find_rejecting_readers(ending: str, collides: bool) -> frozenset[str]:
     """Name the readers that reject a robot with a mesh of a suffix: mujoco, pybullet and drake.
 
     Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from .bounds import size_of
+from .bounds import compute_size
 from .elements import Collision, Link, Visual
 
 _LEAST = 1.0
@@ -18,7 +18,7 @@ _SOLID = (5.0, 30_000.0)
 """Range of plausible densities [kg/m³], from foam to above the densest metal."""
 
 
-def shapes_in_millimeters(link: Link) -> Iterator[Visual | Collision]:
+def find_shapes_in_millimeters(link: Link) -> Iterator[Visual | Collision]:
     """Yield the primitive visuals and collisions of a link that are 1000 times too large.
 
     Geometry of more than 10 m may be intended. It is in millimeters if other geometry of the link
@@ -26,7 +26,7 @@ def shapes_in_millimeters(link: Link) -> Iterator[Visual | Collision]:
     millimeters.
     """
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
-    sizes = [size_of(shape.geometry) for shape in shapes]
+    sizes = [compute_size(shape.geometry) for shape in shapes]
     for shape, size in zip(shapes, sizes, strict=True):
         if size is None or min(size) < _LEAST or max(size) < _LARGEST:
             continue

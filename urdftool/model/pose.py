@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 Rotation = tuple[Vector, Vector, Vector]
 Quaternion = tuple[float, float, float, float]
 
-UPRIGHT: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+IDENTITY_ROTATION: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class Pose(NamedTuple):
     """Rotation and translation [m] of a child frame in its parent frame."""
 
-    rotation: Rotation = UPRIGHT
+    rotation: Rotation = IDENTITY_ROTATION
     translation: Vector = (0.0, 0.0, 0.0)
 
     def __matmul__(self, other: Pose) -> Pose:
         """Return the composition that applies ``other`` first."""
         return Pose(
-            matrix_product(self.rotation, other.rotation), self.transform(other.translation)
+            multiply_matrices(self.rotation, other.rotation), self.transform(other.translation)
         )
 
     def transform(self, point: Vector) -> Vector:
@@ -47,28 +47,28 @@ class Pose(NamedTuple):
 IDENTITY = Pose()
 
 
-def pose_of(origin: Origin | None) -> Pose:
+def make_pose(origin: Origin | None) -> Pose:
     """Return the pose of an ``<origin>``; the identity for None."""
     if origin is None:
         return IDENTITY
     if origin.quaternion is not None:
         x, y, z, w = origin.quaternion
-        return Pose(rotation_of_quaternion((w, x, y, z)), origin.xyz)
-    return Pose(rotation_of_rpy(origin.rpy), origin.xyz)
+        return Pose(rotation_from_quaternion((w, x, y, z)), origin.xyz)
+    return Pose(rotation_from_rpy(origin.rpy), origin.xyz)
 
 
-def origin_at(pose: Pose, provenance: Provenance | None = None) -> Origin:
+def get_origin_at(pose: Pose, provenance: Provenance | None = None) -> Origin:
     """Return the ``Origin`` of a pose."""
-    roll, pitch, yaw = rpy_of_rotation(pose.rotation)
+    roll, pitch, yaw = rpy_from_rotation(pose.rotation)
     x, y, z = pose.translation  # a zero without its sign
     return Origin(provenance, (x + 0.0, y + 0.0, z + 0.0), (roll + 0.0, pitch + 0.0, yaw + 0.0))
 
 
-def rotation_of_rpy(rpy: Vector) -> Rotation:
+def rotation_from_rpy(rpy: Vector) -> Rotation:
     """Return ``Rz(yaw) Ry(pitch) Rx(roll)``; ``UPRIGHT`` itself for zeros."""
     roll, pitch, yaw = rpy
     if roll == pitch == yaw == 0.0:
-        return UPRIGHT
+        return IDENTITY_ROTATION
     sr, cr = math.sin(roll), math.cos(roll)
     sp, cp = math.sin(pitch), math.cos(pitch)
     sy, cy = math.sin(yaw), math.cos(yaw)
@@ -79,7 +79,7 @@ def rotation_of_rpy(rpy: Vector) -> Rotation:
     )
 
 
-def quaternion_of_rpy(rpy: Vector) -> Quaternion:
+def quaternion_from_rpy(rpy: Vector) -> Quaternion:
     """Return the unit quaternion ``(w, x, y, z)`` of URDF's rpy [rad]."""
     sr, cr = math.sin(rpy[0] / 2), math.cos(rpy[0] / 2)
     sp, cp = math.sin(rpy[1] / 2), math.cos(rpy[1] / 2)
@@ -92,11 +92,11 @@ def quaternion_of_rpy(rpy: Vector) -> Quaternion:
     )
 
 
-def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
+def rotation_from_quaternion(quaternion: Quaternion) -> Rotation:
     """Return the rotation of a quaternion ``(w, x, y, z)``, normalized; the identity for zero."""
     norm = math.hypot(*quaternion)
     if norm == 0.0:
-        return UPRIGHT
+        return IDENTITY_ROTATION
     w, x, y, z = (part / norm for part in quaternion)
     return (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
@@ -105,7 +105,7 @@ def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
     )
 
 
-def quaternion_of_rotation(r: Rotation) -> Quaternion:
+def quaternion_from_rotation(r: Rotation) -> Quaternion:
     """Return the unit quaternion ``(w, x, y, z)`` of a rotation, by Shepperd's method."""
     trace = r[0][0] + r[1][1] + r[2][2]
     largest = max(range(4), key=lambda i: (trace, r[0][0], r[1][1], r[2][2])[i])
@@ -121,7 +121,7 @@ def quaternion_of_rotation(r: Rotation) -> Quaternion:
     return four[0] / size, four[1] / size, four[2] / size, four[3] / size
 
 
-def rpy_of_rotation(rotation: Rotation) -> Vector:
+def rpy_from_rotation(rotation: Rotation) -> Vector:
     """Return URDF's rpy [rad] of a rotation, exact also at a pitch of ±90°.
 
     The roll is computed after undoing the yaw, so that their rounding errors cancel.
@@ -133,26 +133,30 @@ def rpy_of_rotation(rotation: Rotation) -> Vector:
     return math.atan2(s * r02 - c * r12, c * r11 - s * r01), pitch, yaw
 
 
-def matrix_product(a: Rotation, b: Rotation) -> Rotation:
+def multiply_matrices(a: Rotation, b: Rotation) -> Rotation:
     """Return ``a b``."""
-    if a is UPRIGHT:
+    if a is IDENTITY_ROTATION:
         return b
-    if b is UPRIGHT:
+    if b is IDENTITY_ROTATION:
         return a
     columns = transpose(b)
-    return tuple(tuple(dot(row, column) for column in columns) for row in a)  # type: ignore[return-value]
+    return tuple(tuple(compute_dot(row, column) for column in columns) for row in a)  # type: ignore[return-value]
 
 
 def transpose(a: Rotation) -> Rotation:
     """Return the transpose, the inverse of a rotation."""
-    return a if a is UPRIGHT else tuple(zip(*a, strict=True))  # type: ignore[return-value]
+    return a if a is IDENTITY_ROTATION else tuple(zip(*a, strict=True))  # type: ignore[return-value]
 
 
 def rotate(rotation: Rotation, vector: Vector) -> Vector:
     """Return ``R v``."""
-    if rotation is UPRIGHT:
+    if rotation is IDENTITY_ROTATION:
         return vector
-    return dot(rotation[0], vector), dot(rotation[1], vector), dot(rotation[2], vector)
+    return (
+        compute_dot(rotation[0], vector),
+        compute_dot(rotation[1], vector),
+        compute_dot(rotation[2], vector),
+    )
 
 
 def add(a: Vector, b: Vector) -> Vector:
@@ -160,17 +164,17 @@ def add(a: Vector, b: Vector) -> Vector:
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-def dot(a: Vector, b: Vector) -> float:
+def compute_dot(a: Vector, b: Vector) -> float:
     """Return ``a · b``."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def norm(a: Vector) -> float:
+def compute_norm(a: Vector) -> float:
     """Return ``|a|``."""
     return math.hypot(*a)
 
 
-def cross(a: Vector, b: Vector) -> Vector:
+def compute_cross(a: Vector, b: Vector) -> Vector:
     """Return ``a × b``."""
     return (
         a[1] * b[2] - a[2] * b[1],

@@ -59,7 +59,7 @@ def number(text: str | None) -> float | None:
     return value if math.isfinite(value) and "_" not in text else None
 
 
-def numbers(text: str | None, count: int) -> tuple[float, ...] | None:
+def parse_numbers(text: str | None, count: int) -> tuple[float, ...] | None:
     """Return exactly ``count`` finite numbers separated by whitespace, or None."""
     if text is None:
         return None
@@ -73,8 +73,8 @@ def numbers(text: str | None, count: int) -> tuple[float, ...] | None:
     return values if all(map(math.isfinite, values)) and "_" not in text else None
 
 
-def _vector(text: str | None, default: Vector = (0.0, 0.0, 0.0)) -> Vector:
-    values = numbers(text, 3) if text is not None else None
+def _parse_vector(text: str | None, default: Vector = (0.0, 0.0, 0.0)) -> Vector:
+    values = parse_numbers(text, 3) if text is not None else None
     return default if values is None else values  # type: ignore[return-value]
 
 
@@ -83,7 +83,7 @@ def _number(element: Element, name: str, default: float = 0.0) -> float:
     return default if value is None else value
 
 
-def _maybe(element: Element | None, read: Callable[[Element], _T]) -> _T | None:
+def _read_optional(element: Element | None, read: Callable[[Element], _T]) -> _T | None:
     return None if element is None else read(element)
 
 
@@ -92,11 +92,11 @@ def read_robot(root: Element) -> Robot:
     robot = Robot(root, root.get("name") or "", root.get("version"))
     readers: dict[str, Callable[[Element], None]] = {
         "link": lambda e: robot.links.append(_link(e)),
-        "joint": lambda e: robot.joints.append(_joint(e)),
-        "material": lambda e: robot.materials.append(_material(e)),
-        "transmission": lambda e: robot.transmissions.append(_transmission(e)),
-        "gazebo": lambda e: robot.gazebo.append(_gazebo(e)),
-        "ros2_control": lambda e: robot.ros2_controls.append(_ros2_control(e)),
+        "joint": lambda e: robot.joints.append(_read_joint(e)),
+        "material": lambda e: robot.materials.append(_read_material(e)),
+        "transmission": lambda e: robot.transmissions.append(_read_transmission(e)),
+        "gazebo": lambda e: robot.gazebo.append(_read_gazebo(e)),
+        "ros2_control": lambda e: robot.ros2_controls.append(_read_ros2_control(e)),
     }
     for child in root.children:
         reader = readers.get(child.tag)
@@ -110,15 +110,15 @@ def _link(element: Element) -> Link:
     for child in element.children:
         tag = child.tag
         if tag == "visual":
-            link.visuals.append(_visual(child))
+            link.visuals.append(_read_visual(child))
         elif tag == "collision":
-            link.collisions.append(_collision(child))
+            link.collisions.append(_read_collision(child))
         elif tag == "inertial" and link.inertial is None:
-            link.inertial = _inertial(child)
+            link.inertial = _read_inertial(child)
     return link
 
 
-def _inertial(element: Element) -> Inertial:
+def _read_inertial(element: Element) -> Inertial:
     inertial = Inertial(element)
     for child in element.children:
         tag = child.tag
@@ -130,47 +130,51 @@ def _inertial(element: Element) -> Inertial:
                 *(_number(child, n) for n in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
             )
         elif tag == "origin" and inertial.origin is None:
-            inertial.origin = _origin(child)
+            inertial.origin = _read_origin(child)
     return inertial
 
 
-def _origin(element: Element) -> Origin:
+def _read_origin(element: Element) -> Origin:
     attributes = element.attributes
-    origin = Origin(element, _vector(attributes.get("xyz")), _vector(attributes.get("rpy")))
+    origin = Origin(
+        element, _parse_vector(attributes.get("xyz")), _parse_vector(attributes.get("rpy"))
+    )
     if "quat_xyzw" in attributes:
-        origin.quaternion = numbers(attributes["quat_xyzw"], 4)  # type: ignore[assignment]
+        origin.quaternion = parse_numbers(attributes["quat_xyzw"], 4)  # type: ignore[assignment]
     return origin
 
 
-def _visual(element: Element) -> Visual:
+def _read_visual(element: Element) -> Visual:
     return Visual(
         element,
         element.attributes.get("name"),
-        _maybe(element.child("origin"), _origin),
-        _geometry(element.child("geometry")),
-        _maybe(element.child("material"), _material),
+        _read_optional(element.child("origin"), _read_origin),
+        _read_geometry(element.child("geometry")),
+        _read_optional(element.child("material"), _read_material),
     )
 
 
-def _collision(element: Element) -> Collision:
+def _read_collision(element: Element) -> Collision:
     return Collision(
         element,
         element.attributes.get("name"),
-        _maybe(element.child("origin"), _origin),
-        _geometry(element.child("geometry")),
+        _read_optional(element.child("origin"), _read_origin),
+        _read_geometry(element.child("geometry")),
     )
 
 
 _SHAPES: dict[str, Callable[[Element], Geometry]] = {
-    "box": lambda e: Box(e, _vector(e.get("size"))),
+    "box": lambda e: Box(e, _parse_vector(e.get("size"))),
     "cylinder": lambda e: Cylinder(e, _number(e, "radius"), _number(e, "length")),
     "sphere": lambda e: Sphere(e, _number(e, "radius")),
     "capsule": lambda e: Capsule(e, _number(e, "radius"), _number(e, "length")),
-    "mesh": lambda e: Mesh(e, e.get("filename") or "", _vector(e.get("scale"), (1.0, 1.0, 1.0))),
+    "mesh": lambda e: Mesh(
+        e, e.get("filename") or "", _parse_vector(e.get("scale"), (1.0, 1.0, 1.0))
+    ),
 }
 
 
-def _geometry(element: Element | None) -> Geometry | None:
+def _read_geometry(element: Element | None) -> Geometry | None:
     """Return the first shape of a ``<geometry>``, as URDF readers do."""
     if element is None or not element.children:
         return None
@@ -179,17 +183,17 @@ def _geometry(element: Element | None) -> Geometry | None:
     return UnknownShape(shape, shape.tag) if read is None else read(shape)
 
 
-def _material(element: Element) -> Material:
+def _read_material(element: Element) -> Material:
     material = Material(element, element.attributes.get("name", ""))
     color, texture = element.child("color"), element.child("texture")
     if color is not None:
-        material.color = numbers(color.get("rgba"), 4)  # type: ignore[assignment]
+        material.color = parse_numbers(color.get("rgba"), 4)  # type: ignore[assignment]
     if texture is not None:
         material.texture = texture.get("filename")
     return material
 
 
-def _joint(element: Element) -> Joint:
+def _read_joint(element: Element) -> Joint:
     attributes = element.attributes
     joint = Joint(element, attributes.get("name", ""), attributes.get("type", ""))
     for child in element.children:
@@ -199,13 +203,13 @@ def _joint(element: Element) -> Joint:
     return joint
 
 
-def _parent(joint: Joint, element: Element) -> None:
+def _set_parent(joint: Joint, element: Element) -> None:
     if joint.parent_element is None:
         joint.parent_element = element
         joint.parent = element.get("link") or ""
 
 
-def _child(joint: Joint, element: Element) -> None:
+def _set_child(joint: Joint, element: Element) -> None:
     if joint.child_element is None:
         joint.child_element = element
         joint.child = element.get("link") or ""
@@ -225,10 +229,10 @@ def _set_once(name: str, read: Callable[[Element], object]) -> Callable[[Joint, 
 
 
 _JOINT_READERS: dict[str, Callable[[Joint, Element], None]] = {
-    "parent": _parent,
-    "child": _child,
-    "origin": _set_once("origin", _origin),
-    "axis": _set_once("axis", lambda e: Axis(e, _vector(e.get("xyz"), (1.0, 0.0, 0.0)))),
+    "parent": _set_parent,
+    "child": _set_child,
+    "origin": _set_once("origin", _read_origin),
+    "axis": _set_once("axis", lambda e: Axis(e, _parse_vector(e.get("xyz"), (1.0, 0.0, 0.0)))),
     "limit": _set_once("limit", _limit),
     "dynamics": _set_once(
         "dynamics", lambda e: Dynamics(e, number(e.get("damping")), number(e.get("friction")))
@@ -258,52 +262,52 @@ _JOINT_READERS: dict[str, Callable[[Joint, Element], None]] = {
 }
 
 
-def _transmission(element: Element) -> Transmission:
+def _read_transmission(element: Element) -> Transmission:
     kind = element.child("type")
     return Transmission(
         element,
         element.get("name") or "",
         (element.get("type") or (kind.text if kind is not None else "")).strip(),
         [
-            TransmissionJoint(e, e.get("name") or "", _texts(e, "hardwareInterface"))
+            TransmissionJoint(e, e.get("name") or "", _list_texts(e, "hardwareInterface"))
             for e in element.all("joint")
         ],
         [
             Actuator(
                 e,
                 e.get("name") or "",
-                number(next(iter(_texts(e, "mechanicalReduction")), None)),
-                _texts(e, "hardwareInterface"),
+                number(next(iter(_list_texts(e, "mechanicalReduction")), None)),
+                _list_texts(e, "hardwareInterface"),
             )
             for e in element.all("actuator")
         ],
     )
 
 
-def _texts(element: Element, tag: str) -> list[str]:
+def _list_texts(element: Element, tag: str) -> list[str]:
     return [child.text.strip() for child in element.all(tag)]
 
 
-def _gazebo(element: Element) -> GazeboExtension:
+def _read_gazebo(element: Element) -> GazeboExtension:
     return GazeboExtension(
         element,
         element.get("reference"),
         [
-            Sensor(e, e.get("name") or "", (e.get("type") or "").strip(), _plugins(e))
+            Sensor(e, e.get("name") or "", (e.get("type") or "").strip(), _read_plugins(e))
             for e in element.all("sensor")
         ],
-        _plugins(element),
+        _read_plugins(element),
     )
 
 
-def _plugins(element: Element) -> list[Plugin]:
+def _read_plugins(element: Element) -> list[Plugin]:
     return [
         Plugin(e, e.get("name") or "", (e.get("filename") or "").strip())
         for e in element.all("plugin")
     ]
 
 
-def _ros2_control(element: Element) -> Ros2Control:
+def _read_ros2_control(element: Element) -> Ros2Control:
     hardware = element.child("hardware")
     plugin = hardware.child("plugin") if hardware is not None else None
     return Ros2Control(
@@ -317,9 +321,9 @@ def _ros2_control(element: Element) -> Ros2Control:
                 e.tag,
                 e.get("name") or "",
                 e.get("mimic"),
-                _interfaces(e, "command_interface"),
-                _interfaces(e, "state_interface"),
-                _params(e),
+                _read_interfaces(e, "command_interface"),
+                _read_interfaces(e, "state_interface"),
+                _read_parameters(e),
             )
             for e in element.children
             if e.tag in ("joint", "sensor", "gpio")
@@ -327,9 +331,9 @@ def _ros2_control(element: Element) -> Ros2Control:
     )
 
 
-def _interfaces(element: Element, tag: str) -> list[Interface]:
-    return [Interface(e, e.get("name") or "", _params(e)) for e in element.all(tag)]
+def _read_interfaces(element: Element, tag: str) -> list[Interface]:
+    return [Interface(e, e.get("name") or "", _read_parameters(e)) for e in element.all(tag)]
 
 
-def _params(element: Element) -> dict[str, str]:
+def _read_parameters(element: Element) -> dict[str, str]:
     return {e.get("name") or "": e.text.strip() for e in element.all("param")}

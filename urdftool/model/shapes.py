@@ -99,6 +99,6 @@ _NAMES: dict[type, str] = {
 }
 
 
-def shape_name(geometry: Geometry) -> str:
+def get_shape_name(geometry: Geometry) -> str:
     """Return the name of a shape's type: the tag of its element in URDF and SDF."""
     return geometry.tag if isinstance(geometry, UnknownShape) else _NAMES[type(geometry)]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from .elements import Joint, Robot
-from .kinematics import chain_of, limits_of, movable_joints, with_mimics
+from .kinematics import add_mimic_positions, find_movable_joints, follow_mimic_chain, get_limits
 
 
 def start_positions(
@@ -26,34 +26,34 @@ def start_positions(
     """
     given = dict(positions or {})
     clamped = {}
-    reaches = _reaches(robot)
+    reaches = _compute_ranges(robot)
     for name, (lower, upper) in reaches.items():
         if name not in given and lower <= upper and not lower <= 0.0 <= upper:
             given[name] = clamped[name] = lower if lower > 0 else upper
-    found = with_mimics(robot, given)
+    found = add_mimic_positions(robot, given)
     for joint in robot.joints:
-        lower, upper = limits_of(joint)
+        lower, upper = get_limits(joint)
         if joint.mimic is not None and joint.name not in given and lower < upper:
             found[joint.name] = min(max(found.get(joint.name, 0.0), lower), upper)
     return found, clamped
 
 
-def allowed_positions(robot: Robot, name: str) -> tuple[float, float]:
+def compute_allowed_range(robot: Robot, name: str) -> tuple[float, float]:
     """Return the range of positions [rad, m] of a joint, narrowed by the joints that mimic it."""
-    return _reaches(robot).get(name, (-math.inf, math.inf))
+    return _compute_ranges(robot).get(name, (-math.inf, math.inf))
 
 
-def _reaches(robot: Robot) -> dict[str, tuple[float, float]]:
+def _compute_ranges(robot: Robot) -> dict[str, tuple[float, float]]:
     """Return the limits [rad, m] of each leading joint, narrowed by the joints that mimic it."""
-    movable = movable_joints(robot)
-    reaches = {joint.name: limits_of(joint) for joint in movable.values() if joint.mimic is None}
+    movable = find_movable_joints(robot)
+    reaches = {joint.name: get_limits(joint) for joint in movable.values() if joint.mimic is None}
     for joint in movable.values():
         if joint.mimic is None or not _is_limited(joint):
             continue
-        leader, scale, shift = chain_of(joint, movable)
+        leader, scale, shift = follow_mimic_chain(joint, movable)
         if leader not in reaches or not scale:
             continue
-        lower, upper = sorted((bound - shift) / scale for bound in limits_of(joint))
+        lower, upper = sorted((bound - shift) / scale for bound in get_limits(joint))
         own = reaches[leader]
         both = max(lower, own[0]), min(upper, own[1])
         if both[0] <= both[1]:
@@ -62,5 +62,5 @@ def _reaches(robot: Robot) -> dict[str, tuple[float, float]]:
 
 
 def _is_limited(joint: Joint) -> bool:
-    lower, upper = limits_of(joint)
+    lower, upper = get_limits(joint)
     return joint.is_limited and lower < upper

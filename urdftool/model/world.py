@@ -10,7 +10,7 @@ WORLD = "world"
 """Link name by which simulators identify the world."""
 
 
-def with_world(robot: Robot) -> tuple[Robot, Joint | None]:
+def add_world(robot: Robot) -> tuple[Robot, Joint | None]:
     """Return the robot with a link ``world``, if its joints refer to one that is not declared.
 
     ``urdfdom`` rejects such a file; Drake and other readers interpret the name as the world.

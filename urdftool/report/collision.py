@@ -71,13 +71,13 @@ class Row:
             "before": result.before,
             "measures": result.measures,
             "pieces": [
-                _piece(result, index, self.files[index] if self.files else "")
+                _build_piece(result, index, self.files[index] if self.files else "")
                 for index in range(len(result.pieces))
             ],
             "notes": list(result.notes),
         }
 
-    def timings(self) -> dict[str, Any]:
+    def build_timings(self) -> dict[str, Any]:
         """Return the values that differ between runs: elapsed seconds, and use of the cache."""
         return {"seconds": round(self.result.seconds, 3), "cached": self.result.cached}
 
@@ -103,12 +103,14 @@ class Report:
         return {
             "input": self.path,
             "output": self.output,
-            "parts": [row.as_dict() | (row.timings() if timings else {}) for row in self.rows],
+            "parts": [
+                row.as_dict() | (row.build_timings() if timings else {}) for row in self.rows
+            ],
             "left": list(self.left),
         }
 
 
-def rows_of(written: Written, results: Mapping[Task, Result]) -> list[Row]:
+def get_rows(written: Written, results: Mapping[Task, Result]) -> list[Row]:
     """Return a row for each mesh of a robot."""
     return [
         Row(
@@ -133,12 +135,12 @@ def as_json(reports: Sequence[Report], *, timings: bool = False) -> str:
     return json.dumps({"version": 1, "results": found}, indent=2) + "\n"
 
 
-def table(rows: Sequence[Row]) -> str:
+def format_table(rows: Sequence[Row]) -> str:
     """Format the sizes before and after, and the errors, one line for each mesh."""
     if not rows:
         return ""
     lines: list[Sequence[str]] = [("", *_HEAD)]
-    lines += [(_label(row), *_cells(row)) for row in rows]
+    lines += [(_label(row), *_collect_cells(row)) for row in rows]
     return render_table(lines, left=(0, 1))
 
 
@@ -148,11 +150,11 @@ def millimeters(length: float) -> str:
     return f"{found:.3g}" if found < 999.5 else f"{found:.0f}"
 
 
-def remarks(rows: Iterable[Row]) -> Iterable[str]:
+def format_remarks(rows: Iterable[Row]) -> Iterable[str]:
     """Yield a line with advice for each mesh whose error exceeds the limit."""
     for row in rows:
         if not row.within:
-            yield f"{_label(row)}: {_sizes(row)} exceeds {row.max_error:.1%}; {_advice(row)}"
+            yield f"{_label(row)}: {_sizes(row)} exceeds {row.max_error:.1%}; {_format_advice(row)}"
 
 
 def _sizes(row: Row) -> str:
@@ -163,7 +165,7 @@ def _sizes(row: Row) -> str:
     return f"{name} {row.result.error:.1%} with {count} piece{'s' * (count != 1)}"
 
 
-def _advice(row: Row) -> str:
+def _format_advice(row: Row) -> str:
     """Return options that may reduce the error."""
     for note in row.result.diagnostics:
         if note.code == MORE_PIECES:
@@ -180,14 +182,14 @@ def _advice(row: Row) -> str:
     return "try --method auto"
 
 
-def notes(rows: Iterable[Row]) -> Iterable[str]:
+def format_notes(rows: Iterable[Row]) -> Iterable[str]:
     """Yield the notes on repaired meshes and failed methods."""
     for row in rows:
         for note in row.result.diagnostics:
             yield f"{_label(row)}: {note.message}"
 
 
-def failures(rows: Iterable[Row]) -> Iterable[str]:
+def format_failures(rows: Iterable[Row]) -> Iterable[str]:
     """Yield the notes on failures, substitutes, and convex hulls that engines use."""
     for row in rows:
         for note in row.result.diagnostics:
@@ -195,7 +197,7 @@ def failures(rows: Iterable[Row]) -> Iterable[str]:
                 yield f"{_label(row)}: {note.message}"
 
 
-def summary(report: Report) -> str:
+def summarize(report: Report) -> str:
     """Summarize a report in one line."""
     rows = report.rows
     pieces = sum(len(row.result.pieces) for row in rows)
@@ -219,7 +221,7 @@ def _label(row: Row) -> str:
     return f"{row.name} {Path(row.mesh).name}{' ' + scale if scale else ''}"
 
 
-def _cells(row: Row) -> tuple[str, ...]:
+def _collect_cells(row: Row) -> tuple[str, ...]:
     result, measures = row.result, row.result.measures
     kinds = {piece.kind for piece in result.pieces}
     what = kinds.pop() if result.method == "primitive" else result.method
@@ -238,7 +240,7 @@ def _cells(row: Row) -> tuple[str, ...]:
     )
 
 
-def _piece(result: Result, index: int, file: str) -> dict[str, Any]:
+def _build_piece(result: Result, index: int, file: str) -> dict[str, Any]:
     piece = result.pieces[index]
     if not piece.is_primitive:
         return {

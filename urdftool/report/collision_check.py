@@ -34,7 +34,7 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
     }
 
 
-def table(found: Sequence[Checked], limit: float) -> str:
+def format_table(found: Sequence[Checked], limit: float) -> str:
     """Format the results, one line for each link."""
     if not found:
         return ""
@@ -63,7 +63,7 @@ def table(found: Sequence[Checked], limit: float) -> str:
     return render_table(lines, left=(0, 1))
 
 
-def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
+def format_remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
     """Yield a line for each problem of a link."""
     for item in found:
         if item.trouble:

@@ -8,27 +8,28 @@ from itertools import groupby
 from typing import Any
 
 from ..compare.change import Change
-from .counted import counted
-from .findings import Painter, clean
-from .json_text import json_text
+from .counted import format_count
+from .findings import Painter, escape_controls
+from .json_text import format_json
 
 _COLORS = {"added": "green", "removed": "red"}
 
 
-def text(changes: Iterable[Change], *, colors: bool = False) -> str:
+def format_text(changes: Iterable[Change], *, colors: bool = False) -> str:
     """Format each changed part with its changes."""
     paint = Painter(colors)
     lines = []
-    for title, group in _by_part(changes):
+    for title, group in _list_by_part(changes):
         lines.append(paint(title, bold=True))
         for change in group:
-            before, after = _values(change)
+            before, after = _collect_values(change)
             color = _COLORS.get(change.what.rpartition(" ")[2], "yellow")
-            lines.append(f"  {paint(clean(change.what), color)}{_said(change, before, after)}")
+            what = paint(escape_controls(change.what), color)
+            lines.append(f"  {what}{_format_change(change, before, after)}")
     return "".join(f"{line}\n" for line in lines)
 
 
-def _said(change: Change, before: str, after: str) -> str:
+def _format_change(change: Change, before: str, after: str) -> str:
     remark = f" ({change.remark})" if change.remark else ""
     unit = f" {change.unit}" if change.unit else ""
     if before and after:
@@ -43,23 +44,23 @@ def _is_presence(change: Change) -> bool:
     return change.what.rpartition(" ")[2] in ("added", "removed")
 
 
-def markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
+def format_markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
     """Format the changes as a Markdown table for a pull request."""
-    lines = [f"**{_cell(summary(names, changes))}**"]
+    lines = [f"**{_escape_cell(summarize(names, changes))}**"]
     if changes:
         lines += ["", "| part | what | before | after | |", "|---|---|---|---|---|"]
-    for title, group in _by_part(changes):
+    for title, group in _list_by_part(changes):
         for change in group:
-            before, after = _values(change)
+            before, after = _collect_values(change)
             unit = f" {change.unit}" if change.unit else ""
             cells = (title, change.what, *(v and v + unit for v in (before, after)), change.remark)
-            lines.append(f"| {' | '.join(map(_cell, cells))} |")
+            lines.append(f"| {' | '.join(map(_escape_cell, cells))} |")
     return "".join(f"{line}\n" for line in lines)
 
 
-def _cell(text: str) -> str:
+def _escape_cell(text: str) -> str:
     """Escape a text for a Markdown table."""
-    marked = "".join(f"\\{c}" if c in "\\`*_{}[]<>#|~!@" else c for c in clean(text))
+    marked = "".join(f"\\{c}" if c in "\\`*_{}[]<>#|~!@" else c for c in escape_controls(text))
     return marked.replace("&", "&amp;")
 
 
@@ -73,7 +74,7 @@ def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float)
         "equal": not changes,
         "changes": [_record(change) for change in changes],
     }
-    return json_text(said, 1) + "\n"
+    return format_json(said, 1) + "\n"
 
 
 def _record(change: Change) -> dict[str, Any]:
@@ -86,48 +87,48 @@ def _record(change: Change) -> dict[str, Any]:
     return record
 
 
-def summary(names: tuple[str, str], changes: Sequence[Change]) -> str:
+def summarize(names: tuple[str, str], changes: Sequence[Change]) -> str:
     """Summarize the number of changes in one line."""
-    pair = f"{clean(names[0])} → {clean(names[1])}"
+    pair = f"{escape_controls(names[0])} → {escape_controls(names[1])}"
     if not changes:
         return f"{pair}: the same robot"
     parts = {(change.kind, change.name) for change in changes}
-    return f"{pair}: {counted(len(changes), 'change')} in {counted(len(parts), 'part')}"
+    return f"{pair}: {format_count(len(changes), 'change')} in {format_count(len(parts), 'part')}"
 
 
-def _by_part(changes: Iterable[Change]) -> Iterator[tuple[str, Iterator[Change]]]:
+def _list_by_part(changes: Iterable[Change]) -> Iterator[tuple[str, Iterator[Change]]]:
     ordered: dict[tuple[str, str], list[Change]] = {}
     for change in changes:
         ordered.setdefault((change.kind, change.name), []).append(change)
     flat = (change for group in ordered.values() for change in group)
     for (kind, name), group in groupby(flat, key=lambda change: (change.kind, change.name)):
-        yield f"{kind} '{clean(name)}'" if name else kind, group
+        yield f"{kind} '{escape_controls(name)}'" if name else kind, group
 
 
-def _values(change: Change) -> tuple[str, str]:
-    return _value(change.before), _value(change.after)
+def _collect_values(change: Change) -> tuple[str, str]:
+    return _format_value(change.before), _format_value(change.after)
 
 
-def _value(value: Any) -> str:
+def _format_value(value: Any) -> str:
     """Format a value; empty for None."""
     if value is None:
         return ""
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, tuple | list):
-        return " ".join(_value(part) for part in value)
+        return " ".join(_format_value(part) for part in value)
     if isinstance(value, dict):
-        return _facts(value)
-    return clean(str(value))
+        return _format_facts(value)
+    return escape_controls(str(value))
 
 
-def _facts(facts: dict[str, Any]) -> str:
+def _format_facts(facts: dict[str, Any]) -> str:
     """Format a pose, a shape, or the properties of a part."""
     if "rpy" in facts:
         turned = any(abs(angle) > 1e-12 for angle in facts["rpy"])
         rpy = " ".join(f"{math.degrees(angle):.4g}°" for angle in facts["rpy"])
-        return f"xyz {_value(facts['xyz'])}" + (f" rpy {rpy}" if turned else "")
+        return f"xyz {_format_value(facts['xyz'])}" + (f" rpy {rpy}" if turned else "")
     if "shape" in facts:
-        rest = " ".join(f"{k} {_value(v)}" for k, v in facts.items() if k != "shape")
+        rest = " ".join(f"{k} {_format_value(v)}" for k, v in facts.items() if k != "shape")
         return f"{facts['shape'] or 'nothing'} {rest}".strip()
-    return ", ".join(f"{key} {_value(v)}" for key, v in facts.items() if v not in (None, ""))
+    return ", ".join(f"{key} {_format_value(v)}" for key, v in facts.items() if v not in (None, ""))

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 
-def counted(count: int, one: str, many: str = "") -> str:
+def format_count(count: int, one: str, many: str = "") -> str:
     """Format a count, such as ``1 file`` or ``2 files``; ``many`` is an irregular plural."""
     return f"{count} {one if count == 1 else many or one + 's'}"

@@ -7,28 +7,28 @@ from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
 from ..source.location import Call
-from ..suggestions import did_you_mean
-from .json_text import json_text
+from ..suggestions import suggest_name
+from .json_text import format_json
 
 if TYPE_CHECKING:
     from ..source.expansion import Expansion
 
 
-def files_read(expansion: Expansion) -> list[str]:
+def format_files_read(expansion: Expansion) -> list[str]:
     """Return the files that were read, the description first."""
     return list(dict.fromkeys([expansion.file.path, *expansion.files, *expansion.dependencies]))
 
 
-def warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]:
+def format_warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]:
     """Return a line for each warning: xacro's own, and undeclared arguments."""
     lines = []
     for warned in dict.fromkeys(expansion.warnings):
         where = str(warned.place) if warned.place else expansion.file.path
         lines.append(f"{where}: warning: {' '.join(warned.message.split())}")
-    return lines + unknown_arguments(expansion.file.path, given, expansion)
+    return lines + format_unknown_arguments(expansion.file.path, given, expansion)
 
 
-def unknown_arguments(
+def format_unknown_arguments(
     path: str, given: Mapping[str, str], expansion: Expansion | None
 ) -> list[str]:
     """Return a line for each undeclared argument.
@@ -41,9 +41,9 @@ def unknown_arguments(
     lines = []
     known = {} if expansion is None else expansion.arguments
     for name in given:
-        used = expansion is not None and f"$(arg {name})" in _sources(expansion)
+        used = expansion is not None and f"$(arg {name})" in _format_sources(expansion)
         if name not in known and not used:
-            hint = did_you_mean(name, known, 0.6) or f"; declared: {', '.join(known) or 'none'}"
+            hint = suggest_name(name, known, 0.6) or f"; declared: {', '.join(known) or 'none'}"
             lines.append(
                 f"{path}: warning: no <xacro:arg> declares '{name}', so {name}:=… has no effect"
                 f"{hint}"
@@ -51,11 +51,11 @@ def unknown_arguments(
     return lines
 
 
-def _sources(expansion: Expansion) -> str:
+def _format_sources(expansion: Expansion) -> str:
     return "".join(f.data.decode(f.encoding, "replace") for f in expansion.files.values())
 
 
-def argument_list(expansion: Expansion) -> str:
+def format_argument_list(expansion: Expansion) -> str:
     """Format the arguments as ``name:=default`` lines, in order of declaration."""
     return "".join(f"{a.name}:={a.default}\n" for a in expansion.arguments.values())
 
@@ -76,22 +76,22 @@ def _escape(path: str) -> str:
     return path
 
 
-def stale(expansion: Expansion, committed: str) -> str:
+def diff_with_committed(expansion: Expansion, committed: str) -> str:
     """Return a unified diff from a committed URDF to the expansion; empty if they are equal.
 
     Comments and layout are ignored.
     """
     from difflib import unified_diff
 
-    written = _lines(parse(read_file(committed)).root)
-    wanted = _lines(expansion.document().root)
+    written = _format_lines(parse(read_file(committed)).root)
+    wanted = _format_lines(expansion.document().root)
     return "".join(
         line + "\n"
         for line in unified_diff(written, wanted, committed, "expanded", lineterm="", n=2)
     )
 
 
-def _lines(element: Element, indent: str = "") -> list[str]:
+def _format_lines(element: Element, indent: str = "") -> list[str]:
     """Format an element as lines that are equal for equal XML."""
     attributes = "".join(
         f' {name}="{value}"'
@@ -104,17 +104,17 @@ def _lines(element: Element, indent: str = "") -> list[str]:
         return [f"{indent}<{element.tag}{attributes}{end}"]
     lines = [f"{indent}<{element.tag}{attributes}>{text}"]
     for child in element.children:
-        lines.extend(_lines(child, indent + "  "))
+        lines.extend(_format_lines(child, indent + "  "))
     lines.append(f"{indent}</{element.tag}>")
     return lines
 
 
-def source_map(expansion: Expansion) -> str:
+def format_source_map(expansion: Expansion) -> str:
     """Return the origin of each element as JSON: XPath, file, line, column and calls."""
     elements: list[dict[str, Any]] = []
     _map(expansion.document().root, "", {}, elements)
     table = {"version": 1, "source": expansion.file.path, "elements": elements}
-    return json_text(table, 1) + "\n"
+    return format_json(table, 1) + "\n"
 
 
 def _map(

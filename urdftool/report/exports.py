@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from ..finding import Finding
 from ..formats.check import Check, is_faithful
 from ..formats.common.loss_report import merge_instances
-from .findings_json import finding_record
-from .json_text import json_text
+from .findings_json import build_finding_record
+from .json_text import format_json
 from .tables import render_table
 
 
@@ -32,12 +32,12 @@ def to_json(
         "version": 1,
         "output": output,
         "files": sorted(files),
-        "findings": [finding_record(finding) for finding in merge_instances(findings)],
+        "findings": [build_finding_record(finding) for finding in merge_instances(findings)],
         "checks": [check.as_dict() for check in checks],
         "not_compared": list(not_compared) if checks else [],
         "faithful": is_faithful(checks) if checks else None,
     }
-    return json_text(report, 1) + "\n"
+    return format_json(report, 1) + "\n"
 
 
 def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
@@ -50,14 +50,14 @@ def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> st
         rows.append((check.name, check.what, worst, bound, check.verdict))
         lines += [f"{check.name}: differs: {item}" for item in check.differing]
         if check.announced:
-            lines.append(f"{check.name}: announced: {_some(check.announced)}")
+            lines.append(f"{check.name}: announced: {_format_some(check.announced)}")
     if not_compared:
         lines.append(f"not compared: {', '.join(not_compared)}")
     table = render_table(rows, left=range(5), rule=True)
     return table + "".join(f"{line}\n" for line in lines)
 
 
-def _some(items: Sequence[str], shown: int = 3) -> str:
+def _format_some(items: Sequence[str], shown: int = 3) -> str:
     """List the first known differences; the JSON form has all of them."""
     more = f" and {len(items) - shown} more" if len(items) > shown else ""
     return ", ".join(items[:shown]) + more

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from io import StringIO
 
-from .line_diff import unified_lines
+from .line_diff import format_unified_lines
 
 NO_FILE = "/dev/null"
 
 
-def file_diff(path: str, before: bytes | None, after: bytes) -> str:
+def format_file_diff(path: str, before: bytes | None, after: bytes) -> str:
     """Return a unified diff of a text file, or one line for a binary file.
 
     Args:
@@ -25,6 +25,6 @@ def file_diff(path: str, before: bytes | None, after: bytes) -> str:
         for data in (before or b"", after)
     )
     lines = []
-    for line in unified_lines(old, new, NO_FILE if before is None else path, path):
+    for line in format_unified_lines(old, new, NO_FILE if before is None else path, path):
         lines.append(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n")
     return "".join(lines)

@@ -11,9 +11,9 @@ from ..diagnostic import Severity
 from ..finding import Finding
 from ..lint.outcome import Outcome
 from ..rules.table import FIXES
-from .counted import counted
-from .findings_words import call_lines, member_lines, remarks, sentence
-from .findings_words import clean as clean
+from .counted import format_count
+from .findings_words import call_lines, format_member_lines, format_message, format_remarks
+from .findings_words import escape_controls as escape_controls
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
 _MOST_LINES = 3
@@ -33,14 +33,16 @@ class Painter:
         return click.style(text, fg=color, bold=bold) if self.colors else text
 
 
-def concise(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
+def format_concise(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
     """Yield ``FILE:LINE:COLUMN: severity: message [rule]`` for each finding."""
     paint = Painter(colors)
     for finding in findings:
-        yield _headline(finding, paint)
+        yield _format_headline(finding, paint)
 
 
-def full(findings: Iterable[Finding], *, colors: bool = False, whole: bool = True) -> Iterator[str]:
+def format_full(
+    findings: Iterable[Finding], *, colors: bool = False, whole: bool = True
+) -> Iterator[str]:
     """Yield headline, source, effects in readers, macro calls and hint of each finding.
 
     Args:
@@ -50,22 +52,24 @@ def full(findings: Iterable[Finding], *, colors: bool = False, whole: bool = Tru
     """
     paint = Painter(colors)
     for finding in findings:
-        yield _headline(finding, paint)
-        yield from _source(finding, paint)
-        yield from (f"   {paint('=', 'cyan')} {line}" for line in _remarks(finding, paint, whole))
+        yield _format_headline(finding, paint)
+        yield from _format_source(finding, paint)
+        yield from (
+            f"   {paint('=', 'cyan')} {line}" for line in _format_remarks(finding, paint, whole)
+        )
         yield ""
 
 
-def _headline(finding: Finding, paint: Painter) -> str:
+def _format_headline(finding: Finding, paint: Painter) -> str:
     color = _COLORS[finding.severity]
     return (
-        f"{paint(clean(str(finding.location)), bold=True)}: "
+        f"{paint(escape_controls(str(finding.location)), bold=True)}: "
         f"{paint(finding.severity.label, color, bold=True)}: "
-        f"{sentence(finding)} {paint(f'[{finding.code}]', color)}"
+        f"{format_message(finding)} {paint(f'[{finding.code}]', color)}"
     )
 
 
-def _source(finding: Finding, paint: Painter) -> Iterator[str]:
+def _format_source(finding: Finding, paint: Painter) -> Iterator[str]:
     """Yield the source lines of a finding, with the marked bytes underlined."""
     place = finding.location
     first, column = place.file.position(place.start)
@@ -79,8 +83,8 @@ def _source(finding: Finding, paint: Painter) -> Iterator[str]:
         text = place.file.line_text(number)
         begin = column - 1 if number == first else len(text) - len(text.lstrip())
         end = end_column - 1 if number == last else len(text.rstrip())
-        text, begin, end = _excerpt(text, begin, end)
-        yield f"{paint(f'{number:>{width}}', 'cyan')} {bar} {clean(_expand_tabs(text))}"
+        text, begin, end = _shorten_excerpt(text, begin, end)
+        yield f"{paint(f'{number:>{width}}', 'cyan')} {bar} {escape_controls(_expand_tabs(text))}"
         begin, end = len(_expand_tabs(text[:begin])), len(_expand_tabs(text[:end]))
         marks = "^" * max(1, end - begin)
         yield f"{'':>{width}} {bar} {'':>{begin}}{paint(marks, _COLORS[finding.severity])}"
@@ -88,7 +92,7 @@ def _source(finding: Finding, paint: Painter) -> Iterator[str]:
         yield f"{'':>{width}} {bar} …"
 
 
-def _excerpt(text: str, begin: int, end: int) -> tuple[str, int, int]:
+def _shorten_excerpt(text: str, begin: int, end: int) -> tuple[str, int, int]:
     """Shorten a long line to an excerpt around the marked columns; return it and the columns."""
     if len(text) <= _LONGEST_LINE:
         return text, begin, end
@@ -103,13 +107,13 @@ def _expand_tabs(text: str) -> str:
     return text.expandtabs(4)
 
 
-def _remarks(finding: Finding, paint: Painter, whole: bool) -> Iterator[str]:
-    for remark in remarks(finding):
+def _format_remarks(finding: Finding, paint: Painter, whole: bool) -> Iterator[str]:
+    for remark in format_remarks(finding):
         label, _, text = remark.partition(": ")
         yield f"{paint(label, bold=True)}: {text}"
     yield from (f"from {line}" for line in call_lines(finding.location.calls))
     if finding.members:
-        lines = list(member_lines(finding))
+        lines = list(format_member_lines(finding))
         most = len(lines) if whole or len(lines) <= _MOST_CALLS else _MOST_CALLS - 1
         yield from (f"also {line}" for line in lines[:most])
         if lines[most:]:
@@ -118,12 +122,12 @@ def _remarks(finding: Finding, paint: Painter, whole: bool) -> Iterator[str]:
     chains = [(name, calls) for name, calls in finding.others if calls]
     for name, calls in chains[: _MOST_CALLS - 1]:
         through = ", ".join(call_lines(calls[:1]))
-        yield f"also {clean(name)}: from {through}" if name else f"also from {through}"
+        yield f"also {escape_controls(name)}: from {through}" if name else f"also from {through}"
     if len(chains) > _MOST_CALLS - 1:
         yield f"and {len(chains) - _MOST_CALLS + 1} more"
 
 
-def statistics(outcome: Outcome) -> Iterator[str]:
+def format_statistics(outcome: Outcome) -> Iterator[str]:
     """Yield the number of findings of each rule, the most first; for groups also of places."""
     counts: Counter[tuple[str, Severity]] = Counter()
     places: Counter[tuple[str, Severity]] = Counter()
@@ -144,7 +148,7 @@ NOT_CHECKED = "not-checked"
 """Rule name, in formats that require one, for a file whose robot was not checked."""
 
 
-def severity_counts(findings: Iterable[Finding]) -> str:
+def format_severity_counts(findings: Iterable[Finding]) -> str:
     """Format the counts, such as ``2 errors, 1 warning, 3 info``; zero counts are omitted."""
     counts = dict.fromkeys(reversed(Severity), 0)
     for finding in findings:
@@ -156,18 +160,18 @@ def severity_counts(findings: Iterable[Finding]) -> str:
     )
 
 
-def summary(outcome: Outcome) -> str:
+def summarize(outcome: Outcome) -> str:
     """Summarize a run in one line: counts by severity, files and targets."""
     checked = [report for report in outcome.reports if report.checked]
     files = len(checked)
     targets = {name for report in checked for name in report.targets}
     suppressed = sum(report.suppressed for report in outcome.reports)
     none = "no new findings" if outcome.known else "no findings"
-    what = severity_counts(outcome.findings) or none
+    what = format_severity_counts(outcome.findings) or none
     known = f", {len(outcome.known)} in the baseline" if outcome.known else ""
     hidden = f", {suppressed} ignored by comments" if suppressed else ""
     names = ", ".join(sorted(targets)) or "any reader of URDF"
-    where = f" in {counted(files, 'file')}" if files else ""
+    where = f" in {format_count(files, 'file')}" if files else ""
     missing = len(outcome.not_checked)
-    unchecked = f", {counted(missing, 'file')} not checked" if missing else ""
+    unchecked = f", {format_count(missing, 'file')} not checked" if missing else ""
     return f"{what}{hidden}{known}{where}{unchecked}" + (f" (targets: {names})" if files else "")

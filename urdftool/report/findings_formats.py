@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from ..diagnostic import Severity
 from ..lint.outcome import Outcome
-from .findings import statistics as count_by_rule
-from .findings_screen import screen
+from .findings import format_statistics as count_by_rule
+from .findings_screen import format_screen
 
 
 def as_text(
@@ -31,15 +31,15 @@ def as_text(
             family of rules.
     """
     if statistics:
-        return _joined(count_by_rule(outcome))
+        return _format_joined(count_by_rule(outcome))
     if style in ("full", "concise"):
-        text = _joined(screen(outcome.findings, style, colors=colors, whole=whole))
+        text = _format_joined(format_screen(outcome.findings, style, colors=colors, whole=whole))
     else:
-        text = _in_style(outcome, style, fail_on)
+        text = _format_in_style(outcome, style, fail_on)
     return text.encode("utf-8", "backslashreplace").decode()  # file names may contain any bytes
 
 
-def _in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:
+def _format_in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:
     if style == "json":
         from .findings_json import to_json
 
@@ -56,10 +56,10 @@ def _in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:
         from .findings_html import to_html
 
         return to_html(outcome)
-    from .findings_github import github
+    from .findings_github import format_github
 
-    return _joined(github(outcome))
+    return _format_joined(format_github(outcome))
 
 
-def _joined(lines: Iterable[str]) -> str:
+def _format_joined(lines: Iterable[str]) -> str:
     return "".join(f"{line}\n" for line in lines)

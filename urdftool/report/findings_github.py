@@ -7,17 +7,23 @@ from collections.abc import Iterator
 from ..diagnostic import Severity
 from ..lint.outcome import Outcome
 from .findings import NOT_CHECKED
-from .findings_words import call_lines, clean, member_lines, remarks, sentence
+from .findings_words import (
+    call_lines,
+    escape_controls,
+    format_member_lines,
+    format_message,
+    format_remarks,
+)
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def github(outcome: Outcome) -> Iterator[str]:
+def format_github(outcome: Outcome) -> Iterator[str]:
     """Yield ``::error file=…,line=…,title=RULE::message`` for each finding."""
     for report in outcome.reports:
         if report.error is not None:
-            where = f"file={_property(report.path)},title={NOT_CHECKED}"
-            yield f"::error {where}::{_data(clean(report.error.message))}"
+            where = f"file={_escape_property(report.path)},title={NOT_CHECKED}"
+            yield f"::error {where}::{_escape_data(escape_controls(report.error.message))}"
     for finding in outcome.findings:
         line, column = finding.location.file.position(finding.location.start)
         end_line, end_column = finding.location.end_position
@@ -26,16 +32,18 @@ def github(outcome: Outcome) -> Iterator[str]:
         if line == end_line:  # GitHub rejects columns of a span over several lines
             properties |= {"col": column, "endColumn": end_column}
         properties["title"] = finding.code
-        said = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items())
+        said = ",".join(
+            f"{key}={_escape_property(str(value))}" for key, value in properties.items()
+        )
         came = (f"from {call}" for call in call_lines(finding.location.calls))
-        also = (f"also {line}" for line in member_lines(finding))
-        text = "\n".join([sentence(finding), *remarks(finding), *came, *also])
-        yield f"::{_COMMANDS[finding.severity]} {said}::{_data(text)}"
+        also = (f"also {line}" for line in format_member_lines(finding))
+        text = "\n".join([format_message(finding), *format_remarks(finding), *came, *also])
+        yield f"::{_COMMANDS[finding.severity]} {said}::{_escape_data(text)}"
 
 
-def _data(text: str) -> str:
+def _escape_data(text: str) -> str:
     return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 
-def _property(text: str) -> str:
-    return _data(text).replace(":", "%3A").replace(",", "%2C")
+def _escape_property(text: str) -> str:
+    return _escape_data(text).replace(":", "%3A").replace(",", "%2C")

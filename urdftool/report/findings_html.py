@@ -11,9 +11,15 @@ from string import Template
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..lint.outcome import Outcome, Report
-from .findings import NOT_CHECKED, summary
-from .findings_screen import by_weight
-from .findings_words import call_lines, clean, member_lines, remarks, sentence
+from .findings import NOT_CHECKED, summarize
+from .findings_screen import sort_by_severity
+from .findings_words import (
+    call_lines,
+    escape_controls,
+    format_member_lines,
+    format_message,
+    format_remarks,
+)
 
 _PAGE = Path(__file__).with_name("findings_page.html")
 _MOST_LINES = 6
@@ -23,28 +29,28 @@ _LONGEST_LINE = 400
 def to_html(outcome: Outcome) -> str:
     """Format a run as a page: findings by file, with filters by severity and rule."""
     by_file: dict[str, list[Finding]] = {}
-    for finding in by_weight(outcome.findings):
+    for finding in sort_by_severity(outcome.findings):
         by_file.setdefault(finding.location.path, []).append(finding)
-    files = [_unreadable(r) for r in outcome.reports if r.error is not None]
-    files += [_file(path, findings) for path, findings in by_file.items()]
+    files = [_format_unreadable(r) for r in outcome.reports if r.error is not None]
+    files += [_format_file(path, findings) for path, findings in by_file.items()]
     return Template(_PAGE.read_text("utf-8")).substitute(
-        summary=_text(summary(outcome)),
-        filters=_filters(outcome),
+        summary=_escape_text(summarize(outcome)),
+        filters=_format_filters(outcome),
         files="\n".join(files) or "<p>Nothing was found.</p>",
     )
 
 
-def _text(text: str) -> str:
-    return escape(clean(text))
+def _escape_text(text: str) -> str:
+    return escape(escape_controls(text))
 
 
-def _filters(outcome: Outcome) -> str:
+def _format_filters(outcome: Outcome) -> str:
     """Return a check box for each severity, and a list of the rules with their counts."""
     levels = Counter(finding.severity for finding in outcome.findings)
     rules = Counter(finding.code for finding in outcome.findings)
     boxes = [
         f'<label class="{s.label}"><input type="checkbox" value="{s.label}" checked> '
-        f'<span class="level">{_counted(levels[s], s)}</span></label>'
+        f'<span class="level">{_format_counted(levels[s], s)}</span></label>'
         for s in reversed(Severity)
     ]
     options = [
@@ -55,52 +61,54 @@ def _filters(outcome: Outcome) -> str:
     return "\n".join([*boxes, f"{chooser}</select>"])
 
 
-def _counted(count: int, severity: Severity) -> str:
+def _format_counted(count: int, severity: Severity) -> str:
     return f"{count} {severity.label}{'s' if count != 1 and severity != Severity.INFO else ''}"
 
 
-def _file(path: str, findings: list[Finding]) -> str:
-    shown = "\n".join(_finding(finding) for finding in findings)
-    return f"<section>\n<h2>{_text(path)}</h2>\n{shown}\n</section>"
+def _format_file(path: str, findings: list[Finding]) -> str:
+    shown = "\n".join(_format_finding(finding) for finding in findings)
+    return f"<section>\n<h2>{_escape_text(path)}</h2>\n{shown}\n</section>"
 
 
-def _unreadable(report: Report) -> str:
+def _format_unreadable(report: Report) -> str:
     """Format a file that could not be read, which has no finding."""
-    text = _text(report.not_checked)
+    text = _escape_text(report.not_checked)
     return (
-        f"<section>\n<h2>{_text(report.path)}</h2>\n"
+        f"<section>\n<h2>{_escape_text(report.path)}</h2>\n"
         f'<article class="error" data-rule="{NOT_CHECKED}">\n'
         f'<p><span class="level">error</span> {text}; nothing of it was checked</p>\n'
         "</article>\n</section>"
     )
 
 
-def _finding(finding: Finding) -> str:
+def _format_finding(finding: Finding) -> str:
     level, rule = finding.severity.label, escape(finding.code)
-    rows = "".join(f"<dt>{_text(a)}</dt><dd>{_text(b)}</dd>" for a, b in _rows(finding))
+    rows = "".join(
+        f"<dt>{_escape_text(a)}</dt><dd>{_escape_text(b)}</dd>" for a, b in _list_rows(finding)
+    )
     place = f"{finding.location.line}:{finding.location.column}"
     return (
         f'<article class="{level}" data-rule="{rule}">\n'
-        f'<p><span class="level">{level}</span> {_text(sentence(finding))}</p>\n'
+        f'<p><span class="level">{level}</span> {_escape_text(format_message(finding))}</p>\n'
         f'<p class="soft"><code>{place} {rule}</code></p>\n'
-        f"{_source(finding)}<dl>{rows}</dl>\n</article>"
+        f"{_format_source(finding)}<dl>{rows}</dl>\n</article>"
     )
 
 
-def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
+def _list_rows(finding: Finding) -> Iterator[tuple[str, str]]:
     """Yield effects in readers, hint, macro calls and other instances of a finding."""
-    for remark in remarks(finding):
+    for remark in format_remarks(finding):
         label, _, text = remark.partition(": ")
         yield label, text
     for line in call_lines(finding.location.calls):
         yield "from", line
-    for line in member_lines(finding):
+    for line in format_member_lines(finding):
         yield "also", line
     for name, calls in () if finding.members else finding.others:
         yield "also", ", ".join([name, *call_lines(calls[:1])])
 
 
-def _source(finding: Finding) -> str:
+def _format_source(finding: Finding) -> str:
     """Format the source lines of a finding, with the marked bytes highlighted."""
     place = finding.location
     if not place.file.data:
@@ -117,10 +125,11 @@ def _source(finding: Finding) -> str:
         before, marked = text[start:begin], text[begin : min(end, stop)]
         after = text[end:stop]
         lines.append(
-            f"<i>{number:>4} </i>{_code(before)}<mark>{_code(marked)}</mark>{_code(after)}"
+            f"<i>{number:>4} "
+            f"</i>{_format_code(before)}<mark>{_format_code(marked)}</mark>{_format_code(after)}"
         )
     return f"<pre>{chr(10).join(lines)}</pre>\n"
 
 
-def _code(text: str) -> str:
-    return _text(text.expandtabs(4))
+def _format_code(text: str) -> str:
+    return _escape_text(text.expandtabs(4))

@@ -9,7 +9,7 @@ from ..diagnostic import Fix, Severity
 from ..extras import EXTRA_OF
 from ..finding import Finding
 from ..lint.outcome import Outcome
-from .json_text import finite_values, json_text
+from .json_text import format_json, replace_non_finite
 
 
 def to_json(outcome: Outcome) -> str:
@@ -18,7 +18,7 @@ def to_json(outcome: Outcome) -> str:
     counts = {severity: sum(f.severity is severity for f in findings) for severity in Severity}
     table: dict[str, Any] = {
         "version": 1,
-        "findings": [finding_record(finding) for finding in findings],
+        "findings": [build_finding_record(finding) for finding in findings],
         "summary": {
             "files": sum(report.checked for report in reports),
             "errors": counts[Severity.ERROR],
@@ -40,10 +40,10 @@ def to_json(outcome: Outcome) -> str:
         ]
     if outcome.known:
         table["summary"]["baselined"] = len(outcome.known)
-    return json_text(table, 1) + "\n"
+    return format_json(table, 1) + "\n"
 
 
-def finding_record(finding: Finding) -> dict[str, Any]:
+def build_finding_record(finding: Finding) -> dict[str, Any]:
     """Return the JSON form of a finding."""
     line, column = finding.location.file.position(finding.location.start)
     end_line, end_column = finding.location.end_position
@@ -59,26 +59,28 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "element": {"kind": finding.kind, "name": finding.name},
         "targets": list(finding.targets),
         "effects": finding.effects,
-        "expansion": _calls(finding.location.calls),
-        "instances": [{"name": name, "expansion": _calls(calls)} for name, calls in finding.others],
+        "expansion": _collect_calls(finding.location.calls),
+        "instances": [
+            {"name": name, "expansion": _collect_calls(calls)} for name, calls in finding.others
+        ],
         "hint": finding.hint or None,
         "fix": fix_record(finding.fix),
     }
     if finding.data:
-        record["data"] = finite_values(finding.data)
+        record["data"] = replace_non_finite(finding.data)
     if finding.unchecked:
         record["not_checked"] = True
     if finding.variants:
         record["variants"] = list(finding.variants)
     if finding.members and finding.group is not None:
-        members = [_member(member) for member in finding.members]
+        members = [_build_member(member) for member in finding.members]
         record["group"] = {"by": finding.group.by, "count": finding.count, "members": members}
     if finding.consequences:
-        record["consequences"] = [finding_record(found) for found in finding.consequences]
+        record["consequences"] = [build_finding_record(found) for found in finding.consequences]
     return record
 
 
-def _member(member: Finding) -> dict[str, Any]:
+def _build_member(member: Finding) -> dict[str, Any]:
     """Return the JSON form of a member of a group: its own message and location."""
     line, column = member.location.file.position(member.location.start)
     return {
@@ -113,7 +115,7 @@ def fix_record(fix: Fix | None) -> dict[str, Any] | None:
     return record
 
 
-def _calls(calls: Iterable[Any]) -> list[dict[str, Any]]:
+def _collect_calls(calls: Iterable[Any]) -> list[dict[str, Any]]:
     from .expansion import call_record
 
     return [call_record(call) for call in calls]

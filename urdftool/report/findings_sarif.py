@@ -11,13 +11,19 @@ from urllib.parse import quote
 from .. import __version__
 from ..diagnostic import Fix, Severity
 from ..finding import Finding
-from ..lint.fingerprint import fingerprint
+from ..lint.fingerprint import compute_fingerprint
 from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF, get_rule
 from ..source.location import Call, Place
 from .findings import NOT_CHECKED
-from .findings_words import call_words, clean, remarks, sentence, skipped_rules
-from .json_text import json_text
+from .findings_words import (
+    call_words,
+    escape_controls,
+    format_message,
+    format_remarks,
+    list_skipped_rules,
+)
+from .json_text import format_json
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
@@ -25,7 +31,7 @@ _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: 
 
 def to_sarif(outcome: Outcome) -> str:
     """Format a run; findings ignored by comments or in the baseline are suppressed results."""
-    excused = [(finding, _in_source(reason)) for finding, reason in outcome.ignored]
+    excused = [(finding, _build_in_source(reason)) for finding, reason in outcome.ignored]
     excused += [(finding, {"kind": "external"}) for finding in outcome.known]
     found: list[tuple[Finding, list[dict[str, Any]]]] = [
         *((finding, []) for finding in outcome.findings),
@@ -36,25 +42,25 @@ def to_sarif(outcome: Outcome) -> str:
     seen: Counter[tuple[str, str]] = Counter()
     results = []
     for finding, suppressions in found:
-        result = _result(finding, names.index(finding.code), seen)
+        result = _build_result(finding, names.index(finding.code), seen)
         results.append(result | {"suppressions": suppressions} if excused else result)
-    results += [_unreadable(report, names.index(NOT_CHECKED)) for report in unreadable]
+    results += [_build_unreadable(report, names.index(NOT_CHECKED)) for report in unreadable]
     driver = {
         "name": "urdftool",
         "semanticVersion": __version__,
-        "rules": [_rule(name) for name in names],
+        "rules": [_build_rule(name) for name in names],
     }
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
-        "invocations": [_invocation(outcome)],
+        "invocations": [_build_invocation(outcome)],
         "results": results,
     }
     log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
-    return json_text(log, 1) + "\n"
+    return format_json(log, 1) + "\n"
 
 
-def _rule(name: str) -> dict[str, Any]:
+def _build_rule(name: str) -> dict[str, Any]:
     """Return the record of a rule, with its page as help."""
     record: dict[str, Any] = {"id": name}
     if name == NOT_CHECKED:
@@ -67,36 +73,36 @@ def _rule(name: str) -> dict[str, Any]:
         }
     if name not in FAMILY_OF:
         return record
-    from .rule_pages import page, plain
+    from .rule_pages import format_page, remove_markup
 
     rule = get_rule(name)
     return record | {
-        "shortDescription": {"text": plain(rule.fact)},
-        "help": {"text": page(name)},
+        "shortDescription": {"text": remove_markup(rule.fact)},
+        "help": {"text": format_page(name)},
         "defaultConfiguration": {"level": _LEVELS[rule.severity], "enabled": rule.default},
         "properties": {"tags": [rule.family]},
     }
 
 
-def _unreadable(report: Report, index: int) -> dict[str, Any]:
+def _build_unreadable(report: Report, index: int) -> dict[str, Any]:
     """Return the result for a file that could not be read, which has no finding."""
     return {
         "ruleId": NOT_CHECKED,
         "ruleIndex": index,
         "level": "error",
-        "message": {"text": clean(report.not_checked)},
-        "locations": [{"physicalLocation": _file(report.path)}],
+        "message": {"text": escape_controls(report.not_checked)},
+        "locations": [{"physicalLocation": _build_file(report.path)}],
         "partialFingerprints": {"primaryLocationLineHash": f"{NOT_CHECKED}:1"},
     }
 
 
-def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dict[str, Any]:
-    known_by = fingerprint(finding)
+def _build_result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dict[str, Any]:
+    known_by = compute_fingerprint(finding)
     seen[finding.location.path, known_by] += 1
     location: dict[str, Any] = {"physicalLocation": _place(finding.location)}
     if finding.name:
         location["logicalLocations"] = [{"name": finding.name, "kind": finding.kind}]
-    text = "\n".join([sentence(finding), *remarks(finding)])
+    text = "\n".join([format_message(finding), *format_remarks(finding)])
     record = {
         "ruleId": finding.code,
         "ruleIndex": index,
@@ -110,7 +116,8 @@ def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dic
     if finding.fix is not None and not finding.fix.rewrites:  # SARIF fixes can only replace text
         record["fixes"] = [_fix(finding.fix)]
     related = [
-        {**location, "id": number} for number, location in enumerate(_related(finding), start=1)
+        {**location, "id": number}
+        for number, location in enumerate(_list_related(finding), start=1)
     ]
     return record | {"relatedLocations": related} if related else record
 
@@ -126,27 +133,27 @@ def _fix(fix: Fix) -> dict[str, Any]:
             }
         )
     return {
-        "description": {"text": clean(fix.message)},
+        "description": {"text": escape_controls(fix.message)},
         "artifactChanges": [
-            {"artifactLocation": {"uri": uri(path)}, "replacements": replacements}
+            {"artifactLocation": {"uri": format_uri(path)}, "replacements": replacements}
             for path, replacements in by_path.items()
         ],
         "properties": {"applicability": fix.applicability},
     }
 
 
-def _related(finding: Finding) -> Iterator[dict[str, Any]]:
+def _list_related(finding: Finding) -> Iterator[dict[str, Any]]:
     """Yield the locations of macro calls and includes, then of other instances and consequences."""
     for call in finding.location.calls:
         yield _call(call, f"from {call_words(call)}")
     for member in finding.members[1:]:
-        text = clean(member.message)
+        text = escape_controls(member.message)
         yield {"physicalLocation": _place(member.location), "message": {"text": text}}
     for name, calls in () if finding.members else finding.others:
         for call in calls[:1]:
-            yield _call(call, f"also {clean(name)}, from {call_words(call)}")
+            yield _call(call, f"also {escape_controls(name)}, from {call_words(call)}")
     for found in finding.consequences:
-        text = f"{sentence(found)} [{found.code}]"
+        text = f"{format_message(found)} [{found.code}]"
         yield {"physicalLocation": _place(found.location), "message": {"text": text}}
 
 
@@ -155,12 +162,12 @@ def _call(call: Call, text: str) -> dict[str, Any]:
     return {"physicalLocation": _place(place), "message": {"text": text}}
 
 
-def _file(path: str) -> dict[str, Any]:
-    return {"artifactLocation": {"uri": uri(path)}}
+def _build_file(path: str) -> dict[str, Any]:
+    return {"artifactLocation": {"uri": format_uri(path)}}
 
 
 def _place(place: Place) -> dict[str, Any]:
-    where = _file(place.path)
+    where = _build_file(place.path)
     if place.file.data:
         line, column = place.file.position(place.start)
         end_line, end_column = place.end_position
@@ -173,27 +180,27 @@ def _place(place: Place) -> dict[str, Any]:
     return where
 
 
-def uri(path: str) -> str:
+def format_uri(path: str) -> str:
     """Return a path as a URI: relative paths unchanged, absolute ones with ``file://``."""
     quoted = quote(os.fsencode(path.replace(os.sep, "/")))
     return f"file://{quoted}" if os.path.isabs(path) else quoted
 
 
-def _in_source(reason: str) -> dict[str, Any]:
+def _build_in_source(reason: str) -> dict[str, Any]:
     record = {"kind": "inSource"}
-    return record | {"justification": clean(reason)} if reason else record
+    return record | {"justification": escape_controls(reason)} if reason else record
 
 
-def _invocation(outcome: Outcome) -> dict[str, Any]:
+def _build_invocation(outcome: Outcome) -> dict[str, Any]:
     """Return whether all files were read and no rule failed, with notifications."""
     notes = []
     for report in outcome.reports:
-        where = {"physicalLocation": _file(report.path)}
-        said = [clean(report.not_checked)] if report.not_checked else []
-        said += [f"rule {r}: {clean(why)}" for r, why in report.failed_rules.items()]
+        where = {"physicalLocation": _build_file(report.path)}
+        said = [escape_controls(report.not_checked)] if report.not_checked else []
+        said += [f"rule {r}: {escape_controls(why)}" for r, why in report.failed_rules.items()]
         notes += [
             {"level": "error", "message": {"text": text}, "locations": [where]} for text in said
         ]
     record: dict[str, Any] = {"executionSuccessful": not notes}
-    notes += [{"level": "note", "message": {"text": text}} for text in skipped_rules(outcome)]
+    notes += [{"level": "note", "message": {"text": text}} for text in list_skipped_rules(outcome)]
     return record | {"toolExecutionNotifications": notes} if notes else record

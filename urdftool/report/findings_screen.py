@@ -10,8 +10,8 @@ from ..diagnostic import Severity
 from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..rules.table import FIXES
-from .counted import counted
-from .findings import concise, full, severity_counts
+from .counted import format_count
+from .findings import format_concise, format_full, format_severity_counts
 
 SCREEN = 25
 """Maximum number of lines for one family of rules, unless all are requested."""
@@ -22,7 +22,7 @@ MANY = 8
 _RULES = 3
 
 
-def by_weight(findings: Iterable[Finding]) -> list[Finding]:
+def sort_by_severity(findings: Iterable[Finding]) -> list[Finding]:
     """Sort findings by file, then by severity, errors first; those of one rule stay together."""
     findings = list(findings)
     first: dict[tuple[str, Severity, str], int] = {}
@@ -38,7 +38,7 @@ def by_weight(findings: Iterable[Finding]) -> list[Finding]:
     return sorted(findings, key=weight)
 
 
-def screen(
+def format_screen(
     findings: Iterable[Finding], style: str, *, colors: bool = False, whole: bool = False
 ) -> Iterator[str]:
     """Yield the lines of findings, sorted by severity.
@@ -50,11 +50,11 @@ def screen(
         whole: Whether to show all of them; otherwise a family that needs more lines than a screen
             gets one line for each finding, errors first, and the number of omitted findings.
     """
-    shown = by_weight(findings)
+    shown = sort_by_severity(findings)
     if style == "full":
-        blocks = [list(full([finding], colors=colors, whole=whole)) for finding in shown]
+        blocks = [list(format_full([finding], colors=colors, whole=whole)) for finding in shown]
     else:
-        blocks = [[line] for line in concise(shown, colors=colors)]
+        blocks = [[line] for line in format_concise(shown, colors=colors)]
     left: dict[str, list[Finding]] = {}
     lengths = [len(block) for block in blocks]
     if not whole:
@@ -66,13 +66,16 @@ def screen(
             cut = _fit(numbers, blocks)
             if cut:
                 left[family] = [shown[number] for number in cut]
-    yield from _joined(blocks) if style == "full" else chain.from_iterable(blocks)
+    yield from _join(blocks) if style == "full" else chain.from_iterable(blocks)
     short = sum(len(b) == 1 < length for b, length in zip(blocks, lengths, strict=True))
     if short:
         what = "1 finding is" if short == 1 else f"{short} findings are"
         yield f"{what} shown in one line; --all shows all details"
     for family, findings in left.items():
-        yield f"{len(findings)} more of {family}: {severity_counts(findings)}; --all shows them"
+        yield (
+            f"{len(findings)} more of {family}: {format_severity_counts(findings)}; --all shows "
+            "them"
+        )
     if style == "full" and (short or left):
         yield ""
 
@@ -99,7 +102,7 @@ def _fit(numbers: Sequence[int], blocks: list[list[str]]) -> Sequence[int]:
     return numbers[room:]
 
 
-def _joined(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
+def _join(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
     """Join blocks, with a blank line around those of several lines."""
     headlines = False
     for block in blocks:
@@ -112,7 +115,7 @@ def _joined(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
         yield ""
 
 
-def advice(findings: Sequence[Finding]) -> Iterator[str]:
+def format_advice(findings: Sequence[Finding]) -> Iterator[str]:
     """Yield the rules with the most findings and their remedies; nothing for few findings."""
     if len(findings) <= MANY:
         return
@@ -133,9 +136,9 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
         fix = f"{min(fixes, key=len)}, or " if fixes else ""
         yield f"  {count:>4}  {rule:<{width}}  {fix}--ignore {rule}"
     if safe:
-        yield f"--fix --diff shows {counted(safe, 'safe fix', 'safe fixes')}"
+        yield f"--fix --diff shows {format_count(safe, 'safe fix', 'safe fixes')}"
     if unsafe:
-        what = counted(unsafe, "unsafe fix", "unsafe fixes")
+        what = format_count(unsafe, "unsafe fix", "unsafe fixes")
         yield f"--fix --unsafe-fixes --diff shows {what}{' as well' if safe else ''}"
     if meshes:
-        yield f"--fix-meshes adds {counted(meshes, 'fix', 'fixes')} of mesh files"
+        yield f"--fix-meshes adds {format_count(meshes, 'fix', 'fixes')} of mesh files"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from ..extras import missing
+from ..extras import make_missing_error
 from ..finding import Finding
 from ..source.location import Call
 
@@ -15,66 +15,68 @@ if TYPE_CHECKING:
 _LONGEST_CALL = 90
 
 
-def clean(text: str) -> str:
+def escape_controls(text: str) -> str:
     """Escape control characters in text from a file, for output to a terminal."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def sentence(finding: Finding) -> str:
+def format_message(finding: Finding) -> str:
     """Return the message, with the number of instances, the variants, and what it prevented."""
     several = finding.expansions > 1 and not finding.members
     times = f" (in {finding.expansions} expansions)" if several else ""
-    only = f" (only with {clean('; '.join(finding.variants))})" if finding.variants else ""
+    only = (
+        f" (only with {escape_controls('; '.join(finding.variants))})" if finding.variants else ""
+    )
     alone = "; nothing else in this description was checked" if finding.unchecked else ""
-    return f"{clean(finding.message)}{times}{only}{alone}"
+    return f"{escape_controls(finding.message)}{times}{only}{alone}"
 
 
-def remarks(finding: Finding) -> Iterator[str]:
+def format_remarks(finding: Finding) -> Iterator[str]:
     """Yield a line for each reader's behavior, the hint, the fix and each consequence."""
     for reader, effect in finding.effects.items():
         yield f"{reader}: {effect}"
     if finding.hint:
-        yield f"hint: {clean(finding.hint)}"
+        yield f"hint: {escape_controls(finding.hint)}"
     if finding.fix is not None:
-        yield f"fix: {clean(finding.fix.message)} ({finding.fix.option})"
+        yield f"fix: {escape_controls(finding.fix.message)} ({finding.fix.option})"
     for consequence in finding.consequences:
-        yield f"so: {sentence(consequence)} [{consequence.code}]"
+        yield f"so: {format_message(consequence)} [{consequence.code}]"
 
 
-def member_lines(finding: Finding) -> Iterator[str]:
+def format_member_lines(finding: Finding) -> Iterator[str]:
     """Yield ``FILE:LINE:COLUMN: MESSAGE`` for each member of a group but the first.
 
     If the sentence of the group covers the messages, only the name of the member follows.
     """
     for member in finding.members[1:]:
-        text = clean(member.message)
+        text = escape_controls(member.message)
         if finding.group is not None and finding.group.sentence:
-            text = f"'{clean(member.name)}'" if member.name else ""
-        yield f"{clean(str(member.location))}: {text}".removesuffix(": ")
+            text = f"'{escape_controls(member.name)}'" if member.name else ""
+        yield f"{escape_controls(str(member.location))}: {text}".removesuffix(": ")
 
 
 def call_words(call: Call) -> str:
     """Format a call as ``macro 'name' argument=value``, or ``include``."""
-    what = clean(call.what)
+    what = escape_controls(call.what)
     return what if len(what) < _LONGEST_CALL else what[: _LONGEST_CALL - 3] + "…"
 
 
 def call_lines(calls: Iterable[Call]) -> Iterator[str]:
     """Yield ``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
     for call in calls:
-        yield f"{clean(call.file.path)}:{call.line}:{call.column}: {call_words(call)}"
+        yield f"{escape_controls(call.file.path)}:{call.line}:{call.column}: {call_words(call)}"
 
 
-def skipped_rules(outcome: Outcome) -> list[str]:
+def list_skipped_rules(outcome: Outcome) -> list[str]:
     """List the rules that require a library that is not installed: a sentence for each library."""
     rules: dict[str, list[str]] = {}
     for rule, library in outcome.skipped_rules.items():
         rules.setdefault(library, []).append(rule)
     return [
         str(
-            missing(
+            make_missing_error(
                 library,
                 f"not checked: {'rule' if len(names) == 1 else 'each of the rules'} "
                 f"{', '.join(names)}",

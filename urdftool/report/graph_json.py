@@ -10,7 +10,7 @@ from ..graph.faults import Fault
 from ..graph.figure import Edge, Figure, Node
 from ..model.elements import Robot
 from ..source.location import Place
-from .json_text import json_text
+from .json_text import format_json
 
 
 def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
@@ -18,41 +18,41 @@ def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
     graph = {
         "version": 1,
         "name": robot.name,
-        "nodes": [_node(node) for node in figure.nodes.values()],
-        "edges": [_edge(edge) for edge in figure.edges],
-        "faults": [{"message": fault.message, **_where(fault.location)} for fault in faults],
-        "findings": [_finding(finding) for finding in figure.findings],
+        "nodes": [_build_node(node) for node in figure.nodes.values()],
+        "edges": [_build_edge(edge) for edge in figure.edges],
+        "faults": [{"message": fault.message, **_build_where(fault.location)} for fault in faults],
+        "findings": [_build_finding(finding) for finding in figure.findings],
     }
-    return json_text(graph, 1) + "\n"
+    return format_json(graph, 1) + "\n"
 
 
-def _node(node: Node) -> dict[str, Any]:
+def _build_node(node: Node) -> dict[str, Any]:
     return {
         "key": node.key,
         "kind": node.kind,
         "name": node.name,
-        **_where(node.place),
+        **_build_where(node.place),
         "folded": node.members,
         "facts": node.facts,
         "faults": node.faults,
-        "findings": [_finding(finding) for finding in node.findings],
+        "findings": [_build_finding(finding) for finding in node.findings],
     }
 
 
-def _edge(edge: Edge) -> dict[str, Any]:
+def _build_edge(edge: Edge) -> dict[str, Any]:
     return {"from": edge.tail, "to": edge.head, "kind": edge.kind}
 
 
-def _finding(finding: Finding) -> dict[str, Any]:
+def _build_finding(finding: Finding) -> dict[str, Any]:
     return {
         "rule": finding.code,
         "severity": finding.severity.label,
         "message": finding.message,
-        **_where(finding.location),
+        **_build_where(finding.location),
     }
 
 
-def _where(place: Place | None) -> dict[str, Any]:
+def _build_where(place: Place | None) -> dict[str, Any]:
     if place is None:
         return {"path": None, "line": None, "column": None}
     line, column = place.file.position(place.start)

@@ -6,103 +6,104 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from ..inertia.rounding import number_text, numbers_text, round_number
+from ..inertia.rounding import format_numbers_text, number_text, round_number
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import COMPONENTS, SymmetricTensor, components_of, principal_axes
+from ..mechanics.tensor import COMPONENTS, SymmetricTensor, compute_principal_axes, get_components
 
 
-def urdf(properties: SpatialInertia) -> str:
+def format_urdf(properties: SpatialInertia) -> str:
     """Format the ``<inertial>`` of a URDF link, along the link's axes."""
-    six = components_of(properties.tensor)
+    six = get_components(properties.tensor)
     return (
         "<inertial>\n"
-        f'  <origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>\n'
+        f'  <origin xyz="{format_numbers_text(properties.com)}" rpy="0 0 0"/>\n'
         f'  <mass value="{number_text(properties.mass)}"/>\n'
-        f"  <inertia {_attributes(six)}/>\n"
+        f"  <inertia {_format_attributes(six)}/>\n"
         "</inertial>\n"
     )
 
 
-def sdf(properties: SpatialInertia) -> str:
+def format_sdf(properties: SpatialInertia) -> str:
     """Format the ``<inertial>`` of an SDF link."""
-    six = components_of(properties.tensor)
+    six = get_components(properties.tensor)
     rows = "".join(f"    <{name}>{number_text(six[name])}</{name}>\n" for name in COMPONENTS)
     return (
         "<inertial>\n"
-        f"  <pose>{numbers_text(properties.com)} 0 0 0</pose>\n"
+        f"  <pose>{format_numbers_text(properties.com)} 0 0 0</pose>\n"
         f"  <mass>{number_text(properties.mass)}</mass>\n"
         f"  <inertia>\n{rows}  </inertia>\n"
         "</inertial>\n"
     )
 
 
-def mjcf(properties: SpatialInertia) -> str:
+def format_mjcf(properties: SpatialInertia) -> str:
     """Format the ``<inertial>`` of an MJCF body; ``fullinertia`` has the diagonal first."""
-    six = components_of(properties.tensor)
+    six = get_components(properties.tensor)
     diagonal = [six[name] for name in ("ixx", "iyy", "izz")]
     products = [six[name] for name in ("ixy", "ixz", "iyz")]
     if any(products):
-        tensor = f'fullinertia="{numbers_text((*diagonal, *products))}"'
+        tensor = f'fullinertia="{format_numbers_text((*diagonal, *products))}"'
     else:
-        tensor = f'diaginertia="{numbers_text(diagonal)}"'
+        tensor = f'diaginertia="{format_numbers_text(diagonal)}"'
     return (
-        f'<inertial pos="{numbers_text(properties.com)}" mass="{number_text(properties.mass)}" '
+        f'<inertial pos="{format_numbers_text(properties.com)}" '
+        f'mass="{number_text(properties.mass)}" '
         f"{tensor}/>\n"
     )
 
 
 def as_json(properties: SpatialInertia, facts: Mapping[str, Any]) -> str:
     """Format mass properties, derived values and additional facts as one object."""
-    return json.dumps({"version": 1, **numbers(properties), **facts}, indent=2) + "\n"
+    return json.dumps({"version": 1, **build_numbers(properties), **facts}, indent=2) + "\n"
 
 
-def numbers(properties: SpatialInertia) -> dict[str, Any]:
+def build_numbers(properties: SpatialInertia) -> dict[str, Any]:
     """Return the JSON form of mass properties, with derived values."""
-    moments, axes = principal_axes(properties.tensor)
+    moments, axes = compute_principal_axes(properties.tensor)
     return {
         **properties.as_dict(),
-        "inertia_about_origin": _rounded_components(properties.about_origin),
+        "inertia_about_origin": _collect_rounded_components(properties.about_origin),
         "principal_moments": [round_number(float(moment)) for moment in moments],
         "principal_axes": [[float(value) for value in axis] for axis in axes.T],
     }
 
 
-def table(title: str, properties: SpatialInertia, facts: Mapping[str, str]) -> str:
+def format_table(title: str, properties: SpatialInertia, facts: Mapping[str, str]) -> str:
     """Format all values, one line each, with six digits."""
-    found = numbers(properties)
+    found = build_numbers(properties)
     rows = {
         "mass": f"{found['mass']:.6g} kg",
         **facts,
-        "centre of mass": f"{_shown(found['com'])} m",
+        "centre of mass": f"{_format_shown(found['com'])} m",
     }
     for label, six in (
         ("about the centre of mass", found["inertia"]),
         ("about the origin", found["inertia_about_origin"]),
     ):
-        rows[label] = "ixx, iyy, izz  " + _shown(six[name] for name in ("ixx", "iyy", "izz"))
+        rows[label] = "ixx, iyy, izz  " + _format_shown(six[name] for name in ("ixx", "iyy", "izz"))
         rows[label] += "  kg m²"
         if any(six[name] for name in ("ixy", "ixz", "iyz")):
-            products = _shown(six[name] for name in ("ixy", "ixz", "iyz"))
+            products = _format_shown(six[name] for name in ("ixy", "ixz", "iyz"))
             rows[f"{label}, products"] = f"ixy, ixz, iyz  {products}  kg m²"
-    rows["principal moments"] = f"{_shown(found['principal_moments'])}  kg m²"
+    rows["principal moments"] = f"{_format_shown(found['principal_moments'])}  kg m²"
     width = max(map(len, rows))
     return "".join([f"{title}\n", *(f"  {key:<{width}}  {value}\n" for key, value in rows.items())])
 
 
-def summary(what: str, properties: SpatialInertia) -> str:
+def format_summary(what: str, properties: SpatialInertia) -> str:
     """Format mass and moments in one line, with six digits."""
-    six = components_of(properties.tensor)
+    six = get_components(properties.tensor)
     moments = ", ".join(f"{name} {six[name]:.6g}" for name in ("ixx", "iyy", "izz"))
     return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the centre of mass"
 
 
-def _rounded_components(tensor: SymmetricTensor) -> dict[str, float]:
-    return {name: round_number(value) for name, value in components_of(tensor).items()}
+def _collect_rounded_components(tensor: SymmetricTensor) -> dict[str, float]:
+    return {name: round_number(value) for name, value in get_components(tensor).items()}
 
 
-def _attributes(six: Mapping[str, float]) -> str:
+def _format_attributes(six: Mapping[str, float]) -> str:
     return " ".join(f'{name}="{number_text(six[name])}"' for name in COMPONENTS)
 
 
-def _shown(values: Any) -> str:
+def _format_shown(values: Any) -> str:
     return " ".join(f"{value:.6g}" for value in values)

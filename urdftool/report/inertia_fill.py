@@ -6,24 +6,24 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..inertia.fill import Filling, Refusal
-from ..mechanics.tensor import components_of
+from ..mechanics.tensor import get_components
 from ..model.elements import Robot
-from .counted import counted
-from .findings import clean
+from .counted import format_count
+from .findings import escape_controls
 from .inertia_robot import place_dict
-from .json_text import json_text
+from .json_text import format_json
 from .tables import render_table
 
 
-def text(filling: Filling) -> str:
+def format_text(filling: Filling) -> str:
     """Format a row for each written link."""
     rows: list[tuple[str, ...]] = [("link", "mass [kg]", "ixx", "iyy", "izz", "from")]
     for wanted in filling.written:
-        six = components_of(wanted.result.tensor)
+        six = get_components(wanted.result.tensor)
         body = wanted.item.body
         rows.append(
             (
-                clean(wanted.link.name),
+                escape_controls(wanted.link.name),
                 f"{wanted.result.mass:.6g}",
                 *(f"{six[name]:.6g}" for name in ("ixx", "iyy", "izz")),
                 "" if body is None else body.source + ("" if body.reliable else " (unsure)"),
@@ -34,20 +34,26 @@ def text(filling: Filling) -> str:
     return render_table(rows, left=(0, 5))
 
 
-def remarks(filling: Filling) -> Iterator[str]:
+def format_remarks(filling: Filling) -> Iterator[str]:
     """Yield the links that were not written, with reasons and advice for manual edits."""
     for refusal in filling.left:
-        yield f"{refusal.place}: link '{clean(refusal.link)}' is left as it is: {refusal.reason}"
+        yield (
+            f"{refusal.place}: link '{escape_controls(refusal.link)}' is left as it is: "
+            f"{refusal.reason}"
+        )
     for refusal in filling.refused:
-        yield f"{refusal.place}: link '{clean(refusal.link)}' is not edited: {refusal.reason}"
+        yield (
+            f"{refusal.place}: link '{escape_controls(refusal.link)}' is not edited: "
+            f"{refusal.reason}"
+        )
         for place, advice in refusal.advice:
             yield f"  {place}: {advice}"
 
 
-def summary(filling: Filling, files: Sequence[str]) -> str:
+def summarize(filling: Filling, files: Sequence[str]) -> str:
     """Summarize the counts and the changed files."""
     count = len(filling.written)
-    parts = [f"{counted(count, 'link')} written"]
+    parts = [f"{format_count(count, 'link')} written"]
     if filling.unchanged:
         parts.append(f"{len(filling.unchanged)} as they were")
     if filling.left:
@@ -76,13 +82,13 @@ def as_json(filling: Filling, robot: Robot) -> str:
             for wanted in filling.written
         ],
         "unchanged": filling.unchanged,
-        "left": [_refusal(refusal) for refusal in filling.left],
-        "refused": [_refusal(refusal) for refusal in filling.refused],
+        "left": [_build_refusal(refusal) for refusal in filling.left],
+        "refused": [_build_refusal(refusal) for refusal in filling.refused],
     }
-    return json_text(found, 1) + "\n"
+    return format_json(found, 1) + "\n"
 
 
-def _refusal(refusal: Refusal) -> dict[str, Any]:
+def _build_refusal(refusal: Refusal) -> dict[str, Any]:
     return {
         "name": refusal.link,
         **place_dict(refusal.place),

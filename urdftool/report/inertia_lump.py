@@ -9,27 +9,27 @@ from ..inertia.rounding import round_properties
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import COMPONENTS
 from ..model.elements import Robot
-from .findings import clean
-from .inertia import numbers
-from .json_text import json_text
+from .findings import escape_controls
+from .inertia import build_numbers
+from .json_text import format_json
 from .tables import render_table
 
 _HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *COMPONENTS[:5], "izz [kg m²]")
 
 
-def table(lumped: Lumped) -> str:
+def format_table(lumped: Lumped) -> str:
     """Format a row for each rigid body in the frame of its first link, and one for the whole."""
     rows: list[tuple[str, ...]] = [_HEADS]
     rows += [
-        (clean(body.link), str(len(body.members)), *_cells(body.properties))
+        (escape_controls(body.link), str(len(body.members)), *_collect_cells(body.properties))
         for body in lumped.lumps
     ]
     count = str(sum(len(body.members) for body in lumped.lumps))
-    rows.append((f"whole, in {clean(lumped.root)}", count, *_cells(lumped.whole)))
+    rows.append((f"whole, in {escape_controls(lumped.root)}", count, *_collect_cells(lumped.whole)))
     return render_table(rows)
 
 
-def _cells(properties: SpatialInertia | None) -> tuple[str, ...]:
+def _collect_cells(properties: SpatialInertia | None) -> tuple[str, ...]:
     if properties is None:
         return ("–",) * (len(_HEADS) - 2)
     values = (properties.mass, *properties.com, *properties.tensor)
@@ -45,19 +45,23 @@ def as_json(lumped: Lumped, robot: Robot) -> str:
         "path": robot.source.path,
         "positions": lumped.positions,
         "bodies": [
-            {"link": body.link, "links": list(body.members), "properties": _dict(body.properties)}
+            {
+                "link": body.link,
+                "links": list(body.members),
+                "properties": _build_dict(body.properties),
+            }
             for body in lumped.lumps
         ],
-        "whole": {"frame": lumped.root, "properties": _dict(lumped.whole)},
+        "whole": {"frame": lumped.root, "properties": _build_dict(lumped.whole)},
         "notes": list(lumped.notes),
     }
-    return json_text(found, 1) + "\n"
+    return format_json(found, 1) + "\n"
 
 
-def _dict(properties: SpatialInertia | None) -> dict[str, Any] | None:
+def _build_dict(properties: SpatialInertia | None) -> dict[str, Any] | None:
     if properties is None:
         return None
     try:
-        return numbers(round_properties(properties))
+        return build_numbers(round_properties(properties))
     except ValueError:  # inconsistent mass properties, which the notes report
-        return numbers(properties)
+        return build_numbers(properties)

@@ -10,13 +10,13 @@ from ..inertia.comparison import Comparison
 from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import components_of
+from ..mechanics.tensor import get_components
 from ..mechanics.typo_detection import Proposal
 from ..source.location import Place
-from .counted import counted
-from .findings import Painter, clean
-from .inertia import numbers
-from .json_text import json_text
+from .counted import format_count
+from .findings import Painter, escape_controls
+from .inertia import build_numbers
+from .json_text import format_json
 from .tables import Cell, render_table
 
 HEADS = (
@@ -34,15 +34,18 @@ _COLORS = {"wrong": "red", "doubtful": "yellow", "incomplete": "yellow", "missin
 _LONGEST_NAME = 40
 
 
-def table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:
+def format_table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:
     """Format a row for each link, with four digits."""
     rows: list[Sequence[Cell]] = [(*HEADS, ""), (*UNITS, "")]
-    rows += [(*_cells(item), (_verdict(item), _COLORS.get(item.status))) for item in reviews]
+    rows += [
+        (*_collect_cells(item), (_format_verdict(item), _COLORS.get(item.status)))
+        for item in reviews
+    ]
     return render_table(rows, left=(0, 7, 8), colors=colors)
 
 
-def _cells(item: LinkReview) -> tuple[str, ...]:
-    name = clean(item.link.name)
+def _collect_cells(item: LinkReview) -> tuple[str, ...]:
+    name = escape_controls(item.link.name)
     name = name if len(name) <= _LONGEST_NAME else name[: _LONGEST_NAME - 1] + "…"
     inertial = item.link.inertial
     written = "–" if inertial is None or inertial.mass is None else f"{inertial.mass:.4g}"
@@ -54,10 +57,10 @@ def _cells(item: LinkReview) -> tuple[str, ...]:
             source += " (lacks)"
         elif not item.body.reliable:
             source += " (unsure)"
-    return (name, written, implied, *_compared(item.comparison, item), source)
+    return (name, written, implied, *_collect_compared(item.comparison, item), source)
 
 
-def _compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str, str, str]:
+def _collect_compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str, str, str]:
     if comparison is None:
         density = ""
         if item.implied is not None and item.body is not None:
@@ -71,7 +74,7 @@ def _compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str
     )
 
 
-def _verdict(item: LinkReview) -> str:
+def _format_verdict(item: LinkReview) -> str:
     status = item.status
     if status == "wrong":
         return "CANNOT BE: " + ", ".join(dict.fromkeys(fault.code for fault in item.faults))
@@ -84,15 +87,17 @@ def _verdict(item: LinkReview) -> str:
     return "" if status == "ok" else status
 
 
-def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[str]:
+def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[str]:
     """Yield faults with proposals, notes, and geometry that cannot be read."""
     paint = Painter(colors)
     said: dict[tuple[str, str], list[str]] = {}
     for item in reviews:
         for fault in item.faults:
-            said.setdefault((str(fault.location), fault.code), []).append(clean(item.link.name))
+            said.setdefault((str(fault.location), fault.code), []).append(
+                escape_controls(item.link.name)
+            )
     for item in reviews:
-        name = clean(item.link.name)
+        name = escape_controls(item.link.name)
         for fault in item.faults:
             names = said.pop((str(fault.location), fault.code), [])
             if names:
@@ -101,14 +106,20 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
         if item.proposal is not None:
             at = item.link.inertial.inertia if item.link.inertial else None
             if not item.faults and at is not None:
-                yield f"{at.place}: link '{name}': {paint('doubtful', 'yellow')}: " + _far(item)
+                yield (
+                    f"{at.place}: link '{name}': {paint('doubtful', 'yellow')}: "
+                    + _format_distance(item)
+                )
             yield f"  probably meant: {item.proposal.sentence}"
-            rounded = _tidied(SpatialInertia(1.0, tensor=item.proposal.tensor))
-            six = components_of(rounded.tensor)
+            rounded = _round_noise(SpatialInertia(1.0, tensor=item.proposal.tensor))
+            six = get_components(rounded.tensor)
             written = " ".join(f'{key}="{number_text(value)}"' for key, value in six.items())
             yield f"  <inertia {written}/>"
         elif item.faults and item.implied is not None and item.faults[-1].code != "unreadable":
-            yield f"  its geometry implies, at {item.implied.mass:.6g} kg: {_short(item.implied)}"
+            yield (
+                f"  its geometry implies, at {item.implied.mass:.6g} kg: "
+                f"{_format_short(item.implied)}"
+            )
         for note in item.notes:
             yield f"{item.link.place}: link '{name}': {note}"
         if item.body is not None:
@@ -125,24 +136,24 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
                     yield f"{piece.shape.place}: link '{name}': {piece.suspicion.message}"
 
 
-def _far(item: LinkReview) -> str:
+def _format_distance(item: LinkReview) -> str:
     ratio = " ".join(f"{value:.3g}" for value in item.comparison.ratio) if item.comparison else ""
     return f"a body may have this inertia, but it is {ratio} times what the geometry implies"
 
 
-def _tidied(properties: SpatialInertia) -> SpatialInertia:
+def _round_noise(properties: SpatialInertia) -> SpatialInertia:
     try:
         return round_properties(properties)
     except ValueError:
         return properties
 
 
-def _short(properties: SpatialInertia) -> str:
-    six = components_of(properties.tensor)
+def _format_short(properties: SpatialInertia) -> str:
+    six = get_components(properties.tensor)
     return ", ".join(f"{name} {value:.6g}" for name, value in six.items())
 
 
-def summary(reviews: Sequence[LinkReview]) -> str:
+def summarize(reviews: Sequence[LinkReview]) -> str:
     """Summarize the counts and the total mass in one line."""
     counts = {
         label: sum(item.status == status for item in reviews)
@@ -155,13 +166,13 @@ def summary(reviews: Sequence[LinkReview]) -> str:
         )
     }
     written = math.fsum(item.link.mass for item in reviews)
-    parts = [counted(len(reviews), "link"), f"{written:.6g} kg written"]
+    parts = [format_count(len(reviews), "link"), f"{written:.6g} kg written"]
     planned = math.fsum(item.mass or 0.0 for item in reviews)
     if not math.isclose(planned, written, rel_tol=1e-9, abs_tol=1e-12):
         parts.append(f"{planned:.6g} kg wanted")
     frames = counts.pop("frame")
     parts += [f"{count} {label}" for label, count in counts.items() if count]
-    parts += [counted(frames, "frame")] if frames else []
+    parts += [format_count(frames, "frame")] if frames else []
     return ", ".join(parts)
 
 
@@ -186,7 +197,7 @@ def as_dict(reviews: Sequence[LinkReview], name: str, path: str) -> dict[str, An
 
 def as_json(found: dict[str, Any]) -> str:
     """Format the JSON form as text."""
-    return json_text(found, 1) + "\n"
+    return format_json(found, 1) + "\n"
 
 
 def place_dict(place: Place) -> dict[str, Any]:
@@ -194,22 +205,22 @@ def place_dict(place: Place) -> dict[str, Any]:
     return {"path": place.path, "line": place.line, "column": place.column}
 
 
-def _proposal(proposal: Proposal | None) -> dict[str, Any] | None:
+def _build_proposal(proposal: Proposal | None) -> dict[str, Any] | None:
     """Return the JSON form: kind, sentence and the six numbers [kg·m²]."""
     if proposal is None:
         return None
     return {
         "kind": proposal.kind,
         "sentence": proposal.sentence,
-        "inertia": components_of(proposal.tensor),
+        "inertia": get_components(proposal.tensor),
     }
 
 
-def _implied(item: LinkReview) -> dict[str, Any] | None:
+def _build_implied(item: LinkReview) -> dict[str, Any] | None:
     """Return the mass properties that the geometry implies; None if they are not finite."""
     if item.implied is None or not all(map(math.isfinite, item.implied.tensor)):
         return None
-    return numbers(_tidied(item.implied))
+    return build_numbers(_round_noise(item.implied))
 
 
 def _link(item: LinkReview) -> dict[str, Any]:
@@ -223,14 +234,14 @@ def _link(item: LinkReview) -> dict[str, Any]:
         "reliable": body.reliable if body is not None else None,
         "mass": item.mass,
         "written": item.written.as_dict() if item.written is not None else None,
-        "implied": _implied(item),
+        "implied": _build_implied(item),
         "comparison": item.comparison.as_dict() if item.comparison is not None else None,
         "missing": list(item.missing),
         "faults": [
             {"kind": fault.code, "message": fault.message, **place_dict(fault.location)}
             for fault in item.faults
         ],
-        "proposal": _proposal(item.proposal),
+        "proposal": _build_proposal(item.proposal),
         "pieces": [
             {
                 "what": piece.what,

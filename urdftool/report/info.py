@@ -10,17 +10,17 @@ from typing import Any
 from ..info.counts import Counts, Named
 from ..info.size import Measured
 from ..model.elements import Robot
-from .counted import counted
-from .findings import Painter, clean
-from .json_text import json_text
+from .counted import format_count
+from .findings import Painter, escape_controls
+from .json_text import format_json
 
 _MOST = 6
 
 
-def table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = False) -> str:
+def format_table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = False) -> str:
     """Format the properties, one line each."""
     paint = Painter(colors)
-    rows = list(_rows(robot, counts, measured))
+    rows = list(_list_rows(robot, counts, measured))
     width = max(len(label) for label, _ in rows)
     lines = []
     before = ""
@@ -31,74 +31,85 @@ def table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = Fa
     return "".join(f"{line}\n" for line in lines)
 
 
-def _rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tuple[str, str]]:
-    yield "robot", clean(robot.name) or "no name"
+def _list_rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tuple[str, str]]:
+    yield "robot", escape_controls(robot.name) or "no name"
     bodies = counts.links - counts.frames
-    frames = f": {bodies} with mass or shape, {counted(counts.frames, 'mere frame')}"
+    frames = f": {bodies} with mass or shape, {format_count(counts.frames, 'mere frame')}"
     yield "links", f"{counts.links}{frames if counts.frames else ''}"
-    types = ", ".join(f"{n} {clean(kind) or 'without type'}" for kind, n in counts.joints.items())
-    mimics = f"; {counted(counts.mimics, 'mimic')}" if counts.mimics else ""
+    types = ", ".join(
+        f"{n} {escape_controls(kind) or 'without type'}" for kind, n in counts.joints.items()
+    )
+    mimics = f"; {format_count(counts.mimics, 'mimic')}" if counts.mimics else ""
     yield "joints", f"{sum(counts.joints.values())}" + (f": {types}{mimics}" if types else "")
     yield "degrees of freedom", str(counts.freedom)
     if len(counts.roots) == 1:
-        yield "tree", f"from {clean(counts.roots[0])}, {counted(counts.depth, 'joint')} deep"
+        yield (
+            "tree",
+            f"from {escape_controls(counts.roots[0])}, {format_count(counts.depth, 'joint')} deep",
+        )
     else:
-        roots = _listed(counts.roots)
-        yield "tree", f"{counted(len(counts.roots), 'root')}{': ' * bool(roots)}{roots}"
+        roots = _format_listed(counts.roots)
+        yield "tree", f"{format_count(len(counts.roots), 'root')}{': ' * bool(roots)}{roots}"
     if robot.closures:
-        yield "closed loops", _listed([closure.name or "no name" for closure in robot.closures])
+        yield (
+            "closed loops",
+            _format_listed([closure.name or "no name" for closure in robot.closures]),
+        )
     if robot.joint_actuators:
-        yield "actuators", _listed([one.name or one.joint for one in robot.joint_actuators])
-    without = f"; {counted(counts.massless, 'link')} without" if counts.massless else ""
+        yield "actuators", _format_listed([one.name or one.joint for one in robot.joint_actuators])
+    without = f"; {format_count(counts.massless, 'link')} without" if counts.massless else ""
     yield "mass", f"{counts.mass:.6g} kg{without}"
-    yield "size at zero pose", _size(counts, measured)
-    yield "meshes", _meshes(measured)
+    yield "size at zero pose", _format_size(counts, measured)
+    yield "meshes", _format_meshes(measured)
     for mesh in measured.meshes:
         if mesh.reason:
-            yield "meshes", f"not read: {clean(mesh.uri)}: {clean(mesh.reason)}"
+            yield "meshes", f"not read: {escape_controls(mesh.uri)}: {escape_controls(mesh.reason)}"
     for name, folder in counts.packages.items():
-        yield "packages", f"{clean(name)}  {'not found' if folder is None else _short(folder)}"
-    yield from (("plugins", line) for line in _named(counts.plugins))
-    yield from (("sensors", line) for line in _named(counts.sensors))
-    yield from (("ros2_control", line) for line in _named(counts.hardware))
+        yield (
+            "packages",
+            f"{escape_controls(name)}  {'not found' if folder is None else _format_short(folder)}",
+        )
+    yield from (("plugins", line) for line in _format_named(counts.plugins))
+    yield from (("sensors", line) for line in _format_named(counts.sensors))
+    yield from (("ros2_control", line) for line in _format_named(counts.hardware))
     if counts.transmissions:
-        yield "transmissions", _listed(counts.transmissions)
+        yield "transmissions", _format_listed(counts.transmissions)
 
 
-def _size(counts: Counts, measured: Measured) -> str:
+def _format_size(counts: Counts, measured: Measured) -> str:
     if measured.bounds is None:
         return "no shape that could be read"
     size = " × ".join(f"{round(length, 6):.4g}" for length in measured.bounds.size)
     missing = sum(bool(mesh.reason) for mesh in measured.meshes)
-    lacks = f", without {counted(missing, 'mesh', 'meshes')}" if missing else ""
+    lacks = f", without {format_count(missing, 'mesh', 'meshes')}" if missing else ""
     lowest = f"; lowest point at z = {round(measured.bounds.low[2], 6) + 0.0:.4g} m"
     return f"{size} m along the root's x, y, z{lowest}{lacks}"
 
 
-def _meshes(measured: Measured) -> str:
+def _format_meshes(measured: Measured) -> str:
     if not measured.meshes:
         return "none"
-    files = counted(len(measured.meshes), "file")
+    files = format_count(len(measured.meshes), "file")
     shown, touched = measured.triangles("visuals"), measured.triangles("collisions")
     return f"{files}; {shown:,} triangles in visuals, {touched:,} in collisions"
 
 
-def _named(things: Iterable[Named]) -> Iterator[str]:
+def _format_named(things: Iterable[Named]) -> Iterator[str]:
     for thing in things:
-        on = f" on {clean(thing.on)}" if thing.on is not None else ""
-        what = f" ({clean(thing.what)})" if thing.what else ""
-        yield f"{clean(thing.name) or 'no name'}{what}{on}"
+        on = f" on {escape_controls(thing.on)}" if thing.on is not None else ""
+        what = f" ({escape_controls(thing.what)})" if thing.what else ""
+        yield f"{escape_controls(thing.name) or 'no name'}{what}{on}"
 
 
-def _listed(names: list[str]) -> str:
+def _format_listed(names: list[str]) -> str:
     more = len(names) - _MOST
-    shown = [clean(name) for name in names[:_MOST]]
+    shown = [escape_controls(name) for name in names[:_MOST]]
     return ", ".join([*shown, f"{more} more"] if more > 0 else shown)
 
 
-def _short(folder: str) -> str:
+def _format_short(folder: str) -> str:
     relative = os.path.relpath(folder)
-    return clean(folder if relative.startswith("..") else relative)
+    return escape_controls(folder if relative.startswith("..") else relative)
 
 
 def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
@@ -116,4 +127,4 @@ def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
     said["bounds"] = None if bounds is None else {"low": bounds.low, "high": bounds.high}
     said["meshes"] = [{**asdict(mesh), "reason": mesh.reason or None} for mesh in measured.meshes]
     said["triangles"] = {kind: measured.triangles(kind) for kind in ("visuals", "collisions")}
-    return json_text(said, 1) + "\n"
+    return format_json(said, 1) + "\n"

@@ -16,7 +16,7 @@ from difflib import SequenceMatcher
 Opcode = tuple[str, int, int, int, int]
 
 
-def unified_lines(
+def format_unified_lines(
     old: Sequence[str], new: Sequence[str], before: str, after: str, *, around: int = 3
 ) -> Iterator[str]:
     """Yield the lines of a unified diff; only the headers have added line ends.
@@ -29,13 +29,13 @@ def unified_lines(
         around: Number of context lines around a change.
     """
     matcher: SequenceMatcher[str] = SequenceMatcher(None, [], [])
-    matcher.opcodes = _opcodes(old, new)  # type: ignore[attr-defined]
+    matcher.opcodes = _get_opcodes(old, new)  # type: ignore[attr-defined]
     for number, group in enumerate(matcher.get_grouped_opcodes(around)):
         if not number:
             yield f"--- {before}\n"
             yield f"+++ {after}\n"
         first, last = group[0], group[-1]
-        yield f"@@ -{_range(first[1], last[2])} +{_range(first[3], last[4])} @@\n"
+        yield f"@@ -{_format_range(first[1], last[2])} +{_format_range(first[3], last[4])} @@\n"
         for what, i, j, k, m in group:
             if what == "equal":
                 yield from (f" {line}" for line in old[i:j])
@@ -44,13 +44,13 @@ def unified_lines(
             yield from (f"+{line}" for line in new[k:m])
 
 
-def _range(start: int, stop: int) -> str:
+def _format_range(start: int, stop: int) -> str:
     """Format a line range of a diff: numbers start at one, a count of one is omitted."""
     length = stop - start
     return f"{start + 1}" if length == 1 else f"{start + (length > 0)},{length}"
 
 
-def _opcodes(old: Sequence[str], new: Sequence[str]) -> list[Opcode]:
+def _get_opcodes(old: Sequence[str], new: Sequence[str]) -> list[Opcode]:
     """Return the edit operations, in the form of ``SequenceMatcher.get_opcodes``."""
     result: list[Opcode] = []
     i = k = 0
@@ -80,7 +80,7 @@ def _matches(
         j, m = j - 1, m - 1
         tail.append((j, m))
     if i < j and k < m:
-        anchors = _anchors(old, new, i, j, k, m)
+        anchors = _find_anchors(old, new, i, j, k, m)
         if anchors:
             for start, other in [*anchors, (j, m)]:
                 found += _matches(old, new, i, start, k, other)
@@ -94,7 +94,7 @@ def _matches(
     return found + tail[::-1]
 
 
-def _anchors(
+def _find_anchors(
     old: Sequence[str], new: Sequence[str], i: int, j: int, k: int, m: int
 ) -> list[tuple[int, int]]:
     """Return the longest sequence of lines that are unique on either side and in the same order."""

@@ -6,56 +6,56 @@ import inspect
 import re
 
 from ..errors import ConfigError
-from ..lint.settings import nearest_rule
-from ..rules import FAMILY_OF, all_rules, get_rule
-from ..rules.effect_sources import effect_source
+from ..lint.settings import suggest_rule
+from ..rules import FAMILY_OF, get_all_rules, get_rule
+from ..rules.effect_sources import get_effect_source
 from ..rules.rule import Rule
 from ..rules.table import FIXES
 
 
-def rule_list() -> str:
+def format_rule_list() -> str:
     """Format a line for each rule: family, name, severity and fact."""
     width = max(map(len, FAMILY_OF))
     lines = []
     family = ""
-    for rule in all_rules():
+    for rule in get_all_rules():
         if rule.family != family:
             family = rule.family
             lines.append(f"{family}:")
         off = "" if rule.default else " (off)"
         fix = f" [fix: {FIXES[rule.name].applicability}]" if rule.name in FIXES else ""
-        fact = plain(rule.fact)
+        fact = remove_markup(rule.fact)
         lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {fact}{off}{fix}")
     return "\n".join(lines) + "\n"
 
 
-def page(name: str) -> str:
+def format_page(name: str) -> str:
     """Format a rule's page as plain text.
 
     Raises:
         ConfigError: There is no such rule.
     """
     if name not in FAMILY_OF:
-        raise ConfigError(f"no rule is called '{name}'{nearest_rule(name)}")
+        raise ConfigError(f"no rule is called '{name}'{suggest_rule(name)}")
     rule = get_rule(name)
-    text = plain(inspect.cleandoc(rule.check.__doc__ or ""))
+    text = remove_markup(inspect.cleandoc(rule.check.__doc__ or ""))
     lines = [f"{rule.name} ({rule.family})", "", text, ""]
-    lines.extend(f"{label}: {value}" for label, value in facts(rule))
+    lines.extend(f"{label}: {value}" for label, value in get_facts(rule))
     if rule.effects:
         lines.append("What readers do:")
         for readers, effect in rule.effects.items():
             lines.append(f"  {readers}: {effect}")
-            if known := effect_source(rule.name, readers):
+            if known := get_effect_source(rule.name, readers):
                 lines.append(f"    [{known}]")
     return "\n".join(lines) + "\n"
 
 
-def plain(text: str) -> str:
+def remove_markup(text: str) -> str:
     """Remove the marks of code and of cross-references from a docstring."""
     return re.sub(r":\w+:`~?(?:[\w.]*\.)?(\w+)`", r"\1", text).replace("``", "")
 
 
-def facts(rule: Rule) -> list[tuple[str, str]]:
+def get_facts(rule: Rule) -> list[tuple[str, str]]:
     """Return severity, targets and thresholds as labeled texts."""
     severity = rule.severity.label
     for target, raised in rule.raised.items():

@@ -8,9 +8,9 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
-from .counted import counted
-from .findings import Painter, clean
-from .json_text import finite_values, json_text
+from .counted import format_count
+from .findings import Painter, escape_controls
+from .json_text import format_json, replace_non_finite
 from .tables import Cell, render_table
 
 if TYPE_CHECKING:
@@ -21,42 +21,42 @@ if TYPE_CHECKING:
 _MOST = 6
 
 
-def text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
+def format_text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
     """Format the results as a table, followed by a paragraph for each fault."""
     paint = Painter(colors)
     lines: list[str] = []
     if len(verdicts) == 1:
-        lines += _one(robot, verdicts[0], paint)
+        lines += _format_one(robot, verdicts[0], paint)
     else:
-        lines += _several(robot, verdicts, paint)
+        lines += _format_several(robot, verdicts, paint)
     return "".join(f"{line}\n" for line in lines)
 
 
-def _one(robot: Robot, verdict: Verdict, paint: Painter) -> Iterator[str]:
-    yield _headline(robot, verdict, paint)
-    rows = list(_rows(verdict))
+def _format_one(robot: Robot, verdict: Verdict, paint: Painter) -> Iterator[str]:
+    yield _format_headline(robot, verdict, paint)
+    rows = list(_list_rows(verdict))
     width = max(len(label) for label, _ in rows)
     for label, said in rows:
         yield f"  {paint(f'{label:<{width}}', 'cyan')}  {said}"
-    yield from _faults(verdict.faults, paint)
+    yield from _format_faults(verdict.faults, paint)
 
 
-def _headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
-    name = clean(robot.name) or "the robot"
+def _format_headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
+    name = escape_controls(robot.name) or "the robot"
     if verdict.stands:
         return f"{name}: {paint('stands', 'green', bold=True)}"
     kinds = ", ".join(dict.fromkeys(fault.code for fault in verdict.faults if fault.fails))
-    return f"{name}: {paint(outcome(verdict), 'red', bold=True)} ({kinds})"
+    return f"{name}: {paint(describe_outcome(verdict), 'red', bold=True)} ({kinds})"
 
 
-def outcome(verdict: Verdict) -> str:
+def describe_outcome(verdict: Verdict) -> str:
     """Describe the result: a robot that settles upright stands, in spite of other faults."""
     if verdict.stands:
         return "stands"
     return "does not stand" if verdict.fell else "stands, but not as it should"
 
 
-def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
+def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     run, rest = verdict.run, verdict.rest
     recording, bodies = run.recording, run.bodies
     held, limp = len(recording.held), len(recording.joints) - len(recording.held)
@@ -64,7 +64,7 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     root = "fixed to the world" if bodies.fixed_base else "free"
     joints = "no joints"
     if recording.joints:
-        joints = f"{counted(held, 'joint')} held, {limp} limp or following"
+        joints = f"{format_count(held, 'joint')} held, {limp} limp or following"
     yield "robot", f"{bodies.mass:.4g} kg, {len(bodies.bodies)} bodies, {joints}; root {root}"
     if rest.settled is None:
         yield "at rest", f"not in {recording.times[-1]:.3g} s"
@@ -78,7 +78,7 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
             f"tilted {math.degrees(rest.tilt):.1f}°",
         )
     if rest.supports and not bodies.fixed_base:
-        names = ", ".join(clean(name) for name in rest.supports[:6])
+        names = ", ".join(escape_controls(name) for name in rest.supports[:6])
         yield "stands on", names + (f", {len(rest.supports) - 6} more" * (len(rest.supports) > 6))
         if rest.margin is not None:
             yield (
@@ -87,33 +87,39 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
             )
     if run.swept:
         blocked = sum(fault.code == "blocked" for fault in verdict.faults)
-        yield "sweep", f"{counted(len(run.swept), 'joint')} through their limits, {blocked} blocked"
+        yield (
+            "sweep",
+            f"{format_count(len(run.swept), 'joint')} through their limits, {blocked} blocked",
+        )
 
 
-def _faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
+def _format_faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
     groups: dict[tuple[str, bool, str], list[Fault]] = {}
     for fault in faults:
         groups.setdefault(fault.group, []).append(fault)
     for fault, *alike in groups.values():
         label, color = ("error", "red") if fault.fails else ("note", "blue")
-        place = f"{clean(str(fault.location))}: " if fault.location is not None else ""
+        place = f"{escape_controls(str(fault.location))}: " if fault.location is not None else ""
         yield ""
-        yield f"{paint(place, bold=True)}{paint(label, color, bold=True)}: {clean(fault.message)}"
+        yield (
+            f"{paint(place, bold=True)}{paint(label, color, bold=True)}: "
+            f"{escape_controls(fault.message)}"
+        )
         others = list(dict.fromkeys(other.name for other in alike if other.name != fault.name))
         if others:
-            shown = ", ".join(clean(name) for name in others[:_MOST])
+            shown = ", ".join(escape_controls(name) for name in others[:_MOST])
             more = f", {len(others) - _MOST} more" if len(others) > _MOST else ""
             yield f"   {paint('=', 'cyan')} the same of {shown}{more}"
         if fault.cause:
-            yield f"   {paint('=', 'cyan')} {clean(fault.cause)}"
+            yield f"   {paint('=', 'cyan')} {escape_controls(fault.cause)}"
         if fault.rule:
             yield f"   {paint('=', 'cyan')} urdftool lint --explain {fault.rule}"
 
 
-def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Iterator[str]:
+def _format_several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Iterator[str]:
     good = sum(verdict.stands for verdict in verdicts)
     word = paint(f"{good} of {len(verdicts)}", "green" if good == len(verdicts) else "red")
-    yield f"{clean(robot.name) or 'the robot'}: stands in {word} trials"
+    yield f"{escape_controls(robot.name) or 'the robot'}: stands in {word} trials"
     seen: dict[tuple[str, str], tuple[Fault, list[int]]] = {}
     for number, verdict in enumerate(verdicts, 1):
         tilt = math.degrees(math.hypot(*verdict.run.settings.start_rpy[:2]))
@@ -123,10 +129,10 @@ def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Itera
         for fault in verdict.faults:
             seen.setdefault((fault.code, fault.name), (fault, []))[1].append(number)
     faults = [fault for fault, _ in seen.values()]
-    yield from _faults(sorted(faults, key=lambda fault: not fault.fails), paint)
+    yield from _format_faults(sorted(faults, key=lambda fault: not fault.fails), paint)
 
 
-def comparison_text(comparison: EngineComparison, *, colors: bool = False) -> str:
+def format_comparison_text(comparison: EngineComparison, *, colors: bool = False) -> str:
     """Format the values in which two engines differ as a table, with the possible causes.
 
     Args:
@@ -141,13 +147,17 @@ def comparison_text(comparison: EngineComparison, *, colors: bool = False) -> st
     rows: list[tuple[Cell, ...]] = [tuple((head, "cyan") for head in heads)]
     for part in comparison.differences:
         trial = (str(part.trial),) if several else ()
-        allowed = "" if part.unit == "s" else part.value(part.bound)
-        rows.append((*trial, part.what, part.value(part.one), part.value(part.other), allowed))
+        allowed = "" if part.unit == "s" else part.write_value(part.bound)
+        rows.append(
+            (*trial, part.what, part.write_value(part.one), part.write_value(part.other), allowed)
+        )
     table = render_table(rows, left=range(len(heads)), colors=colors)
-    count = counted(len(comparison.differences), "value")
+    count = format_count(len(comparison.differences), "value")
     lines = ["", f"{paint('error', 'red', bold=True)}: the engines differ in {count}"]
     lines += [f"  {line}" for line in table.splitlines()]
-    lines += [f"   {paint('=', 'cyan')} possible cause: {clean(c)}" for c in comparison.causes]
+    lines += [
+        f"   {paint('=', 'cyan')} possible cause: {escape_controls(c)}" for c in comparison.causes
+    ]
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -171,25 +181,25 @@ def to_json(
         "name": robot.name,
         "path": robot.source.path if robot.source is not None else None,
         "stands": all(verdict.stands for verdict in verdicts),
-        "trials": [_trial(verdict, timings) for verdict in verdicts],
+        "trials": [_build_trial(verdict, timings) for verdict in verdicts],
     }
-    differences = [] if comparison is None else comparison.faults(robot)
-    said["differences"] = [_fault(fault) for fault in differences]
+    differences = [] if comparison is None else comparison.report_faults(robot)
+    said["differences"] = [_build_fault(fault) for fault in differences]
     said["stands"] = said["stands"] and not differences
-    return json_text(said) + "\n"
+    return format_json(said) + "\n"
 
 
-def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
+def _build_trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
     run, rest = verdict.run, verdict.rest
     recording = run.recording
     return {
         "stands": verdict.stands,
-        "faults": [_fault(fault) for fault in verdict.faults],
+        "faults": [_build_fault(fault) for fault in verdict.faults],
         "settings": asdict(run.settings),
         "engine": recording.engine,
         "mass": run.bodies.mass,
         "fixed": run.bodies.fixed_base,
-        "rest": {key: finite_values(value) for key, value in asdict(rest).items()},
+        "rest": {key: replace_non_finite(value) for key, value in asdict(rest).items()},
         "held": {name: recording.targets[name] for name in recording.held},
         "bodies": list(recording.bodies),
         "joints": list(recording.joints),
@@ -198,7 +208,7 @@ def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
         "steps": recording.steps,
         **({"seconds": recording.seconds} if timings else {}),
         "series": {
-            name: finite_values(getattr(recording, name).tolist())
+            name: replace_non_finite(getattr(recording, name).tolist())
             for name in (
                 *("times", "poses", "velocities", "positions", "rates", "efforts"),
                 *("kinetic", "potential", "depths"),
@@ -207,7 +217,7 @@ def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
     }
 
 
-def _fault(fault: Fault) -> dict[str, Any]:
+def _build_fault(fault: Fault) -> dict[str, Any]:
     place = fault.location
     return {
         "kind": fault.code,

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from .findings import clean
-from .json_text import json_text
-from .simulate import _fault
+from .findings import escape_controls
+from .json_text import format_json
+from .simulate import _build_fault
 from .tables import Cell, render_table
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..simulation.fleet import Row
 
 
-def table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -> str:
+def format_table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -> str:
     """Format a line for each robot: whether it stands, when it settled, and its faults.
 
     Args:
@@ -28,11 +28,11 @@ def table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -
     for row in rows:
         if skipped or not row.skipped:
             rest = "" if row.settled is None else f"{row.settled:.2f} s"
-            lines.append((row.path, _word(row), rest, _what(row)))
-    return f"{render_table(lines, left=(0, 1, 3), colors=colors)}{summary(rows)}\n"
+            lines.append((row.path, _collect_word(row), rest, _format_what(row)))
+    return f"{render_table(lines, left=(0, 1, 3), colors=colors)}{summarize(rows)}\n"
 
 
-def summary(rows: Sequence[Row]) -> str:
+def summarize(rows: Sequence[Row]) -> str:
     """Summarize the number of robots with each result."""
     counts = {
         "stand": sum(row.stands is True for row in rows),
@@ -45,7 +45,7 @@ def summary(rows: Sequence[Row]) -> str:
     return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {said or 'none'}"
 
 
-def _word(row: Row) -> tuple[str, str]:
+def _collect_word(row: Row) -> tuple[str, str]:
     if row.error is not None:
         return "error", "red"
     if row.skipped:
@@ -55,19 +55,23 @@ def _word(row: Row) -> tuple[str, str]:
     return ("does not stand" if row.fell else "stands, but"), "red"
 
 
-def _what(row: Row) -> str:
+def _format_what(row: Row) -> str:
     if row.error is not None:
         own = row.error.path == row.path and row.error.line is not None
         place = f"{row.error.line}:{row.error.column}: " if own else ""
-        return clean(place + row.error.message if own or not row.error.path else str(row.error))
+        return escape_controls(
+            place + row.error.message if own or not row.error.path else str(row.error)
+        )
     if row.skipped:
-        return clean(row.skipped)
+        return escape_controls(row.skipped)
     kinds: dict[str, list[str]] = {}
     for fault in row.faults:
         if fault.fails:
             kinds.setdefault(fault.code, []).append(fault.name)
     return ", ".join(
-        f"{kind} ({clean(names[0])}{', …' if len(names) > 1 else ''})" if names[0] else kind
+        f"{kind} ({escape_controls(names[0])}{', …' if len(names) > 1 else ''})"
+        if names[0]
+        else kind
         for kind, names in kinds.items()
     )
 
@@ -75,11 +79,11 @@ def _what(row: Row) -> str:
 def to_json(rows: Sequence[Row], *, timings: bool = False) -> str:
     """Format the results without time series as JSON; ``timings`` adds the wall-clock times."""
     said = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
-            "robots": [_row(row, timings) for row in rows]}  # fmt: skip
-    return json_text(said, 1) + "\n"
+            "robots": [_build_row(row, timings) for row in rows]}  # fmt: skip
+    return format_json(said, 1) + "\n"
 
 
-def _row(row: Row, timings: bool) -> dict[str, Any]:
+def _build_row(row: Row, timings: bool) -> dict[str, Any]:
     error = row.error
     return {
         "path": row.path,
@@ -88,7 +92,7 @@ def _row(row: Row, timings: bool) -> dict[str, Any]:
         "settled": row.settled,
         "mass": row.mass,
         "engine": row.engine or None,
-        "faults": [_fault(fault) for fault in row.faults],
+        "faults": [_build_fault(fault) for fault in row.faults],
         "error": None
         if error is None
         else {
@@ -110,11 +114,11 @@ def to_junit(rows: Sequence[Row]) -> str:
         case = SubElement(
             suite,
             "testcase",
-            classname=clean(row.path),
-            name=clean(row.name) or "simulate",
+            classname=escape_controls(row.path),
+            name=escape_controls(row.name) or "simulate",
             time=f"{row.seconds:.3f}",
         )
-        _told(case, row)
+        _add_findings(case, row)
     for count, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(count, str(len(suite.findall(f"testcase/{tag}"))))
     suite.set("tests", str(len(rows)))
@@ -125,29 +129,31 @@ def to_junit(rows: Sequence[Row]) -> str:
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
-def _told(case: Element, row: Row) -> None:
+def _add_findings(case: Element, row: Row) -> None:
     if row.error is not None:
-        error = SubElement(case, "error", type="not tried", message=clean(row.error.message))
-        error.text = "\n".join(clean(line) for line in (str(row.error), *row.error.notes))
+        error = SubElement(
+            case, "error", type="not tried", message=escape_controls(row.error.message)
+        )
+        error.text = "\n".join(escape_controls(line) for line in (str(row.error), *row.error.notes))
         return
     if row.skipped:
-        SubElement(case, "skipped", message=clean(row.skipped))
+        SubElement(case, "skipped", message=escape_controls(row.skipped))
         return
     wrong = [fault for fault in row.faults if fault.fails]
     remarks = [fault for fault in row.faults if not fault.fails]
     if wrong:
         kinds = ", ".join(dict.fromkeys(fault.code for fault in wrong))
-        failure = SubElement(case, "failure", type=kinds, message=clean(wrong[0].message))
-        failure.text = "\n".join(line for fault in wrong for line in _lines(fault))
+        failure = SubElement(case, "failure", type=kinds, message=escape_controls(wrong[0].message))
+        failure.text = "\n".join(line for fault in wrong for line in _format_lines(fault))
     if remarks:
         out = SubElement(case, "system-out")
-        out.text = "\n".join(line for fault in remarks for line in _lines(fault))
+        out.text = "\n".join(line for fault in remarks for line in _format_lines(fault))
 
 
-def _lines(fault: Fault) -> Iterator[str]:
-    place = "" if fault.location is None else f"{clean(str(fault.location))}: "
-    yield f"{place}{clean(fault.message)} [{fault.code}]"
+def _format_lines(fault: Fault) -> Iterator[str]:
+    place = "" if fault.location is None else f"{escape_controls(str(fault.location))}: "
+    yield f"{place}{escape_controls(fault.message)} [{fault.code}]"
     if fault.cause:
-        yield f"  {clean(fault.cause)}"
+        yield f"  {escape_controls(fault.cause)}"
     if fault.rule:
         yield f"  urdftool lint --explain {fault.rule}"

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from .findings_words import clean
+from .findings_words import escape_controls
 
 Cell = str | tuple[str, str | None]
 """A text, or a text and its color."""
@@ -18,7 +18,7 @@ WIDEST = 100_000
 """Columns of a console that does not wrap lines."""
 
 
-def text_console(stream: io.StringIO, *, colors: bool, width: int = WIDEST) -> Console:
+def create_text_console(stream: io.StringIO, *, colors: bool, width: int = WIDEST) -> Console:
     """Create a rich console that writes plain text, or text with the 8 terminal colors."""
     return Console(
         file=stream,
@@ -54,17 +54,17 @@ def render_table(
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
     for column in range(len(rows[0])):
         table.add_column(justify="left" if column in left else "right", no_wrap=True)
-    texts = [[_text(cell) for cell in row] for row in rows]
+    texts = [[_make_text(cell) for cell in row] for row in rows]
     if rule:
         widths = [max(text.cell_len for text in column) for column in zip(*texts, strict=True)]
         texts.insert(1, [Text("-" * width) for width in widths])
     for line in texts:
         table.add_row(*line)
     stream = io.StringIO()
-    text_console(stream, colors=colors).print(table)
+    create_text_console(stream, colors=colors).print(table)
     return "".join(f"{line.rstrip()}\n" for line in stream.getvalue().split("\n")[:-1])
 
 
-def _text(cell: Cell) -> Text:
+def _make_text(cell: Cell) -> Text:
     text, color = cell if isinstance(cell, tuple) else (cell, None)
-    return Text(clean(text), style=color or "")
+    return Text(escape_controls(text), style=color or "")

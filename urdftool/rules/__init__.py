@@ -48,6 +48,6 @@ def applies_to(name: str, tags: Set[str]) -> bool:
     return wanted is None or not tags.isdisjoint(wanted)
 
 
-def all_rules() -> Iterator[Rule]:
+def get_all_rules() -> Iterator[Rule]:
     """Get every rule, in reading order."""
     return map(get_rule, FAMILY_OF)

@@ -8,8 +8,8 @@ from collections.abc import Collection, Iterator
 from itertools import islice
 from pathlib import Path
 
-from ..source.packages import shown_path
-from ..workspace import Workspace, memoized
+from ..source.packages import shorten_path
+from ..workspace import Workspace, memoize_by_workspace
 from .fix import FixContext, RefusedError
 
 DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
@@ -33,15 +33,15 @@ def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection
     real_path = context.workspace.real_path
     mine = {real_path(file.path) for file in context.description.files}
     mine.update(map(real_path, but))
-    for number, file in enumerate(context.nearby(_files)):
+    for number, file in enumerate(context.list_nearby(_list_files)):
         if number >= _MOST_FILES:
             raise RefusedError(
                 f"too many files around the description to search them for references to '{word}'"
             )
         path = file.path
         named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
-        if named and file.names(word) and real_path(path) not in mine:
-            raise RefusedError(f"{shown_path(path)} refers to '{word}' too")
+        if named and file.contains_word(word) and real_path(path) not in mine:
+            raise RefusedError(f"{shorten_path(path)} refers to '{word}' too")
 
 
 _PLAIN = re.compile(rb"[\w-]+")
@@ -58,13 +58,13 @@ class _File:
         self.path = path
         self._found: frozenset[bytes] | None = None
 
-    def names(self, word: str) -> bool:
+    def contains_word(self, word: str) -> bool:
         """Tell whether the file contains a word."""
         sought = word.encode()
         try:
             if _PLAIN.fullmatch(sought) is not None:
                 if self._found is None:
-                    self._found = _words_of(self.workspace, self.path)
+                    self._found = _read_words(self.workspace, self.path)
                 return sought in self._found
             data = self.workspace.read_bytes(self.path)[:_MOST_BYTES]
         except OSError:
@@ -73,8 +73,8 @@ class _File:
         return sought in data and re.search(pattern, data) is not None
 
 
-@memoized
-def _words_of(workspace: Workspace, path: str) -> frozenset[bytes]:
+@memoize_by_workspace
+def _read_words(workspace: Workspace, path: str) -> frozenset[bytes]:
     """List the words of a file.
 
     Raises:
@@ -101,7 +101,7 @@ def check_not_included(context: FixContext) -> None:
     file = context.description.packages.file
     own = context.description.packages.own
     for folder in context.description.packages.neighbors():
-        for user, said in _included(context.workspace, str(folder)).get(file.name, ()):
+        for user, said in _find_includes(context.workspace, str(folder)).get(file.name, ()):
             found = _FIND.match(said)
             if found is not None:
                 is_this = own is not None and found[1] == own[0]
@@ -111,18 +111,18 @@ def check_not_included(context: FixContext) -> None:
                 is_this = "$" in said or real_path(there) == real_path(file)
             if is_this:
                 raise RefusedError(
-                    f"{shown_path(user)} includes {file.name}, and would get the element too"
+                    f"{shorten_path(user)} includes {file.name}, and would get the element too"
                 )
 
 
 _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
 
 
-@memoized
-def _included(workspace: Workspace, folder: str) -> dict[str, list[tuple[str, str]]]:
+@memoize_by_workspace
+def _find_includes(workspace: Workspace, folder: str) -> dict[str, list[tuple[str, str]]]:
     """List the includes of xacro files in a folder, by file name: the including file and words."""
     found: dict[str, list[tuple[str, str]]] = {}
-    for number, path in enumerate(_below(workspace, folder)):
+    for number, path in enumerate(_find_files_below(workspace, folder)):
         if number >= _MOST_FILES:
             break
         if not path.endswith((".xacro", ".urdf")):
@@ -137,15 +137,15 @@ def _included(workspace: Workspace, folder: str) -> dict[str, list[tuple[str, st
     return found
 
 
-def _files(context: FixContext) -> list[_File]:
+def _list_files(context: FixContext) -> list[_File]:
     """List the files of the description's package, or of its folder, up to a limit."""
     own = context.description.packages.own
     root = own[1] if own is not None else context.description.packages.file.parent
-    found = islice(_below(context.workspace, root), _MOST_FILES + 1)
+    found = islice(_find_files_below(context.workspace, root), _MOST_FILES + 1)
     return [_File(context.workspace, path) for path in found]
 
 
-def _below(workspace: Workspace, root: str | Path) -> Iterator[str]:
+def _find_files_below(workspace: Workspace, root: str | Path) -> Iterator[str]:
     for where, folders, files in workspace.walk(root):
         folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
         for file in sorted(files):

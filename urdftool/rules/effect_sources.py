@@ -10,12 +10,12 @@ import json
 from pathlib import Path
 
 
-def _sources() -> dict[str, dict[str, str]]:
+def _load_sources() -> dict[str, dict[str, str]]:
     text = Path(__file__).with_suffix(".json").read_text("utf-8")
     return json.loads(text)  # type: ignore[no-any-return]
 
 
-def effect_source(rule: str, readers: str) -> str:
+def get_effect_source(rule: str, readers: str) -> str:
     """Get the evidence for the effect of a rule on readers.
 
     Args:
@@ -25,4 +25,4 @@ def effect_source(rule: str, readers: str) -> str:
     Returns:
         Such as ``run: MuJoCo 4.0.0`` or ``source: REPOSITORY FILE``; empty if there is none.
     """
-    return _sources().get(rule, {}).get(readers, "")
+    return _load_sources().get(rule, {}).get(readers, "")

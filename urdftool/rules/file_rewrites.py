@@ -23,7 +23,7 @@ Record = tuple[Any, ...]
 """Normal, three corners and the attribute of a triangle, in one row."""
 
 
-def rewritten_bytes(workspace: Workspace, rewrite: FileRewrite) -> bytes:
+def compute_rewritten_bytes(workspace: Workspace, rewrite: FileRewrite) -> bytes:
     """Compute the new content of a file.
 
     Raises:
@@ -31,26 +31,26 @@ def rewritten_bytes(workspace: Workspace, rewrite: FileRewrite) -> bytes:
         OSError: The original cannot be opened.
     """
     try:
-        return _rewritten(workspace.local(rewrite.origin), rewrite)
+        return _rewrite(workspace.local(rewrite.origin), rewrite)
     except (ValueError, OverflowError, struct.error) as error:
         raise MeshError(str(error), path=rewrite.origin) from error
 
 
-def _rewritten(path: Path, rewrite: FileRewrite) -> bytes:
+def _rewrite(path: Path, rewrite: FileRewrite) -> bytes:
     if rewrite.how == COPIED:
         return path.read_bytes()
     if rewrite.how == HEADED:
         data = path.read_bytes()
         return re.sub(rb"solid", b"STL: ", data[:80], count=1, flags=re.IGNORECASE) + data[80:]
     if rewrite.how == BINARY:
-        return _text_as_binary(path) if _is_text(path) else _as_stl(path, (1.0, 1.0, 1.0))
+        return _convert_to_binary(path) if _is_text(path) else _as_stl(path, (1.0, 1.0, 1.0))
     if rewrite.how.startswith(MIRRORED):
         axes = rewrite.how.removeprefix(MIRRORED)
         x, y, z = (-1.0 if axis in axes else 1.0 for axis in "xyz")
         return _as_stl(path, (x, y, z))
-    head, records = _records(path)
+    head, records = _read_records(path)
     if rewrite.how == TURNED:
-        return head + b"".join(_turned(record) for record in records)
+        return head + b"".join(_reverse_triangle(record) for record in records)
     kept = [_RECORD.pack(*record) for record in records if not _is_collapsed(record)]
     return head[:80] + struct.pack("<I", len(kept)) + b"".join(kept)
 
@@ -59,7 +59,7 @@ def _is_text(path: Path) -> bool:
     return path.suffix.lower() == ".stl" and read_stl_header(path).kind == "ascii"
 
 
-def _text_as_binary(path: Path) -> bytes:
+def _convert_to_binary(path: Path) -> bytes:
     """Convert ASCII STL to binary STL with the same triangles."""
     data = path.read_bytes()
     rows = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data, re.IGNORECASE)
@@ -67,7 +67,7 @@ def _text_as_binary(path: Path) -> bytes:
     facets = len(re.findall(rb"\bendfacet\b", data, re.IGNORECASE))
     if len(numbers) != 9 * facets or not re.search(rb"\bendsolid\b", data[-1024:], re.IGNORECASE):
         raise MeshError("the ASCII STL file is incomplete", path=path)
-    return _written(numbers[at : at + 9] for at in range(0, len(numbers), 9))
+    return _write_triangles(numbers[at : at + 9] for at in range(0, len(numbers), 9))
 
 
 def _as_stl(path: Path, scale: tuple[float, float, float]) -> bytes:
@@ -75,27 +75,27 @@ def _as_stl(path: Path, scale: tuple[float, float, float]) -> bytes:
     from ..geometry.load import load_mesh
 
     mesh = load_mesh(path, scale)
-    return _written(mesh.vertices[mesh.faces].reshape(-1, 9).tolist())
+    return _write_triangles(mesh.vertices[mesh.faces].reshape(-1, 9).tolist())
 
 
-def _written(triangles: Iterable[list[float]]) -> bytes:
-    rows = [_RECORD.pack(*_normal(corners), *corners, 0) for corners in triangles]
+def _write_triangles(triangles: Iterable[list[float]]) -> bytes:
+    rows = [_RECORD.pack(*_compute_normal(corners), *corners, 0) for corners in triangles]
     return b"".join((b"\0" * 80, struct.pack("<I", len(rows)), *rows))
 
 
-def _cross(corners: tuple[float, ...] | list[float]) -> tuple[float, float, float]:
+def _compute_cross(corners: tuple[float, ...] | list[float]) -> tuple[float, float, float]:
     a, b, c, d, e, f, g, h, i = corners
     d, e, f, g, h, i = d - a, e - b, f - c, g - a, h - b, i - c
     return e * i - f * h, f * g - d * i, d * h - e * g
 
 
-def _normal(corners: list[float]) -> tuple[float, float, float]:
-    x, y, z = _cross(corners)
+def _compute_normal(corners: list[float]) -> tuple[float, float, float]:
+    x, y, z = _compute_cross(corners)
     length = math.hypot(x, y, z) or 1.0
     return x / length, y / length, z / length
 
 
-def _records(path: Path) -> tuple[bytes, Iterator[Record]]:
+def _read_records(path: Path) -> tuple[bytes, Iterator[Record]]:
     """Read the header and the triangles of a binary STL file."""
     facts = read_stl_header(path)
     if facts.kind != "binary" or not facts.size_agrees:
@@ -105,7 +105,7 @@ def _records(path: Path) -> tuple[bytes, Iterator[Record]]:
     return data[:HEADER_BYTES], _RECORD.iter_unpack(data[HEADER_BYTES:whole])
 
 
-def _turned(record: Record) -> bytes:
+def _reverse_triangle(record: Record) -> bytes:
     normal, (a, b, c), attribute = record[:3], (record[3:6], record[6:9], record[9:12]), record[12]
     return _RECORD.pack(*(0.0 - value for value in normal), *a, *c, *b, attribute)
 
@@ -117,7 +117,7 @@ def count_collapsed(workspace: Workspace, path: Path) -> int:
         MeshError: It is not a binary STL file.
         OSError: It cannot be read.
     """
-    return sum(map(_is_collapsed, _records(workspace.local(path))[1]))
+    return sum(map(_is_collapsed, _read_records(workspace.local(path))[1]))
 
 
 def _is_collapsed(record: Record) -> bool:

@@ -135,7 +135,7 @@ class FixContext:
         """The reader of the description's files."""
         return self.description.workspace
 
-    def nearby(self, look: Callable[[FixContext], list[Any]]) -> list[Any]:
+    def list_nearby(self, look: Callable[[FixContext], list[Any]]) -> list[Any]:
         """List the files near the description; cached."""
         if self._nearby is None:
             self._nearby = look(self)
@@ -146,12 +146,12 @@ class FixContext:
         """Text of all elements, where plugins and sensors refer to names."""
         return "\n".join(one.text for one in self.robot.element.walk() if one.text)
 
-    def joint(self, problem: Problem) -> Joint:
+    def get_joint(self, problem: Problem) -> Joint:
         """Get the joint that a problem is about."""
         assert isinstance(problem.subject, Joint)
         return problem.subject
 
-    def link(self, problem: Problem) -> Link:
+    def get_link(self, problem: Problem) -> Link:
         """Get the link that a problem is about."""
         assert isinstance(problem.subject, Link)
         return problem.subject
@@ -231,13 +231,13 @@ def substitute_text(element: Element, pattern: str, new: str) -> Change:
     return Change("sub-text", element, value=new, pattern=pattern)
 
 
-def attribute_at(problem: Problem, root: Element | None = None) -> tuple[Element, str] | None:
+def find_attribute(problem: Problem, root: Element | None = None) -> tuple[Element, str] | None:
     """Find the element and attribute that a problem points at.
 
     Returns:
         None if it points at no attribute.
     """
-    found = element_at(problem, root)
+    found = find_element(problem, root)
     if found is None:
         return None
     start = problem.place.start
@@ -247,7 +247,7 @@ def attribute_at(problem: Problem, root: Element | None = None) -> tuple[Element
     return None
 
 
-def element_at(problem: Problem, root: Element | None = None) -> Element | None:
+def find_element(problem: Problem, root: Element | None = None) -> Element | None:
     """Find the element whose start tag a problem points into.
 
     Args:
@@ -270,7 +270,7 @@ def element_at(problem: Problem, root: Element | None = None) -> Element | None:
 
 def remove_sign(problem: Problem) -> Proposal | None:
     """Propose to remove the minus sign of the attribute that a problem points at."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     element, name = found
@@ -278,7 +278,7 @@ def remove_sign(problem: Problem) -> Proposal | None:
     return unsafe(f'write {name}="{text}"', set_attribute(element, name, text))
 
 
-def suggestion_of(problem: Problem, wrong: str) -> str:
+def get_suggestion(problem: Problem, wrong: str) -> str:
     """Get the name that a rule suggests (``data["suggestion"]``), if it is close enough."""
     right: str = problem.data.get("suggestion", "")
     return right if right and is_close_enough(right, wrong) else ""
@@ -286,12 +286,12 @@ def suggestion_of(problem: Problem, wrong: str) -> str:
 
 def write_suggestion(problem: Problem) -> Proposal | None:
     """Write the suggested name into the attribute or text that a problem points at."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is not None:
-        name = suggestion_of(problem, found[0].get(found[1]) or "")
+        name = get_suggestion(problem, found[0].get(found[1]) or "")
         return unsafe(f"write {name}", set_attribute(*found, name)) if name else None
-    element = element_at(problem)
-    name = suggestion_of(problem, element.text.strip()) if element is not None else ""
+    element = find_element(problem)
+    name = get_suggestion(problem, element.text.strip()) if element is not None else ""
     if element is None or not name:
         return None
     return unsafe(f"write {name}", set_text(element, name))
@@ -304,7 +304,7 @@ def append_number(problem: Problem, taken: Container[str | None]) -> Proposal | 
         problem: The problem.
         taken: Names in use.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     name, number = (found[0].get(found[1]) or "").strip(), 2
@@ -319,11 +319,13 @@ def is_close_enough(right: str, wrong: str) -> bool:
 
     It must be closer than for a question: at most two typos, and none in a digit.
     """
-    from .xml.vocabulary_table import meant
+    from .xml.vocabulary_table import suggest_word
 
     if fold(right) == fold(wrong):
         return True
-    return re.findall(r"\d+", right) == re.findall(r"\d+", wrong) and bool(meant(wrong, [right]))
+    return re.findall(r"\d+", right) == re.findall(r"\d+", wrong) and bool(
+        suggest_word(wrong, [right])
+    )
 
 
 def write_inside(
@@ -358,17 +360,17 @@ def escape_attribute(text: str) -> str:
     return text
 
 
-def written_value(element: Element, name: str) -> str:
+def get_written_value(element: Element, name: str) -> str:
     """Get an attribute as written, expressions included."""
-    from ..source.edit import literal
+    from ..source.edit import read_literal
 
     raw = element.file.editable().elements.get(element.start)
-    return (literal(raw, name) if raw is not None else None) or element.get(name) or ""
+    return (read_literal(raw, name) if raw is not None else None) or element.get(name) or ""
 
 
 def is_computed(element: Element, name: str = "name") -> bool:
     """Tell whether an attribute comes from an expression, which arguments may change."""
-    return "$" in written_value(element, name)
+    return "$" in get_written_value(element, name)
 
 
 def may_vary(element: Element) -> bool:
@@ -423,7 +425,7 @@ def are_equal_elements(a: Element, b: Element) -> bool:
     )
 
 
-def written_lines(element: Element) -> Iterator[str]:
+def get_written_lines(element: Element) -> Iterator[str]:
     """Get the lines of an element as written, comments and expressions included.
 
     Yields:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..model.elements import Mesh, Robot
-from ..model.mesh_formats import READ_BY, ending_of
+from ..model.mesh_formats import READ_BY, get_suffix
 
 
 def keeps_visuals(robot: Robot) -> bool:
@@ -18,7 +18,7 @@ def keeps_visuals(robot: Robot) -> bool:
 def reads_collisions(robot: Robot) -> bool:
     """Tell whether MuJoCo has a decoder for every collision mesh, by file suffix."""
     return all(
-        ending_of(shape.geometry.filename) in READ_BY["mujoco"]
+        get_suffix(shape.geometry.filename) in READ_BY["mujoco"]
         for link in robot.links
         for shape in link.collisions
         if isinstance(shape.geometry, Mesh)

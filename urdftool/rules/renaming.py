@@ -40,11 +40,11 @@ def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal |
     )
     changes = [set_text(e, new) if not at else set_attribute(e, at, new) for e, at in namings]
     from .cross_file_references import check_alone
-    from .moveit.semantic import references, semantics
+    from .moveit.semantic import find_references, get_srdf_documents
 
-    documents = semantics(robot, context.description)
+    documents = get_srdf_documents(robot, context.description)
     for document in documents:
-        for element, attribute, _ in references(document.root, kind):
+        for element, attribute, _ in find_references(document.root, kind):
             if element.get(attribute) == old:
                 changes.append(set_attribute(element, attribute, new))
     check_alone(context, old, robots=False, but=[d.file.path for d in documents])
@@ -77,7 +77,7 @@ def find_joint_references(root: Element, name: str) -> Iterator[tuple[Element, s
                 yield element, ""
 
 
-def part_of(problem: Problem) -> Link | Joint | None:
+def get_part(problem: Problem) -> Link | Joint | None:
     """Get the link or joint that a problem is about; None for anything else."""
     return problem.subject if isinstance(problem.subject, Link | Joint) else None
 

@@ -168,7 +168,7 @@ class Problem:
     @property
     def element(self) -> Element:
         """The element of the subject."""
-        return _element_of(self.subject)
+        return _get_element(self.subject)
 
     @property
     def owner(self) -> str:
@@ -187,10 +187,10 @@ class Problem:
     @property
     def cause_element(self) -> Element:
         """The subject of the finding that explains this one."""
-        return _element_of(self.subject if self.cause is None else self.cause)
+        return _get_element(self.subject if self.cause is None else self.cause)
 
 
-def _element_of(subject: Part | Element) -> Element:
+def _get_element(subject: Part | Element) -> Element:
     return subject if isinstance(subject, Element) else subject.element
 
 
@@ -302,7 +302,7 @@ class Rule:
         """First line of its page."""
         return (self.check.__doc__ or "").partition("\n")[0].strip()
 
-    def keys_in(self, keys: Collection[str] | None) -> list[str]:
+    def select_keys(self, keys: Collection[str] | None) -> list[str]:
         """Select the keys of the effects that hold.
 
         Args:
@@ -310,25 +310,25 @@ class Rule:
         """
         return [key for key in self.effects if (" (" not in key if keys is None else key in keys)]
 
-    def effects_in(self, keys: Collection[str] | None) -> dict[str, str]:
+    def select_effects(self, keys: Collection[str] | None) -> dict[str, str]:
         """Select the effects with these keys, without the case in the key.
 
         Args:
             keys: Keys of the effects; None for all that hold in every case.
         """
-        return {key.partition(" (")[0]: self.effects[key] for key in self.keys_in(keys)}
+        return {key.partition(" (")[0]: self.effects[key] for key in self.select_keys(keys)}
 
-    def severity_for(self, targets: frozenset[str]) -> Severity:
+    def get_severity(self, targets: frozenset[str]) -> Severity:
         """Get the severity for a set of targets."""
         raised = [severity for target, severity in self.raised.items() if target in targets]
         return max([self.severity, *raised])
 
-    def is_on_for(self, targets: frozenset[str]) -> bool:
+    def is_enabled_for(self, targets: frozenset[str]) -> bool:
         """Tell whether the rule is enabled for any of the targets."""
         return self.on is None or not targets.isdisjoint(self.on)
 
 
-def holding(effects: Iterable[str], *conditions: str) -> list[str]:
+def select_holding(effects: Iterable[str], *conditions: str) -> list[str]:
     """Select the keys of effects that hold: without other conditions in parentheses.
 
     Args:

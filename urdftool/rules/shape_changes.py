@@ -5,13 +5,13 @@ from __future__ import annotations
 from ..model.elements import Collision, Joint, Visual
 from .fix import (
     Change,
+    get_written_lines,
     insert_after,
     is_written_inside,
     prepend_child,
     remove_element,
     replace_element,
     set_attribute,
-    written_lines,
 )
 
 
@@ -31,9 +31,9 @@ def copy_shape(shape: Visual | Collision, tag: str) -> Change | None:
     return insert_after(
         shape.element,
         f"<{tag}>",
-        *(f"\t{line}" for line in _origin_lines(shape)),
+        *(f"\t{line}" for line in _get_origin_lines(shape)),
         "\t<geometry>",
-        *(f"\t\t{line}" for line in written_lines(geometry.element)),
+        *(f"\t\t{line}" for line in get_written_lines(geometry.element)),
         "\t</geometry>",
         f"</{tag}>",
     )
@@ -41,7 +41,7 @@ def copy_shape(shape: Visual | Collision, tag: str) -> Change | None:
 
 def copy_origin(shape: Visual | Collision, model: Visual | Collision) -> Change:
     """Copy the ``<origin>`` of a shape as written to another, or remove it if it has none."""
-    lines = _origin_lines(model)
+    lines = _get_origin_lines(model)
     if shape.origin is None:
         return prepend_child(shape.element, *lines)
     if lines:
@@ -56,6 +56,6 @@ def set_in_origin(part: Visual | Collision | Joint, name: str, value: str) -> Ch
     return set_attribute(part.origin.element, name, value)
 
 
-def _origin_lines(shape: Visual | Collision) -> tuple[str, ...]:
+def _get_origin_lines(shape: Visual | Collision) -> tuple[str, ...]:
     origins = shape.element.all("origin")
-    return tuple(line for origin in origins for line in written_lines(origin))
+    return tuple(line for origin in origins for line in get_written_lines(origin))

@@ -35,7 +35,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "tags": ("nonstandard-xmlns", "unprefixed-xacro-tag"),
         "leftovers": ("unexpanded-expression",),
-        "unreached": ("bad-substitution-command", "unclosed-expression"),
+        "unreached_expressions": ("bad-substitution-command", "unclosed-expression"),
         "expansion_warnings": (
             "shadowed-builtin",
             "unknown-xacro-attribute",
@@ -66,7 +66,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "kind": ("unknown-joint-type", "planar-or-floating", "redundant-on-fixed"),
         "axis": ("zero-axis", "axis-not-unit", "axis-omitted", "axis-nearly-canonical"),
         "origin": ("rpy-in-degrees",),
-        "place": ("axis-misses-links",),
+        "axis_position": ("axis-misses-links",),
         "limits": (
             "missing-limit",
             "limit-without-effort-or-velocity",
@@ -129,7 +129,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "singular-inertia",
             "tiny-moving-inertia",
         ),
-        "slips": (
+        "typing_mistakes": (
             "inertia-component-slip",
             "inertia-off-by-power-of-ten",
             "redundant-inertia-attributes",
@@ -151,7 +151,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "massive-link-without-collision",
         ),
         "shapes": ("non-positive-dimension", "unsupported-shape", "shape-in-millimetres"),
-        "likeness": (
+        "visual_mismatch": (
             "visual-mesh-as-collision",
             "collision-mesh-too-dense",
             "collision-much-larger-than-visual",
@@ -174,7 +174,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "conflicting-material",
             "invalid-color",
         ),
-        "looks": (
+        "appearance": (
             "missing-visual",
             "fully-transparent",
             "empty-material-name",
@@ -209,7 +209,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "non-uniform-scale",
             "heavy-visual",
         ),
-        "parts": ("missing-mesh-dependency",),
+        "file_references": ("missing-mesh-dependency",),
         "surface": (
             "not-watertight",
             "inverted-mesh",
@@ -226,7 +226,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "gazebo-path-not-exported",
             "wrong-package-in-uri",
         ),
-        "launching": ("obsolete-cli-option",),
+        "xacro_calls": ("obsolete-cli-option",),
     },
     "gazebo": {
         "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),
@@ -378,19 +378,19 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "joint.mimic": ("mimic",),
     "joint.gripper": ("joint",),
     "joint.safety": ("safety_controller",),
-    "inertia.slips": ("inertia",),
-    "collision.likeness": ("collision",),
+    "inertia.typing_mistakes": ("inertia",),
+    "collision.visual_mismatch": ("collision",),
     "collision.displaced": ("mesh",),
     "collision.wheels": ("collision",),
     "collision.overlap": ("collision",),
     "visual.materials": ("material",),
-    "visual.looks": ("visual", "collision"),
+    "visual.appearance": ("visual", "collision"),
     "mesh.files": ("mesh",),
     "mesh.uris": ("mesh",),
     "mesh.file_names": ("mesh",),
     "mesh.formats": ("mesh",),
     "mesh.scale": ("mesh",),
-    "mesh.parts": ("mesh",),
+    "mesh.file_references": ("mesh",),
     "mesh.surface": ("mesh",),
     "package.resolution": ("mesh",),
     "gazebo.references": ("gazebo",),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..suggestions import did_you_mean as did_you_mean
 from ..suggestions import fold as fold
 from ..suggestions import nearest as nearest
+from ..suggestions import suggest_name as suggest_name
 
 
-def quoted(names: Iterable[str], most: int = 4) -> str:
+def quote(names: Iterable[str], most: int = 4) -> str:
     """Format names as ``'a', 'b' and 'c'``; above ``most``, the first and the number of others."""
     words = [f"'{name}'" for name in names]
     if len(words) > most:
@@ -17,13 +17,13 @@ def quoted(names: Iterable[str], most: int = 4) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
 
 
-def some_of(items: list[str], kind: str, most: int = 12) -> str:
+def join_some(items: list[str], kind: str, most: int = 12) -> str:
     """Join items with commas; above ``most``, the first ones and the number of others."""
     if len(items) <= most + 1:
         return ", ".join(items)
     return f"{', '.join(items[:most])} and {len(items) - most} more {kind}"
 
 
-def words(text: str) -> frozenset[str]:
+def split_words(text: str) -> frozenset[str]:
     """Split a text into a set of words, for tables."""
     return frozenset(text.split())

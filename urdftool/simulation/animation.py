@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..drawing.camera import Camera, View
-from ..drawing.gif_file import gif
+from ..drawing.gif_file import encode_gif
 from ..drawing.picture import SIZE, draw
 from ..drawing.png_file import Image
 from ..drawing.raster import Indices
 from ..drawing.shapes import Shapes
-from ..model.pose import Pose, rotation_of_quaternion
+from ..model.pose import Pose, rotation_from_quaternion
 from .recording import Array, Recording
 from .run import Run
 
@@ -43,7 +43,7 @@ def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
     found = {}
     for body, row in zip(run.bodies.bodies, poses, strict=True):
         x, y, z, qx, qy, qz, qw = row.tolist()
-        pose = Pose(rotation_of_quaternion((qw, qx, qy, qz)), (x, y, z))
+        pose = Pose(rotation_from_quaternion((qw, qx, qy, qz)), (x, y, z))
         for link, place in body.places.items():
             found[link] = pose @ place
     return found
@@ -60,8 +60,10 @@ def render_final_state(
         camera: Where the picture is taken from.
         size: Width and height in pixels.
     """
-    last = run.recording.poses[_sane(run.recording)[-1]]
-    return draw(shapes, link_poses(run, last), camera=camera, size=size, ground=_floor(run, last))
+    last = run.recording.poses[_find_finite(run.recording)[-1]]
+    return draw(
+        shapes, link_poses(run, last), camera=camera, size=size, ground=_get_floor(run, last)
+    )
 
 
 def render_animation(
@@ -85,34 +87,36 @@ def render_animation(
     frames: list[Image] = []
     seconds: list[float] = []
     drawn: Array | None = None
-    moments = list(_moments(run.recording))
+    moments = list(_list_frames(run.recording))
     for number, (poses, time) in enumerate(moments, 1):
         progress(number, len(moments))
-        if drawn is not None and _alike(run, poses, drawn):
+        if drawn is not None and _is_same_pose(run, poses, drawn):
             seconds[-1] += time
             continue
         drawn = poses
-        frames.append(draw(shapes, link_poses(run, poses), camera=view, ground=_floor(run, poses)))
+        frames.append(
+            draw(shapes, link_poses(run, poses), camera=view, ground=_get_floor(run, poses))
+        )
         seconds.append(time)
     seconds[-1] += _HOLD
-    return gif(frames, seconds)
+    return encode_gif(frames, seconds)
 
 
-def _sane(recording: Recording) -> Indices:
+def _find_finite(recording: Recording) -> Indices:
     """Find the samples whose poses are finite."""
     rows: Indices = np.flatnonzero(np.isfinite(recording.poses).all(axis=(1, 2)))
     return rows
 
 
-def _floor(run: Run, poses: Array) -> float | bool:
+def _get_floor(run: Run, poses: Array) -> float | bool:
     """Return the height of the plane, or False if the robot is below it."""
     reach = max(run.bodies.size, 0.1)
     return False if float(poses[:, 2].max()) < -reach else 0.0
 
 
-def _moments(recording: Recording) -> Iterator[tuple[Array, float]]:
+def _list_frames(recording: Recording) -> Iterator[tuple[Array, float]]:
     """Yield poses of the bodies at even steps of time, and how long each is shown [s]."""
-    rows = _sane(recording)
+    rows = _find_finite(recording)
     times = recording.times[rows]
     length = float(times[-1])
     step = max(1 / RATE, math.ceil(100 * length / MOST) / 100)
@@ -123,10 +127,10 @@ def _moments(recording: Recording) -> Iterator[tuple[Array, float]]:
         one, two = recording.poses[rows[before]], recording.poses[rows[after]]
         gap = float(times[after] - times[before])
         part = (time - float(times[before])) / gap if gap > 0 else 1.0
-        yield _between(one, two, part), step
+        yield _interpolate(one, two, part), step
 
 
-def _between(one: Array, two: Array, part: float) -> Array:
+def _interpolate(one: Array, two: Array, part: float) -> Array:
     """Interpolate between two poses that are near each other."""
     turns = np.where((one[:, 3:] * two[:, 3:]).sum(axis=1, keepdims=True) < 0, -1.0, 1.0)
     poses = one * (1 - part)
@@ -136,7 +140,7 @@ def _between(one: Array, two: Array, part: float) -> Array:
     return poses
 
 
-def _alike(run: Run, one: Array, two: Array) -> bool:
+def _is_same_pose(run: Run, one: Array, two: Array) -> bool:
     moved = float(np.abs(one[:, :3] - two[:, :3]).max()) / max(run.bodies.size, 1e-3)
     turned = float(np.abs(np.abs((one[:, 3:] * two[:, 3:]).sum(axis=1)) - 1).max())
     return moved < _STILL and turned < _STILL**2
@@ -145,7 +149,7 @@ def _alike(run: Run, one: Array, two: Array) -> bool:
 def _view(run: Run, shapes: Shapes, camera: Camera, size: tuple[int, int]) -> View:
     """Place a camera that sees the whole run, as far as the robot stays near."""
     recording = run.recording
-    rows = _sane(recording)
+    rows = _find_finite(recording)
     apart = np.linalg.norm(recording.poses[rows, 0, :3] - recording.poses[0, 0, :3], axis=1)
     near = rows[apart < _AWAY * max(run.bodies.size, 0.1)]
     some = near[np.unique(np.linspace(0, len(near) - 1, 9).astype(int))]

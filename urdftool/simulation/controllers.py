@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..errors import ConfigError
-from ..model.controllers import DRIVES, Controller, controllers_in
+from ..model.controllers import DRIVES, Controller, list_controllers
 from ..model.elements import Robot
 from ..source.yaml_tree import Node, read_yaml
-from ..suggestions import did_you_mean
+from ..suggestions import suggest_name
 from .control import NONE, POSITION, SERVO, VELOCITY, Control, Pid
 
 _SILENT = ("Broadcaster", "StateController", "SensorController")
@@ -61,7 +61,7 @@ def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Contro
         SourceError: It cannot be read.
     """
     root = read_yaml(path)
-    controllers = list(controllers_in(root))
+    controllers = list(list_controllers(root))
     if not controllers:
         raise ConfigError(
             "has no controller: a mapping with a 'type' such as "
@@ -69,16 +69,16 @@ def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Contro
             path=path,
             line=1,
         )
-    gains = _simulated_gains(root, robot)
+    gains = _read_simulated_gains(root, robot)
     joints: dict[str, Control] = {}
-    notes = list(_replaced(root))
+    notes = list(_list_replaced_keys(root))
     for controller in controllers:
-        if unknown := _unknown_type(controller):
+        if unknown := _explain_unknown_type(controller):
             if strict:
                 raise controller.type.wrong(unknown)
             notes.append(f"{controller.type.place}: {unknown}; its joints are not actuated")
             continue
-        for node, control in _claims(controller, robot, gains):
+        for node, control in _list_claims(controller, robot, gains):
             name = (node.text or "").rpartition("/")[2]
             if name in joints:
                 notes.append(
@@ -93,7 +93,7 @@ def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Contro
     return Controls(joints, tuple(notes))
 
 
-def _replaced(root: Node) -> Iterator[str]:
+def _list_replaced_keys(root: Node) -> Iterator[str]:
     """Say of which keys an earlier value is dropped."""
     for _, node in root.walk():
         for name, value in (node.fields or {}).items():
@@ -102,44 +102,44 @@ def _replaced(root: Node) -> Iterator[str]:
                 yield f"{value.place}: '{name}' replaces the value in line {earlier}"
 
 
-def _unknown_type(controller: Controller) -> str:
+def _explain_unknown_type(controller: Controller) -> str:
     """Explain why the type of a controller is not known; empty if it is."""
     kind = controller.kind
     if kind.endswith(_SILENT) or kind in KNOWN:
         return ""
-    hint = did_you_mean(kind, KNOWN, 0.8)
+    hint = suggest_name(kind, KNOWN, 0.8)
     return (
         f"controller '{controller.name}' is of type '{controller.type.text}', which is not a "
         f"controller of ros_controllers or ros2_controllers that drives joints{hint}"
     )
 
 
-def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
+def _read_simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
     """Read ``gazebo_ros_control/pid_gains`` by joint."""
     found: dict[str, Node] = {}
     for path, node in root.walk():
         if path and path[-1].rpartition("/")[2] == "pid_gains":
             for name, gains in (node.fields or {}).items():
-                _in_robot(gains, name, robot)
+                _check_joints_exist(gains, name, robot)
                 found[name] = gains
     return found
 
 
-def _claims(
+def _list_claims(
     controller: Controller, robot: Robot, simulated: dict[str, Node]
 ) -> Iterator[tuple[Node, Control]]:
     """Yield each joint that a controller drives, and how."""
     kind = controller.kind
     if kind.endswith(_SILENT):
         return
-    for node, interface in _joints(controller):
+    for node, interface in _list_joints(controller):
         joint = (node.text or "").rpartition("/")[2]
-        _in_robot(node, joint, robot)
+        _check_joints_exist(node, joint, robot)
         _has_interface(controller, node, joint, interface, robot)
-        yield node, _control(controller, node, joint, interface, simulated)
+        yield node, _make_control(controller, node, joint, interface, simulated)
 
 
-def _joints(controller: Controller) -> Iterator[tuple[Node, str]]:
+def _list_joints(controller: Controller) -> Iterator[tuple[Node, str]]:
     """List the joints of a controller, each with the interface that is commanded."""
     kind, parameters = controller.kind, controller.parameters
     if kind in DRIVES:
@@ -156,7 +156,7 @@ def _joints(controller: Controller) -> Iterator[tuple[Node, str]]:
                 f"controller '{controller.name}' names no wheels; write {wheels[0]}"
             )
         return
-    interface = _interface(controller)
+    interface = _get_interface(controller)
     for name in ("joints", "joint", "dof_names", "dof_name"):
         node = parameters.find(name)
         if node is not None:
@@ -170,7 +170,7 @@ def _joints(controller: Controller) -> Iterator[tuple[Node, str]]:
     )
 
 
-def _interface(controller: Controller) -> str:
+def _get_interface(controller: Controller) -> str:
     """Return the interface that a controller commands: position, velocity or effort."""
     for word in _INTERFACES:
         if controller.package == f"{word}_controllers":
@@ -201,12 +201,12 @@ def _interface(controller: Controller) -> str:
     return "position"
 
 
-def _in_robot(node: Node, joint: str, robot: Robot) -> None:
+def _check_joints_exist(node: Node, joint: str, robot: Robot) -> None:
     if joint in robot.joint:
         if robot.joint[joint].is_fixed:
             raise node.wrong(f"joint '{joint}' is fixed; no controller can move it")
         return
-    hint = did_you_mean(joint, robot.joint, 0.5) or "; see 'urdftool graph'"
+    hint = suggest_name(joint, robot.joint, 0.5) or "; see 'urdftool graph'"
     if "$(" in joint:
         hint = "; a launch file would put something in its place: write the name"
     raise node.wrong(f"the robot has no joint '{joint}'{hint}")
@@ -242,7 +242,7 @@ def _has_interface(
         )
 
 
-def _control(
+def _make_control(
     controller: Controller, node: Node, joint: str, interface: str, simulated: dict[str, Node]
 ) -> Control:
     kind = controller.kind
@@ -250,12 +250,12 @@ def _control(
         by_velocity = kind in _VELOCITY or _measures_velocity(controller)
         if kind in _EFFORT or kind in _FORWARD:
             return Control(controller.name, NONE, None, node.at)
-        gains = _gains(controller, joint)
+        gains = _build_gains(controller, joint)
         how = VELOCITY if by_velocity else POSITION
-        return Control(controller.name, how, _pid(gains), gains.at)
+        return Control(controller.name, how, _read_pid(gains), gains.at)
     if joint in simulated:
         how = POSITION if interface == "position" else VELOCITY
-        return Control(controller.name, how, _pid(simulated[joint]), simulated[joint].at)
+        return Control(controller.name, how, _read_pid(simulated[joint]), simulated[joint].at)
     return Control(controller.name, SERVO, None, node.at)
 
 
@@ -265,7 +265,7 @@ def _measures_velocity(controller: Controller) -> bool:
     return bool(words) and "position" not in words
 
 
-def _gains(controller: Controller, joint: str) -> Node:
+def _build_gains(controller: Controller, joint: str) -> Node:
     parameters = controller.parameters
     for keys in (("pid",), (joint, "pid"), ("gains", joint), ("gains",)):
         found = parameters.find(*keys)
@@ -281,7 +281,7 @@ def _gains(controller: Controller, joint: str) -> Node:
     )
 
 
-def _pid(node: Node) -> Pid:
+def _read_pid(node: Node) -> Pid:
     """Read the gains of a mapping, with the defaults of control_toolbox."""
     if node.fields is None:
         raise node.wrong(f"gains are {node.said}; write {{p: …, i: …, d: …}}")

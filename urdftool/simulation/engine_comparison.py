@@ -55,7 +55,7 @@ class Difference:
         apart = abs(self.one - self.other)
         return apart / self.bound if math.isfinite(apart) else math.inf
 
-    def value(self, number: float) -> str:
+    def write_value(self, number: float) -> str:
         """Write one of the two values with its unit."""
         if self.unit == "s":
             return "not in the time" if math.isnan(number) else f"after {number:.2f} s"
@@ -76,18 +76,23 @@ class EngineComparison:
     differences: tuple[Difference, ...] = ()
     causes: tuple[str, ...] = ()
 
-    def faults(self, robot: Robot) -> list[Fault]:
+    def report_faults(self, robot: Robot) -> list[Fault]:
         """Report each difference as a fault, with the causes in its ``cause``."""
-        return [self._fault(robot, part) for part in self.differences]
+        return [self._report_fault(robot, part) for part in self.differences]
 
-    def _fault(self, robot: Robot, part: Difference) -> Fault:
+    def _report_fault(self, robot: Robot, part: Difference) -> Fault:
         element = robot.joint.get(part.name) if part.kind == "joint" else robot.link.get(part.name)
         trial = f" in trial {part.trial}" if part.trial else ""
         one, other = self.engines
         if part.unit == "s":
-            values = f"{part.value(part.one)} in {one}, {part.value(part.other)} in {other}"
+            values = (
+                f"{part.write_value(part.one)} in {one}, {part.write_value(part.other)} in {other}"
+            )
         else:
-            values = f"is {part.value(part.one)} in {one} and {part.value(part.other)} in {other}"
+            values = (
+                f"is {part.write_value(part.one)} in {one} and "
+                f"{part.write_value(part.other)} in {other}"
+            )
         message = f"the engines differ{trial}: {part.what} {values}"
         place = None if element is None else element.place
         causes = "; ".join(self.causes)
@@ -109,10 +114,10 @@ def compare_engines(first: Sequence[Verdict], second: Sequence[Verdict]) -> Engi
 
 def compare(one: Verdict, other: Verdict, trial: int = 0) -> list[Difference]:
     """Find the values at the end of one trial in which two engines differ."""
-    return list(_differences(one, other, trial))
+    return list(_list_differences(one, other, trial))
 
 
-def _differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Difference]:
+def _list_differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Difference]:
     bodies, bounds = one.run.bodies, one.run.thresholds
     top = bodies.bodies[0].name
     settled = [verdict.rest.settled for verdict in (one, other)]
@@ -123,7 +128,7 @@ def _differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Differenc
         return  # what still moves has no final value
     length = max(bounds.differ_length * max(bodies.size, 1e-3), bounds.differ_length_min)
     rows: list[tuple[str, str, str, float, float, float, str]] = []
-    a, b = _last_poses(one.run), _last_poses(other.run)
+    a, b = _compute_last_poses(one.run), _compute_last_poses(other.run)
     if not bodies.fixed_base:
         tilts = [math.degrees(verdict.rest.tilt) for verdict in (one, other)]
         angle = math.degrees(bounds.differ_angle)
@@ -143,7 +148,7 @@ def _differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Differenc
             yield found
 
 
-def _last_poses(run: Run) -> Array:
+def _compute_last_poses(run: Run) -> Array:
     poses = run.recording.poses
     last: Array = poses[np.isfinite(poses).all(axis=(1, 2))][-1]
     return last
@@ -163,10 +168,10 @@ def find_causes(one: Verdict, other: Verdict, differences: Sequence[Difference])
     A cause counts the differences that it concerns: those of its links and joints, of joints that
     carry them, and of the root. Of two that concern as many, the first of the table comes first.
     """
-    if sunk := _contact_softness(one, other, differences):
+    if sunk := _explain_contact_softness(one, other, differences):
         return (sunk,)
-    causes = [*_causes(one, other)]
-    above = _carriers(one.run)
+    causes = [*_find_causes(one, other)]
+    above = _find_joint_chains(one.run)
 
     def concerned(cause: _Cause) -> int:
         near = set(cause.names).union(*(above.get(name, ()) for name in cause.names))
@@ -178,7 +183,7 @@ def find_causes(one: Verdict, other: Verdict, differences: Sequence[Difference])
     return tuple(cause.text for cause in ranked if concerned(cause))[:MOST_CAUSES]
 
 
-def _carriers(run: Run) -> dict[str, set[str]]:
+def _find_joint_chains(run: Run) -> dict[str, set[str]]:
     """Find the joints between the root and each link or joint."""
     bodies = run.bodies.bodies
     found: dict[str, set[str]] = {}
@@ -194,7 +199,9 @@ def _carriers(run: Run) -> dict[str, set[str]]:
     return found
 
 
-def _contact_softness(one: Verdict, other: Verdict, differences: Sequence[Difference]) -> str:
+def _explain_contact_softness(
+    one: Verdict, other: Verdict, differences: Sequence[Difference]
+) -> str:
     """Explain a height that differs by as much as contacts are deep; empty if it does not."""
     if len(differences) != 1 or differences[0].unit != "m" or differences[0].kind != "link":
         return ""
@@ -210,10 +217,10 @@ def _contact_softness(one: Verdict, other: Verdict, differences: Sequence[Differ
     )
 
 
-def _causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
+def _find_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     """Find what the two engines treat differently, the strongest effect first."""
-    yield from _model_causes(one, other)
-    yield from _joint_causes(one, other)
+    yield from _list_model_causes(one, other)
+    yield from _list_joint_causes(one, other)
     bodies, bounds = one.run.bodies, one.run.thresholds
     margins = [v.rest.margin for v in (one, other) if v.rest.margin is not None]
     if not bodies.fixed_base and margins and abs(min(margins)) < bounds.differ_margin * bodies.size:
@@ -227,7 +234,7 @@ def _causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     )
 
 
-def _model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
+def _list_model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     bodies = one.run.bodies
     first, second = (verdict.run.recording.capabilities for verdict in (one, other))
     light = [
@@ -235,7 +242,10 @@ def _model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     ]
     if light:
         yield _Cause(
-            f"mass: {_names('link', light)} has no mass, which the engines treat differently",
+            (
+                f"mass: {_format_names('link', light)} has no mass, which the engines treat "
+                "differently"
+            ),
             tuple(light),
         )
     recordings = [verdict.run.recording for verdict in (one, other)]
@@ -247,66 +257,77 @@ def _model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     ]
     if loaded:
         yield _Cause(
-            f"inertia: {_names('link', loaded)} is not simulated as written by one of the engines",
+            (
+                f"inertia: {_format_names('link', loaded)} is not simulated as written by one of the "
+                "engines"
+            ),
             tuple(loaded),
         )
     many = [s.link for b in bodies.bodies for s in b.shapes if len(s.pieces) > 1]
     if many and first.hull_per_object != second.hull_per_object:
         yield _Cause(
-            f"collision hulls: the mesh of {_names('link', many)} has several objects; "
-            f"{_title(one, other, 'hull_per_object')} makes a hull of each, the other engine one",
+            f"collision hulls: the mesh of {_format_names('link', many)} has several objects; "
+            f"{_format_title(one, other, 'hull_per_object')} makes a hull of each, the other "
+            "engine one",
             tuple(many),
         )
     soft = [b.name for b in bodies.bodies if b.surface.stiffness is not None]
     if soft and first.uses_contact_stiffness != second.uses_contact_stiffness:
         yield _Cause(
-            f"contact softness: the file gives {_names('link', soft)} a stiffness, which only "
-            f"{_title(one, other, 'uses_contact_stiffness')} uses",
+            f"contact softness: the file gives {_format_names('link', soft)} a stiffness, which "
+            "only "
+            f"{_format_title(one, other, 'uses_contact_stiffness')} uses",
             tuple(soft),
         )
     lifted = [b.name for b in bodies.bodies if b.weightless is not None]
     if lifted:
         yield _Cause(
-            f"gravity flags: gravity does not act on {_names('link', lifted)}, which the engines "
+            f"gravity flags: gravity does not act on {_format_names('link', lifted)}, which the "
+            "engines "
             "compensate in different ways",
             tuple(lifted),
         )
 
 
-def _title(one: Verdict, other: Verdict, capability: str) -> str:
+def _format_title(one: Verdict, other: Verdict, capability: str) -> str:
     known = (verdict.run.recording.capabilities for verdict in (one, other))
     return next(engine.title for engine in known if getattr(engine, capability))
 
 
-def _joint_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
+def _list_joint_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     joints = one.run.bodies.joints
     sprung = [joint.name for joint in joints if joint.stiffness]
     if sprung:
         yield _Cause(
-            f"springs: {_names('joint', sprung)} has a spring, which the engines integrate in "
+            f"springs: {_format_names('joint', sprung)} has a spring, which the engines integrate "
+            "in "
             "different ways",
             tuple(sprung),
         )
-    spent = _joints_at(one, other, _is_spent)
+    spent = _collect_joints_at(one, other, _is_spent)
     if spent:
-        yield _Cause(f"effort: {_names('joint', spent)} is at its effort limit", tuple(spent))
-    stopped = _joints_at(one, other, _is_stopped)
+        yield _Cause(
+            f"effort: {_format_names('joint', spent)} is at its effort limit", tuple(spent)
+        )
+    stopped = _collect_joints_at(one, other, _is_stopped)
     if stopped:
         yield _Cause(
-            f"limits: {_names('joint', stopped)} rests on its limit, which the engines model with "
+            f"limits: {_format_names('joint', stopped)} rests on its limit, which the engines "
+            "model with "
             "different stiffness",
             tuple(stopped),
         )
     losing = [joint.name for joint in joints if joint.damping or joint.friction]
     if losing:
         yield _Cause(
-            f"friction and damping of {_names('joint', losing)}, which the engines combine with a "
+            f"friction and damping of {_format_names('joint', losing)}, which the engines combine "
+            "with a "
             "motor in different ways",
             tuple(losing),
         )
 
 
-def _joints_at(one: Verdict, other: Verdict, at: Callable[[Run, int], bool]) -> list[str]:
+def _collect_joints_at(one: Verdict, other: Verdict, at: Callable[[Run, int], bool]) -> list[str]:
     names = [joint.name for joint in one.run.bodies.joints]
     return [n for c, n in enumerate(names) if any(at(verdict.run, c) for verdict in (one, other))]
 
@@ -325,7 +346,7 @@ def _is_stopped(run: Run, column: int) -> bool:
     return min(at - joint.lower, joint.upper - at) < near
 
 
-def _names(kind: str, names: Sequence[str]) -> str:
+def _format_names(kind: str, names: Sequence[str]) -> str:
     different = list(dict.fromkeys(names))
     more = f" (and {len(different) - 1} more)" if len(different) > 1 else ""
     return f"{kind} '{different[0]}'{more}"

@@ -8,10 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..formats.common.extent import placed, shape_points
+from ..formats.common.extent import get_shape_points, transform_to_link
 from ..geometry.hull import convex_hull
 from ..model.elements import Box, Capsule, Collision, Cylinder, Mesh, Robot, Sphere, Visual
-from .mesh_cache import outermost_points
+from .mesh_cache import get_outermost_points
 from .recording import Array
 
 
@@ -30,9 +30,11 @@ class Extent:
     @cached_property
     def volume(self) -> float:
         """Return the volume of visuals or collisions, the larger one, meshes as hulls [m³]."""
-        return max((sum(_volume(*shape) for shape in group) for group in self.groups), default=0.0)
+        return max(
+            (sum(_compute_volume(*shape) for shape in group) for group in self.groups), default=0.0
+        )
 
-    def reach(self, centre: Array) -> float:
+    def measure_reach(self, centre: Array) -> float:
         """Measure how far the farthest corner is from a point [m]; 0 without corners."""
         if not len(self.points):
             return 0.0
@@ -53,32 +55,34 @@ def measure_extent(robot: Robot, name: str, *, only_collisions: bool = False) ->
         groups.append(link.visuals)
     read = []
     for group in groups:
-        found = [(shape, shape_corners(robot, shape)) for shape in group]
+        found = [(shape, get_shape_corners(robot, shape)) for shape in group]
         read.append(tuple((shape, corners) for shape, corners in found if corners is not None))
     points = [corners for shapes in read for _, corners in shapes]
     return Extent(np.concatenate(points), tuple(read)) if points else Extent()
 
 
-def shape_corners(robot: Robot, shape: Visual | Collision) -> Array | None:
+def get_shape_corners(robot: Robot, shape: Visual | Collision) -> Array | None:
     """Return the points of a shape as :func:`shape_points`, of a mesh the outermost ones."""
     if not isinstance(shape.geometry, Mesh):
-        return shape_points(robot, shape)
-    points = outermost_points(robot, shape.geometry)
-    return None if points is None else placed(points, shape)
+        return get_shape_points(robot, shape)
+    points = get_outermost_points(robot, shape.geometry)
+    return None if points is None else transform_to_link(points, shape)
 
 
-def bounding_box(
+def compute_bounding_box(
     robot: Robot, shapes: Sequence[Collision] | Sequence[Visual]
 ) -> tuple[Array, Array] | None:
     """Compute two corners of the box around some shapes, along the axes of their link."""
-    found = [corners for shape in shapes if (corners := shape_corners(robot, shape)) is not None]
+    found = [
+        corners for shape in shapes if (corners := get_shape_corners(robot, shape)) is not None
+    ]
     if not found:
         return None
     points = np.concatenate(found)
     return points.min(axis=0), points.max(axis=0)
 
 
-def _volume(shape: Collision | Visual, points: Array) -> float:
+def _compute_volume(shape: Collision | Visual, points: Array) -> float:
     geometry = shape.geometry
     if isinstance(geometry, Box):
         x, y, z = geometry.size

@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError
-from ..parallel import Loss, cores, map_tasks, plain_error
+from ..parallel import Loss, count_cores, make_plain_error, map_tasks
 from .fault import Fault
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[F
     )
 
 
-def in_parallel(
+def run_in_parallel(
     paths: Sequence[str],
     work: Callable[[str], Row],
     *,
@@ -109,9 +109,9 @@ def in_parallel(
             began.setdefault(path, perf_counter())
 
     for index, row in map_tasks(
-        partial(_row, work),
+        partial(_make_row, work),
         paths,
-        workers=jobs or cores(),
+        workers=jobs or count_cores(),
         on_lost=lost,
         on_progress=note_begin,
         time_limit=limit,
@@ -122,12 +122,12 @@ def in_parallel(
         yield row
 
 
-def _row(work: Callable[[str], Row], path: str) -> Row:
+def _make_row(work: Callable[[str], Row], path: str) -> Row:
     """Make the row of a robot, also if that fails."""
     try:
         return work(path)
     except UrdftoolError as error:
-        return Row(path, error=plain_error(error))
+        return Row(path, error=make_plain_error(error))
     except (OSError, MemoryError) as error:
         what = getattr(error, "strerror", None) or str(error) or "there is not enough memory"
         return Row(path, error=UrdftoolError(what, path=path))

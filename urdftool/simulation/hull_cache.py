@@ -25,7 +25,7 @@ _stores: list[DiskCache] = []
 
 
 @contextmanager
-def using_cache(folder: str | Path | None) -> Iterator[None]:
+def use_cache(folder: str | Path | None) -> Iterator[None]:
     """Keep it in a folder, and not in the user's cache; None keeps nothing."""
     _stores.append(DiskCache(folder))
     try:
@@ -45,19 +45,19 @@ def get_or_compute(
         make: Reads the file.
     """
     store = _stores[-1] if _stores else DiskCache(cache_folder("simulate"))
-    key = None if store.folder is None else _key(path, facts)
+    key = None if store.folder is None else _get_key(path, facts)
     if key is None:
         return make()
     known = store.get(key)
-    clouds = None if known is None else _decoded(known)
+    clouds = None if known is None else _decode(known)
     if clouds is None:
         clouds = make()
-        store.put(key, _encoded(clouds))
+        store.put(key, _get_encoded(clouds))
         store.trim()
     return clouds
 
 
-def _key(path: Path, facts: Sequence[object]) -> str | None:
+def _get_key(path: Path, facts: Sequence[object]) -> str | None:
     suffix = path.suffix.lower()
     if suffix == ".gltf" or not path.is_file():
         return None  # the buffers of glTF are other files, and a pipe never ends
@@ -67,7 +67,7 @@ def _key(path: Path, facts: Sequence[object]) -> str | None:
         return None
 
 
-def _encoded(clouds: list[Cloud]) -> bytes:
+def _get_encoded(clouds: list[Cloud]) -> bytes:
     head = json.dumps([[len(points), len(faces)] for points, faces in clouds]).encode()
     arrays = [
         np.ascontiguousarray(a, k) for cloud in clouds for a, k in zip(cloud, _KINDS, strict=True)
@@ -75,7 +75,7 @@ def _encoded(clouds: list[Cloud]) -> bytes:
     return b"".join([head, b"\n", *(array.tobytes() for array in arrays)])
 
 
-def _decoded(data: bytes) -> list[Cloud] | None:
+def _decode(data: bytes) -> list[Cloud] | None:
     """Decode what this version encoded; None for anything else."""
     head, _, body = data.partition(b"\n")
     clouds, at = [], 0

@@ -21,7 +21,7 @@ T = TypeVar("T")
 _last: tuple[Robot, dict[Hashable, object]] | None = None
 
 
-def cached_for(robot: Robot, key: Hashable, make: Callable[[], T]) -> T:
+def compute_once(robot: Robot, key: Hashable, make: Callable[[], T]) -> T:
     """Return the result for a robot and a key, computed once; errors are not cached."""
     global _last
     memo = _last  # another thread may put its own robot there
@@ -41,14 +41,14 @@ def load_triangles(robot: Robot, geometry: Mesh) -> Triangles:
     """
     source = robot.source
     assert source is not None
-    return cached_for(
+    return compute_once(
         robot,
         ("triangles", geometry.filename, geometry.scale),
         lambda: load_named(source, geometry.filename, geometry.scale),
     )
 
 
-def outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
+def get_outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
     """Return the outermost points of a mesh [m], shape (n, 3); None if it cannot be read.
 
     Their bounding box is that of the mesh, and their hull almost as large.
@@ -67,15 +67,15 @@ def outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
         if robot.source is None:
             return None
         try:
-            ((points, _),) = get_or_compute(*mesh_key(robot, geometry, "points"), make)
+            ((points, _),) = get_or_compute(*get_mesh_key(robot, geometry, "points"), make)
         except UrdftoolError:
             return None
         return points
 
-    return cached_for(robot, ("points", geometry.filename, geometry.scale), read)
+    return compute_once(robot, ("points", geometry.filename, geometry.scale), read)
 
 
-def mesh_key(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
+def get_mesh_key(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
     """Return the file of a mesh, and what else the cached result depends on.
 
     Raises:

@@ -13,12 +13,12 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import UrdftoolError
-from ..inertia.winding import Boxes, boxes_of, winding_numbers
+from ..inertia.winding import Boxes, compute_winding_numbers, sort_into_boxes
 from ..model.elements import Collision, Mesh, Robot, Visual
-from ..model.pose import Pose, pose_of
-from .mesh_cache import cached_for, load_triangles
+from ..model.pose import Pose, make_pose
+from .mesh_cache import compute_once, load_triangles
 from .recording import Array
-from .shapes import hull
+from .shapes import compute_hull
 from .state import StateSnapshot
 
 POINTS = 1500
@@ -28,7 +28,7 @@ _AT_ONCE = 64  # points whose distances to all others fit in the cache
 _FIRST = 32  # points that are asked first whether they are inside
 
 
-def penetration_depth(
+def measure_penetration_depth(
     robot: Robot, snapshot: StateSnapshot, one: str, other: str, least: float = 0.0
 ) -> float | None:
     """Measure how deep two links overlap [m]; None if the engine's own answer is exact.
@@ -44,10 +44,10 @@ def penetration_depth(
     if not any(isinstance(shape.geometry, Mesh) for shapes in pairs for shape in shapes):
         return None
     poses = {name: snapshot.link_pose(name) for name in (one, other)}
-    return triangle_penetration(robot, poses, one, other, least)
+    return measure_triangle_penetration(robot, poses, one, other, least)
 
 
-def triangle_penetration(
+def measure_triangle_penetration(
     robot: Robot, poses: Mapping[str, Pose], one: str, other: str, least: float = 0.0
 ) -> float | None:
     """Measure how deep the triangles of two links overlap [m]; None if some cannot be read.
@@ -62,14 +62,14 @@ def triangle_penetration(
     try:
         mine, others = (
             [
-                (_surface(robot, shape), poses[name] @ pose_of(shape.origin))
+                (_make_surface(robot, shape), poses[name] @ make_pose(shape.origin))
                 for shape in robot.link[name].collisions
             ]
             for name in (one, other)
         )
     except UrdftoolError:
         return None
-    return max((_deepest(*a, *b, least) for a in mine for b in others), default=0.0)
+    return max((_measure_deepest(*a, *b, least) for a in mine for b in others), default=0.0)
 
 
 class Surface:
@@ -89,27 +89,27 @@ class Surface:
     @cached_property
     def points(self) -> Array:
         """Return points spread over the triangles, shape (n, 3)."""
-        return _points(self.triangles)
+        return _spread_points(self.triangles)
 
     @cached_property
     def boxes(self) -> Boxes:
         """Return the triangles as winding numbers are computed from them."""
-        return boxes_of(self.triangles)
+        return sort_into_boxes(self.triangles)
 
 
-def _surface(robot: Robot, shape: Collision) -> Surface:
+def _make_surface(robot: Robot, shape: Collision) -> Surface:
     geometry = shape.geometry
     if not isinstance(geometry, Mesh):
-        return Surface(primitive_triangles(shape))
+        return Surface(tessellate_primitive_triangles(shape))
 
     def make() -> Surface:
         mesh = load_triangles(robot, geometry)
         return Surface(mesh.vertices[mesh.faces])
 
-    return cached_for(robot, ("surface", geometry.filename, geometry.scale), make)
+    return compute_once(robot, ("surface", geometry.filename, geometry.scale), make)
 
 
-def primitive_triangles(shape: Collision | Visual) -> Array:
+def tessellate_primitive_triangles(shape: Collision | Visual) -> Array:
     """Tessellate a box, cylinder, sphere or capsule about its origin, shape (n, 3, 3)."""
     geometry = shape.geometry
     size = getattr(geometry, "size", None)
@@ -128,20 +128,20 @@ def primitive_triangles(shape: Collision | Visual) -> Array:
             caps = [ring * np.cos(a) + [0.0, 0.0, radius * np.sin(a)] for a in rise]
             cap = np.concatenate(caps)
             points = np.concatenate([points, cap + up, cap * [1.0, 1.0, -1.0] - up])
-    corners, faces = hull(points)
+    corners, faces = compute_hull(points)
     triangles: Array = corners[faces]
     return triangles
 
 
-def _deepest(one: Surface, at: Pose, other: Surface, there: Pose, least: float) -> float:
+def _measure_deepest(one: Surface, at: Pose, other: Surface, there: Pose, least: float) -> float:
     """Measure how deep two surfaces at poses in the world overlap [m]."""
     return max(
-        _inside(one, other, there.inverse() @ at, least),
-        _inside(other, one, at.inverse() @ there, least),
+        _measure_inside(one, other, there.inverse() @ at, least),
+        _measure_inside(other, one, at.inverse() @ there, least),
     )
 
 
-def _inside(one: Surface, other: Surface, pose: Pose, least: float) -> float:
+def _measure_inside(one: Surface, other: Surface, pose: Pose, least: float) -> float:
     """Measure how far points of one surface are inside another, in whose frame it is placed [m].
 
     The distance to the nearest point is soon known, whether it is inside is not: so the farthest
@@ -151,20 +151,20 @@ def _inside(one: Surface, other: Surface, pose: Pose, least: float) -> float:
     points = points[((points >= other.low) & (points <= other.high)).all(axis=1)]
     if not len(points):
         return 0.0
-    squares = _nearest_squared(points, other.points)
+    squares = _compute_nearest_squared(points, other.points)
     far = np.flatnonzero(squares >= least**2)
     far = far[np.argsort(-squares[far], kind="stable")]
     first, count = 0, _FIRST
     while first < len(far):
         some = far[first : first + count]
-        inside = np.flatnonzero(winding_numbers(points[some], other.boxes) > 0.5)
+        inside = np.flatnonzero(compute_winding_numbers(points[some], other.boxes) > 0.5)
         if len(inside):
             return math.sqrt(squares[some[inside[0]]])
         first, count = first + count, 2 * count
     return 0.0
 
 
-def _nearest_squared(points: Array, others: Array) -> Array:
+def _compute_nearest_squared(points: Array, others: Array) -> Array:
     """Compute the squared distance from each point to the nearest other [m²], shape (n,)."""
     middle = others.mean(axis=0)  # about which squares lose no digits
     points, others = points - middle, others - middle
@@ -179,7 +179,7 @@ def _nearest_squared(points: Array, others: Array) -> Array:
     return np.maximum(nearest, 0.0, out=nearest)
 
 
-def _distinct(points: Array) -> Array:
+def _sort_distinct(points: Array) -> Array:
     """Order points by their coordinates, each once; three times as fast as NumPy's unique."""
     points = points[np.lexsort(points.T[::-1])]
     new = np.append(True, (points[1:] != points[:-1]).any(axis=1))
@@ -187,11 +187,11 @@ def _distinct(points: Array) -> Array:
     return distinct
 
 
-def _points(triangles: Array) -> Array:
+def _spread_points(triangles: Array) -> Array:
     """Spread points over triangles by area, and add their corners, reproducibly."""
     edges = triangles[:, 1:] - triangles[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    corners = _distinct(triangles.reshape(-1, 3))
+    corners = _sort_distinct(triangles.reshape(-1, 3))
     if len(corners) > POINTS:
         corners = corners[:: len(corners) // POINTS + 1]
     if not areas.sum() > 0:

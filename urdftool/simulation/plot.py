@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from ..drawing.lettering import shown
 from ..drawing.raster import Indices
-from ..model.pose import rotation_of_quaternion
+from ..drawing.text import replace_undrawable
+from ..model.pose import rotation_from_quaternion
 from .recording import Array, Recording
 from .run import Run
 
@@ -70,14 +70,16 @@ def plot(title: str, runs: Sequence[Run]) -> bytes:
         runs: One, or the same trial in two engines; the second is dashed.
     """
     panels = [
-        Panel("height of the root [m]", _curves(runs, _height), 1e-3),
-        Panel("tilt of the root [°]", _curves(runs, _tilt), 0.1),
-        Panel("kinetic energy [J]", _curves(runs, lambda run: run.recording.kinetic), 1e-6),
+        Panel("height of the root [m]", _collect_curves(runs, _compute_height), 1e-3),
+        Panel("tilt of the root [°]", _collect_curves(runs, _compute_tilt), 0.1),
+        Panel("kinetic energy [J]", _collect_curves(runs, lambda run: run.recording.kinetic), 1e-6),
     ]
     if runs[0].recording.joints:
         moved = "joints, from where they start [rad, m]"
-        panels.append(Panel(moved, _joint_curves(runs, _moved), 1e-3))
-        panels.append(Panel("efforts of joints [N·m, N]", _joint_curves(runs, _efforts), 1e-3))
+        panels.append(Panel(moved, _make_joint_curves(runs, _get_displacement), 1e-3))
+        panels.append(
+            Panel("efforts of joints [N·m, N]", _make_joint_curves(runs, _compute_efforts), 1e-3)
+        )
     return draw_panels(title, panels, runs[0].recording.still_since)
 
 
@@ -107,7 +109,7 @@ def _render(title: str, panels: Sequence[Panel], at_rest: float | None) -> bytes
         matplotlib.rcParams["text.parse_math"] = False  # a name may contain dollar signs
         figure = Figure(figsize=(12, 1.2 + 1.9 * len(panels)), dpi=_DPI, layout="constrained")
         FigureCanvasAgg(figure)
-        figure.suptitle(shown(title))
+        figure.suptitle(replace_undrawable(title))
         rows: Any = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
         for axes, panel in zip(rows[:, 0], panels, strict=True):
             _draw(axes, panel, at_rest)
@@ -125,8 +127,10 @@ def _draw(axes: Any, panel: Panel, at_rest: float | None) -> None:
         style = "--" if curve.dashed else "-"
         (line,) = axes.plot(curve.times, curve.values, style, color=curve.color)
         if curve.label:
-            named.append((line, f" {shown(curve.label)}"))  # one with _ first would be left out
-    axes.set_ylim(*_limits(panel))
+            named.append(
+                (line, f" {replace_undrawable(curve.label)}")
+            )  # one with _ first would be left out
+    axes.set_ylim(*_compute_limits(panel))
     if at_rest is not None:
         axes.axvline(at_rest, color="gray", linestyle=":", linewidth=1)
         spot = axes.get_xaxis_transform()
@@ -134,15 +138,15 @@ def _draw(axes: Any, panel: Panel, at_rest: float | None) -> None:
     if named:
         lines, labels = zip(*named, strict=True)
         place = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.0}
-        axes.legend(lines, [_short(label) for label in labels], fontsize="small", **place)
+        axes.legend(lines, [_format_short(label) for label in labels], fontsize="small", **place)
 
 
-def _short(label: str, most: int = 28) -> str:
+def _format_short(label: str, most: int = 28) -> str:
     half = (most - 1) // 2
     return label if len(label) <= most else f"{label[:half]}…{label[-half:]}"
 
 
-def _limits(panel: Panel) -> tuple[float, float]:
+def _compute_limits(panel: Panel) -> tuple[float, float]:
     """Compute the range of an axis, with a margin."""
     values = np.concatenate([np.zeros(0), *(curve.values for curve in panel.curves)])
     values = values[np.isfinite(values)]
@@ -155,32 +159,32 @@ def _limits(panel: Panel) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def _height(run: Run) -> Array:
+def _compute_height(run: Run) -> Array:
     return run.recording.poses[:, 0, 2]
 
 
-def _tilt(run: Run) -> Array:
+def _compute_tilt(run: Run) -> Array:
     """Compute how far the root's upright axis is turned [°]."""
     poses = run.recording.poses[:, 0, 3:]
     ups = []
     for x, y, z, w in poses.tolist():
         whole = all(map(math.isfinite, (x, y, z, w)))
-        turn = rotation_of_quaternion((w, x, y, z)) if whole else ((math.nan,) * 3,) * 3
+        turn = rotation_from_quaternion((w, x, y, z)) if whole else ((math.nan,) * 3,) * 3
         ups.append(turn[2][2])
     tilts: Array = np.degrees(np.arccos(np.clip(ups, -1.0, 1.0)))
     return tilts
 
 
-def _moved(recording: Recording) -> Array:
+def _get_displacement(recording: Recording) -> Array:
     moved: Array = recording.positions - recording.positions[0]
     return moved
 
 
-def _efforts(recording: Recording) -> Array:
+def _compute_efforts(recording: Recording) -> Array:
     return recording.efforts
 
 
-def _curves(runs: Sequence[Run], measure: Callable[[Run], Array]) -> tuple[Curve, ...]:
+def _collect_curves(runs: Sequence[Run], measure: Callable[[Run], Array]) -> tuple[Curve, ...]:
     return tuple(
         Curve(
             run.recording.engine if len(runs) > 1 else "",
@@ -193,10 +197,12 @@ def _curves(runs: Sequence[Run], measure: Callable[[Run], Array]) -> tuple[Curve
     )
 
 
-def _joint_curves(runs: Sequence[Run], measure: Callable[[Recording], Array]) -> tuple[Curve, ...]:
+def _make_joint_curves(
+    runs: Sequence[Run], measure: Callable[[Recording], Array]
+) -> tuple[Curve, ...]:
     """Make a curve for each joint; of many, those that reach farthest have colors and names."""
     names = runs[0].recording.joints
-    order = _by_weight(runs[0].recording)
+    order = _sort_joints(runs[0].recording)
     named = sorted(order[:MOST_NAMED].tolist())
     colors = {column: _COLORS[rank] for rank, column in enumerate(named)}
     curves = []
@@ -212,10 +218,10 @@ def _joint_curves(runs: Sequence[Run], measure: Callable[[Recording], Array]) ->
     return tuple(curves)
 
 
-def _by_weight(recording: Recording) -> Indices:
+def _sort_joints(recording: Recording) -> Indices:
     """Order the joints: first those that move or work most, of what any does."""
     weight = np.zeros(len(recording.joints))
-    for values in (_moved(recording), _efforts(recording)):
+    for values in (_get_displacement(recording), _compute_efforts(recording)):
         most = np.abs(np.nan_to_num(values)).max(axis=0)
         weight += most / max(float(most.max()), 1e-12)
     order: Indices = np.argsort(-weight, kind="stable")

@@ -9,7 +9,7 @@ from threading import Thread
 from typing import TypeVar
 
 from ..model.elements import Mesh, Robot
-from .mesh_cache import outermost_points
+from .mesh_cache import get_outermost_points
 
 T = TypeVar("T")
 
@@ -54,4 +54,4 @@ def prefetch_visuals(robot: Robot) -> None:
     for link in robot.links:
         for visual in link.visuals:
             if isinstance(visual.geometry, Mesh):
-                outermost_points(robot, visual.geometry)
+                get_outermost_points(robot, visual.geometry)

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from ..errors import ModelError
 from ..finding import Finding
-from ..formats.defects import FATAL, defect, defects, refuse
+from ..formats.defects import FATAL, make_defect, refuse, report_defects
 from ..model.elements import BALL_TYPES, Robot
 from ..model.kinematics import check_positions
-from ..suggestions import did_you_mean
+from ..suggestions import suggest_name
 from .rigid_bodies import RigidBodyModel, make_rigid_bodies
 from .settings import Settings
 
@@ -31,7 +31,7 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
             it does not have.
         UrdftoolError: A mesh is not found or cannot be read.
     """
-    refuse([*defects(robot), *_unsupported_joints(robot)], force=True, fatal=_FATAL)
+    refuse([*report_defects(robot), *_unsupported_joints(robot)], force=True, fatal=_FATAL)
     check_settings(robot, settings)
     return make_rigid_bodies(robot, settings)
 
@@ -45,7 +45,7 @@ def check_settings(robot: Robot, settings: Settings) -> None:
     check_positions(robot, settings.pose)
     for name in settings.payloads:
         if name not in robot.link:
-            hint = did_you_mean(name, robot.link, 0.5) or "; see 'urdftool graph'"
+            hint = suggest_name(name, robot.link, 0.5) or "; see 'urdftool graph'"
             raise ModelError(f"--payload: the robot has no link '{name}'{hint}")
 
 
@@ -66,7 +66,7 @@ def _unsupported_joints(robot: Robot) -> Iterator[Finding]:
             and not root.collisions
         ):
             continue
-        yield defect(
+        yield make_defect(
             "planar-or-floating",
             f"joint '{joint.name}' is {joint.type}, which no engine here simulates; model it by "
             "prismatic and revolute joints"

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..formats.mjcf.gazebo import joint_spring, link_is_weightless
+from ..formats.mjcf.gazebo import get_joint_spring, link_is_weightless
 from ..inertia.requirements import combine
 from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
-from ..model.actuation import actuated_joints
+from ..model.actuation import find_actuated_joints
 from ..model.elements import ZERO, Joint, Link, Robot
-from ..model.kinematics import limits_of, link_poses, movable_joints
-from ..model.pose import IDENTITY, Pose, pose_of
+from ..model.kinematics import find_movable_joints, get_limits, link_poses
+from ..model.pose import IDENTITY, Pose, make_pose
 from ..model.start import start_positions
 from .control import NONE
 from .recording import Array
@@ -147,7 +147,7 @@ class RigidBodyModel:
         """Return the mass of the whole robot [kg]."""
         return math.fsum(body.mass for body in self.bodies)
 
-    def spring_energy(self, positions: Array) -> float:
+    def compute_spring_energy(self, positions: Array) -> float:
         """Compute the energy in the springs of the joints [J], at positions of shape (j,)."""
         joints = self.joints
         stiffness = np.array([joint.stiffness for joint in joints])
@@ -161,8 +161,8 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     Raises:
         UrdftoolError: A mesh cannot be read, a shape has no extent, a mass is below zero.
     """
-    top = _top(robot)
-    made = _lumps(robot, settings, top)
+    top = _find_root(robot)
+    made = _collect_lumps(robot, settings, top)
     is_fixed = robot.base is not None and not robot.base.is_free
     fixed_base = settings.fixed_base or is_fixed or _is_world(robot.link[top])
     positions, clamped = start_positions(robot, settings.pose)
@@ -173,7 +173,13 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     at_origin = fixed_base and _is_world(robot.link[top])
     start, size = spawn_pose(shapes, settings, fixed=fixed_base, at_origin=at_origin)
     return RigidBodyModel(
-        tuple(made), fixed_base, start, positions, held_joints(robot, made, settings), size, clamped
+        tuple(made),
+        fixed_base,
+        start,
+        positions,
+        list_held_joints(robot, made, settings),
+        size,
+        clamped,
     )
 
 
@@ -182,7 +188,7 @@ def _is_world(link: Link) -> bool:
     return link.name == ROOTED and not link.mass and not link.collisions
 
 
-def _top(robot: Robot) -> str:
+def _find_root(robot: Robot) -> str:
     """Find the root; below a frame from which the robot floats, the floating link."""
     assert robot.tree.root is not None
     name = robot.tree.root.name
@@ -191,9 +197,9 @@ def _top(robot: Robot) -> str:
     return joints[0].child if free else name
 
 
-def _lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody]:
+def _collect_lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody]:
     poses = link_poses(robot)
-    order = [name for name in robot.tree.order if name == top or _below(robot, name, top)]
+    order = [name for name in robot.tree.order if name == top or _is_below(robot, name, top)]
     members: dict[str, list[str]] = {}
     owner: dict[str, str] = {}
     for name in order:
@@ -215,19 +221,19 @@ def _lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody]:
         parent, origin = -1, IDENTITY
         if joint is not None:
             parent = index[owner[joint.parent]]
-            origin = bodies[parent].places[joint.parent] @ pose_of(joint.origin)
+            origin = bodies[parent].places[joint.parent] @ make_pose(joint.origin)
         bodies.append(
             RigidBody(
                 name,
                 tuple(links),
                 places,
-                _properties(robot, places, settings.payloads),
+                _make_properties(robot, places, settings.payloads),
                 tuple(shapes),
                 None if joint is None else make_joint(joint, robot),
                 parent,
                 origin,
                 read_surface(robot, links),
-                _properties(
+                _make_properties(
                     robot,
                     {n: at for n, at in places.items() if link_is_weightless(robot, n)},
                     settings.payloads,
@@ -237,7 +243,7 @@ def _lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody]:
     return bodies
 
 
-def _below(robot: Robot, name: str, top: str) -> bool:
+def _is_below(robot: Robot, name: str, top: str) -> bool:
     root = robot.tree.root
     return root is not None and (top == root.name or name != root.name)
 
@@ -247,7 +253,7 @@ def link_mass_properties(link: Link) -> SpatialInertia | None:
     return link_inertia(link) if link.mass else None
 
 
-def _properties(
+def _make_properties(
     robot: Robot, places: Mapping[str, Pose], payloads: Mapping[str, float]
 ) -> SpatialInertia | None:
     parts = []
@@ -257,7 +263,7 @@ def _properties(
             point = SpatialInertia(payloads[name], ZERO if own is None else own.com)
             own = point if own is None else combine([own, point])
         if own is not None:
-            parts.append(own.moved(pose))
+            parts.append(own.transform(pose))
     return combine(parts) if parts else None
 
 
@@ -265,13 +271,13 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
     """Collect what an engine needs of a joint with one position."""
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     x, y, z = (float(part) for part in axis / np.linalg.norm(axis))
-    lower, upper = limits_of(joint)
+    lower, upper = get_limits(joint)
     if lower > upper:
         lower, upper = -math.inf, math.inf
     effort = joint.limit.effort if joint.limit is not None else None
     dynamics = joint.dynamics
     mimic = joint.mimic
-    stiffness, spring_rest = joint_spring(robot, joint.name) or (0.0, 0.0)
+    stiffness, spring_rest = get_joint_spring(robot, joint.name) or (0.0, 0.0)
     return RigidBodyJoint(
         joint.name,
         joint.type,
@@ -281,7 +287,7 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
         effort if effort is not None and effort > 0 else None,
         max(0.0, (dynamics.damping or 0.0) if dynamics else 0.0),
         max(0.0, (dynamics.friction or 0.0) if dynamics else 0.0),
-        mimic.joint if mimic is not None and mimic.joint in movable_joints(robot) else None,
+        mimic.joint if mimic is not None and mimic.joint in find_movable_joints(robot) else None,
         mimic.multiplier if mimic is not None else 1.0,
         mimic.offset if mimic is not None else 0.0,
         stiffness,
@@ -289,7 +295,7 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
     )
 
 
-def held_joints(robot: Robot, bodies: list[RigidBody], settings: Settings) -> tuple[str, ...]:
+def list_held_joints(robot: Robot, bodies: list[RigidBody], settings: Settings) -> tuple[str, ...]:
     """List the joints that are held; mimic joints follow anyway."""
     joints = [body.joint for body in bodies if body.joint is not None]
     names = [joint.name for joint in joints if joint.leader is None]
@@ -299,6 +305,6 @@ def held_joints(robot: Robot, bodies: list[RigidBody], settings: Settings) -> tu
     if settings.hold == "none":
         return ()
     if settings.hold == "actuated":
-        actuated = actuated_joints(robot)
+        actuated = find_actuated_joints(robot)
         return tuple(name for name in names if name in actuated)
     return tuple(names)

@@ -16,10 +16,10 @@ import numpy as np
 
 from ..errors import ModelError
 from ..model.elements import Robot
-from ..model.pose import rotation_of_quaternion
+from ..model.pose import rotation_from_quaternion
 from .checks.thresholds import Thresholds
 from .engine_process import EngineProcess
-from .engines.registry import REGISTRY, library_of, load_engine
+from .engines.registry import REGISTRY, get_library, load_engine
 from .prefetch import prefetch
 from .prepare import prepare
 from .recording import Array, Contact, Recording, Swept
@@ -75,7 +75,7 @@ class Run:
             self.bodies, recorded.poses[-1], recorded.contacts, thresholds=self.thresholds
         )
 
-    def center_of_mass(
+    def compute_center_of_mass(
         self, numbers: Iterable[int], sample: int
     ) -> tuple[float, float, float] | None:
         """Compute the center of mass of some bodies in the world [m], of what gravity acts on.
@@ -94,7 +94,7 @@ class Run:
                 continue
             pose = self.recording.poses[sample, number]
             x, y, z, w = pose[3:].tolist()
-            turn = np.array(rotation_of_quaternion((w, x, y, z)))
+            turn = np.array(rotation_from_quaternion((w, x, y, z)))
             summed += mass * (pose[:3] + turn @ center)
             total += mass
         if not total or not np.isfinite(summed).all():
@@ -133,10 +133,10 @@ def simulate(
     engine, bounds = engine or next(iter(REGISTRY)), thresholds or Thresholds()
     runs = []
     ends = perf_counter() + settings.time_limit
-    for number, trial in enumerate(trials(settings), 1):
+    for number, trial in enumerate(make_trials(settings), 1):
         progress(number, settings.trials)
         with (
-            (number == 1 and child) or EngineProcess(library_of(engine)) as process,
+            (number == 1 and child) or EngineProcess(get_library(engine)) as process,
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
@@ -149,7 +149,7 @@ def simulate(
             ) -> None:
                 precompute(robot, StateSnapshot(bodies, *start, known, bounds))
 
-            with _located(robot), prefetch(robot, on_start) as on_emit:
+            with _add_location(robot), prefetch(robot, on_start) as on_emit:
                 recording = process.call(
                     *(_DRIVER, "run", engine, bodies, trial, Path(folder), bounds),
                     time_limit=left,
@@ -163,7 +163,7 @@ def simulate(
 
 
 @contextmanager
-def _located(robot: Robot) -> Iterator[None]:
+def _add_location(robot: Robot) -> Iterator[None]:
     """Add the place of the robot to errors of an engine, which knows only the bodies."""
     try:
         yield
@@ -175,7 +175,7 @@ def _located(robot: Robot) -> Iterator[None]:
 
 def _sweep(bodies: RigidBodyModel, settings: Settings, engine: str, folder: Path) -> list[Swept]:
     """Move joints through their limits, in a process of its own."""
-    with EngineProcess(library_of(engine)) as child:
+    with EngineProcess(get_library(engine)) as child:
         found: list[Swept] = child.call(
             *(_DRIVER, "sweep", engine, bodies, settings, folder),
             time_limit=settings.time_limit,
@@ -183,7 +183,7 @@ def _sweep(bodies: RigidBodyModel, settings: Settings, engine: str, folder: Path
     return found
 
 
-def trials(settings: Settings) -> list[Settings]:
+def make_trials(settings: Settings) -> list[Settings]:
     """Make the settings of each trial: the first upright, the others tilted and turned."""
     chance = random.Random(settings.seed)
     found = [settings]

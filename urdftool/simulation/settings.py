@@ -67,7 +67,7 @@ class Settings:
     time_limit: float = 60.0
     controls: Mapping[str, Control] | None = None
 
-    def gravity_at(self, time: float) -> tuple[float, float, float]:
+    def compute_gravity_at(self, time: float) -> tuple[float, float, float]:
         """Compute gravity [m/s²] at a time [s], in the frame in which the plane is level."""
         lean = 0.0
         if self.nudge and time < 2 * NUDGE:

@@ -26,10 +26,10 @@ from ..model.elements import (
     Robot,
     Sphere,
 )
-from ..model.pose import Pose, pose_of
-from ..model.shapes import shape_name
+from ..model.pose import Pose, make_pose
+from ..model.shapes import get_shape_name
 from .hull_cache import get_or_compute
-from .mesh_cache import cached_for, load_triangles, mesh_key
+from .mesh_cache import compute_once, get_mesh_key, load_triangles
 from .recording import Array
 
 MOST_PIECES = 32
@@ -66,7 +66,7 @@ class Shape:
     faces: tuple[Faces, ...] = ()
     pose: Pose = field(default_factory=Pose)
 
-    def reach(self, direction: Array) -> float:
+    def compute_reach(self, direction: Array) -> float:
         """Compute how far it reaches along a unit vector of its body's frame [m]."""
         turn = np.array(self.pose.rotation)
         along = turn.T @ direction
@@ -83,7 +83,7 @@ class Shape:
             return start + ends + radius
         return start + ends + radius * float(np.hypot(along[0], along[1]))
 
-    def corners(self) -> Array:
+    def get_corners(self) -> Array:
         """Return corners of a mesh or box in its frame, or of a round shape's box, (n, 3)."""
         if self.kind == "mesh":
             return np.concatenate(self.pieces)
@@ -98,15 +98,15 @@ class Shape:
         corners: Array = signs * edges / 2
         return corners
 
-    def bounds(self) -> tuple[Array, Array]:
+    def get_bounds(self) -> tuple[Array, Array]:
         """Return two corners of the box around it, along the axes of its body."""
         return self._bounds
 
     @cached_property
     def _bounds(self) -> tuple[Array, Array]:
         axes = np.eye(3)
-        high = np.array([self.reach(axis) for axis in axes])
-        low = -np.array([self.reach(-axis) for axis in axes])
+        high = np.array([self.compute_reach(axis) for axis in axes])
+        low = -np.array([self.compute_reach(-axis) for axis in axes])
         return low, high
 
 
@@ -120,9 +120,9 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
         geometry = collision.geometry
         if is_without_extent(collision):
             continue
-        pose = at @ pose_of(collision.origin)
+        pose = at @ make_pose(collision.origin)
         if isinstance(geometry, Mesh):
-            pieces, faces = _pieces(robot, collision, geometry)
+            pieces, faces = _collect_pieces(robot, collision, geometry)
             largest = max(float(np.ptp(piece, axis=0).max()) for piece in pieces)
             if largest < _LEAST:
                 raise ModelError(
@@ -134,7 +134,7 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
             continue
         if isinstance(geometry, Ellipsoid | Cone):
             lengths = _lengths(geometry)
-            points, triangles = tessellate(shape_name(geometry), lengths, _AROUND)
+            points, triangles = tessellate(get_shape_name(geometry), lengths, _AROUND)
             yield Shape(link.name, number, "mesh", (), (points,), (triangles,), pose)
             continue
         size: tuple[float, ...]
@@ -167,18 +167,18 @@ def is_without_extent(collision: Collision) -> bool:
     return isinstance(geometry, Box | Sphere | Cylinder | Capsule) and not has_extent(geometry)
 
 
-def _pieces(
+def _collect_pieces(
     robot: Robot, collision: Collision, geometry: Mesh
 ) -> tuple[tuple[Array, ...], tuple[Faces, ...]]:
     try:
         if robot.source is None:
             raise ModelError("the robot was not read from a file, so its meshes are nowhere")
-        parts = cached_for(
+        parts = compute_once(
             robot,
             ("pieces", geometry.filename, geometry.scale),
             lambda: get_or_compute(
-                *mesh_key(robot, geometry, "pieces"),
-                lambda: list(_convex_parts(load_triangles(robot, geometry))),
+                *get_mesh_key(robot, geometry, "pieces"),
+                lambda: list(_list_convex_parts(load_triangles(robot, geometry))),
             ),
         )
     except UrdftoolError as error:
@@ -187,7 +187,7 @@ def _pieces(
     return tuple(points for points, _ in parts), tuple(faces for _, faces in parts)
 
 
-def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
+def _list_convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
     """Yield the hull of each object of a mesh, as engines make it."""
     parts = [mesh.part_faces(part) for part in mesh.parts]
     if mesh.format == "stl" or not 1 < len(parts) <= MOST_PIECES:
@@ -195,27 +195,27 @@ def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
     for faces in parts:
         used = np.zeros(len(mesh.vertices), dtype=bool)
         used[faces] = True
-        yield hull(mesh.vertices[used])
+        yield compute_hull(mesh.vertices[used])
 
 
-def hull(points: Array) -> tuple[Array, Faces]:
+def compute_hull(points: Array) -> tuple[Array, Faces]:
     """Compute corners and triangles of the convex hull of points; of flat ones, the points."""
     found = convex_hull(points)
     if found is not None and found.num_vert() > MOST_VERTICES:
-        found = convex_hull(_thinned(hull_surface(found)[0]))
+        found = convex_hull(_thin_points(hull_surface(found)[0]))
     if found is None:
-        points = _thinned(points) if len(points) > MOST_VERTICES else points
-        return points, _fan(len(points))
+        points = _thin_points(points) if len(points) > MOST_VERTICES else points
+        return points, _make_fan(len(points))
     return hull_surface(found)
 
 
-def _fan(count: int) -> Faces:
+def _make_fan(count: int) -> Faces:
     """Make triangles that name every one of some points."""
     fan: Faces = np.array([(0, i, min(i + 1, count - 1)) for i in range(max(1, count - 1))])
     return fan
 
 
-def _thinned(points: Array) -> Array:
+def _thin_points(points: Array) -> Array:
     """Choose the points that reach farthest along directions spread evenly over the sphere."""
     steps = np.arange(MOST_VERTICES) + 0.5
     z = 1 - 2 * steps / MOST_VERTICES
@@ -228,7 +228,7 @@ def _thinned(points: Array) -> Array:
     return thinned
 
 
-def lowest_height(shapes: Sequence[Shape], turn: Array, at: Array) -> float:
+def compute_lowest_height(shapes: Sequence[Shape], turn: Array, at: Array) -> float:
     """Compute the height of the lowest point of shapes of one body in the world [m].
 
     Args:
@@ -237,4 +237,4 @@ def lowest_height(shapes: Sequence[Shape], turn: Array, at: Array) -> float:
         at: Its origin in the world [m].
     """
     down = turn.T @ np.array([0.0, 0.0, -1.0])
-    return float(at[2]) - max(shape.reach(down) for shape in shapes)
+    return float(at[2]) - max(shape.compute_reach(down) for shape in shapes)

@@ -32,7 +32,7 @@ class Solids:
         """Return the parts of both."""
         return Solids([*self.parts, *other.parts])
 
-    def moved(self, pose: Pose) -> Solids:
+    def transform(self, pose: Pose) -> Solids:
         """Return the same in the frame in which ``pose`` is that of its present one."""
         if not self.parts:
             return self
@@ -46,7 +46,7 @@ class Solids:
         """Compute the volume of the union [m³]."""
         return float(self._union.volume())
 
-    def shared(self, other: Solids) -> float:
+    def compute_shared_volume(self, other: Solids) -> float:
         """Compute the volume that two unions share [m³]."""
         return float((self._union ^ other._union).volume())
 
@@ -59,7 +59,7 @@ class Solids:
         return Manifold.batch_boolean(self.parts, OpType.Add) if self.parts else Manifold()
 
 
-def hulls(clouds: Iterable[Array]) -> Solids:
+def compute_hulls(clouds: Iterable[Array]) -> Solids:
     """Compute the convex hulls of clouds of points; flat ones, without volume, are left out.
 
     Of many points, the outermost have all but the same hull, at a fraction of the time.

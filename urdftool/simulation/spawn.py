@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..model.pose import Pose, rotation_of_rpy
+from ..model.pose import Pose, rotation_from_rpy
 from .recording import Array
 from .settings import Settings
 from .shapes import Shape
@@ -40,15 +40,15 @@ def spawn_pose(
         fixed: Whether the root is fixed to the world.
         at_origin: Whether the file says where: it is put higher only where that is in the plane.
     """
-    turn = Pose(rotation_of_rpy(settings.start_rpy))
-    low, high = _bounds(parts, turn)
+    turn = Pose(rotation_from_rpy(settings.start_rpy))
+    low, high = _compute_bounds(parts, turn)
     size = float((high - low).max()) if np.isfinite(low).all() else 0.0
     if settings.height is not None:
         return Pose(turn.rotation, (0.0, 0.0, settings.height)), size
     if not fixed:
         height = GAP - float(low[2])
     else:
-        root, moving = (float(_bounds(some, turn)[0][2]) for some in (parts[:1], parts[1:]))
+        root, moving = (float(_compute_bounds(some, turn)[0][2]) for some in (parts[:1], parts[1:]))
         height = max(GAP - root, CLEAR * size - moving)
     if not math.isfinite(height):
         height = 0.0
@@ -57,7 +57,9 @@ def spawn_pose(
     return Pose(turn.rotation, (0.0, 0.0, height)), size
 
 
-def _bounds(parts: Iterable[tuple[Pose, Sequence[Shape]]], turn: Pose) -> tuple[Array, Array]:
+def _compute_bounds(
+    parts: Iterable[tuple[Pose, Sequence[Shape]]], turn: Pose
+) -> tuple[Array, Array]:
     """Compute the box around shapes of a turned robot; infinite without shapes."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for place, shapes in parts:
@@ -67,6 +69,6 @@ def _bounds(parts: Iterable[tuple[Pose, Sequence[Shape]]], turn: Pose) -> tuple[
         rotation, at = np.array(pose.rotation), np.array(pose.translation)
         for axis in range(3):
             along = rotation.T @ np.eye(3)[axis]
-            low[axis] = min(low[axis], at[axis] - max(s.reach(-along) for s in shapes))
-            high[axis] = max(high[axis], at[axis] + max(s.reach(along) for s in shapes))
+            low[axis] = min(low[axis], at[axis] - max(s.compute_reach(-along) for s in shapes))
+            high[axis] = max(high[axis], at[axis] + max(s.compute_reach(along) for s in shapes))
     return low, high

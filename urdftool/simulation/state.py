@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from typing import TypeVar, cast
 
-from ..model.pose import Pose, rotation_of_quaternion
+from ..model.pose import Pose, rotation_from_quaternion
 from .checks.thresholds import Thresholds
 from .recording import Array, Contact
 from .rigid_bodies import RigidBodyModel
@@ -32,22 +32,22 @@ class StateSnapshot:
     known: dict[Hashable, object] = field(default_factory=dict)
     thresholds: Thresholds = field(default_factory=Thresholds)
 
-    def pose(self, number: int) -> Pose:
+    def get_pose(self, number: int) -> Pose:
         """Return the pose of a body in the world."""
         a, b, c, x, y, z, w = self.poses[number].tolist()
-        return Pose(rotation_of_quaternion((w, x, y, z)), (a, b, c))
+        return Pose(rotation_from_quaternion((w, x, y, z)), (a, b, c))
 
-    def body_of(self, link: str) -> int:
+    def get_body(self, link: str) -> int:
         """Return the number of the body that a link belongs to."""
         bodies = self.bodies.bodies
         return next(number for number, body in enumerate(bodies) if link in body.links)
 
     def link_pose(self, link: str) -> Pose:
         """Return the pose of a link in the world."""
-        number = self.body_of(link)
-        return self.pose(number) @ self.bodies.bodies[number].places[link]
+        number = self.get_body(link)
+        return self.get_pose(number) @ self.bodies.bodies[number].places[link]
 
-    def cached(self, key: Hashable, make: Callable[[], T]) -> T:
+    def get_or_compute(self, key: Hashable, make: Callable[[], T]) -> T:
         """Return the result for a key, computed once for this state; errors are not cached."""
         if key not in self.known:
             self.known[key] = make()

@@ -44,7 +44,7 @@ def read_surface(robot: Robot, links: Iterable[str]) -> Surface:
     where: dict[str, None] = {}
     for name in links:
         for what, (tags, tag) in _WORDS.items():
-            for word, text in _texts(robot, name, tags, tag):
+            for word, text in _list_texts(robot, name, tags, tag):
                 value = number(text)
                 if value is not None and math.isfinite(value) and value >= 0:
                     values[what] = min(value, values.get(what, math.inf))
@@ -54,7 +54,9 @@ def read_surface(robot: Robot, links: Iterable[str]) -> Surface:
     return Surface(**values, where=tuple(where))
 
 
-def _texts(robot: Robot, link: str, tags: Iterable[str], tag: str) -> Iterable[tuple[str, str]]:
+def _list_texts(
+    robot: Robot, link: str, tags: Iterable[str], tag: str
+) -> Iterable[tuple[str, str]]:
     for block in robot.extensions.get(link, ()):
         for word in tags:
             text = block.value(word)

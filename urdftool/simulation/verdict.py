@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from ..model.elements import Robot
 from .checks.contact import check_contacts
 from .checks.controllers import check_controllers
-from .checks.final_state import FinalState, final_state
+from .checks.final_state import FinalState, measure_final_state
 from .checks.interpenetration import check_sweep
 from .checks.joints import check_joints
 from .checks.settling import check_final_state
@@ -45,8 +45,8 @@ class Verdict:
 
 def judge(robot: Robot, run: Run) -> Verdict:
     """Judge one trial."""
-    rest = final_state(run)
-    faults = [_caused(run, fault) for fault in _faults(robot, run, rest)]
+    rest = measure_final_state(run)
+    faults = [_replace_cause(run, fault) for fault in _report_faults(robot, run, rest)]
     faults.sort(key=lambda fault: not fault.fails)
     return Verdict(run, rest, faults)
 
@@ -57,7 +57,7 @@ _CONSEQUENCES = frozenset(
 """Kinds of what a free root without mass may do, whatever else the file says."""
 
 
-def _caused(run: Run, fault: Fault) -> Fault:
+def _replace_cause(run: Run, fault: Fault) -> Fault:
     """Replace the cause of a fault that follows from a root without mass."""
     root = run.bodies.bodies[0]
     if root.mass or run.bodies.fixed_base or fault.code not in _CONSEQUENCES:
@@ -68,7 +68,7 @@ def _caused(run: Run, fault: Fault) -> Fault:
     return replace(fault, cause=cause, rule="massless-root-body")
 
 
-def _faults(robot: Robot, run: Run, rest: FinalState) -> Iterator[Fault]:
+def _report_faults(robot: Robot, run: Run, rest: FinalState) -> Iterator[Fault]:
     yield from check_description(robot, run)
     yield from check_final_state(robot, run, rest)
     yield from check_support(robot, run, rest)

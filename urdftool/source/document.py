@@ -169,7 +169,7 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     except PermissionError:
         raise SourceError("cannot be read: permission denied", path=shown) from None
     except (OSError, ValueError) as error:
-        raise SourceError(f"cannot be read: {_reason(error)}", path=shown) from None
+        raise SourceError(f"cannot be read: {_get_reason(error)}", path=shown) from None
     if len(data) > MAX_BYTES:
         limit = MAX_BYTES // (1024 * 1024)
         raise SourceError(
@@ -183,7 +183,7 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     return SourceFile(shown, data)
 
 
-def _reason(error: Exception) -> str:
+def _get_reason(error: Exception) -> str:
     return getattr(error, "strerror", None) or str(error)
 
 

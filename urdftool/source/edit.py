@@ -18,7 +18,7 @@ from ..errors import SourceError
 from .document import Document, Element, parse
 from .escape import escape, unescape
 from .location import SourceFile
-from .tags import value_span
+from .tags import locate_value
 
 _BLANK = re.compile(rb"[ \t]*")
 _REST_OF_LINE = re.compile(rb"(?:[ \t]|<!--(?:(?!--)[^\n])*-->)*(?=\r?\n)")
@@ -80,12 +80,12 @@ class Source:
         return b"  "
 
 
-def literal(element: Element, name: str) -> str | None:
+def read_literal(element: Element, name: str) -> str | None:
     """Return the value of an attribute as written, with references resolved; None if absent."""
     span = element.file.attribute_spans(element.start).get(name)
     if span is None:
         return None
-    start, end = value_span(element.file.data, span)
+    start, end = locate_value(element.file.data, span)
     return unescape(element.file.data[start:end].decode(element.file.encoding), _QUOTES)
 
 
@@ -94,13 +94,13 @@ def set_attribute(source: Source, element: Element, name: str, value: str) -> Ed
     data = source.file.data
     spans = source.file.attribute_spans(element.start)
     if name in spans:
-        start, end = value_span(data, spans[name])
-        return Edit(start, end, _attribute_text(value, data[start - 1 : start]))
+        start, end = locate_value(data, spans[name])
+        return Edit(start, end, _get_attribute_bytes(value, data[start - 1 : start]))
     at = max((end for _, end in spans.values()), default=element.start + 1 + len(element.tag))
-    return Edit(at, at, f' {name}="'.encode() + _attribute_text(value, b'"') + b'"')
+    return Edit(at, at, f' {name}="'.encode() + _get_attribute_bytes(value, b'"') + b'"')
 
 
-def _attribute_text(value: str, quote: bytes) -> bytes:
+def _get_attribute_bytes(value: str, quote: bytes) -> bytes:
     entities = {'"': "&quot;"} if quote == b'"' else {"'": "&apos;"}
     return escape(value, entities).encode("ascii", "xmlcharrefreplace")
 
@@ -207,6 +207,6 @@ def apply(file: SourceFile, edits: Iterable[Edit]) -> bytes:
     return b"".join([*parts, file.data[position:]])
 
 
-def parsed(file: SourceFile) -> Source:
+def parse_source(file: SourceFile) -> Source:
     """Parse a file for edits; see :class:`Source`."""
     return Source(file)

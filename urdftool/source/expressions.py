@@ -12,8 +12,8 @@ from functools import lru_cache
 from types import CodeType
 from typing import Any
 
-from . import bounded
-from .bounded import ForbiddenNameError
+from . import safe_builtins
+from .safe_builtins import ForbiddenNameError
 
 _HIDDEN = frozenset(
     (
@@ -32,7 +32,7 @@ _OPERATORS = {
 }
 
 # An expression without a match needs no syntax tree.
-_METHODS = "|".join((*bounded.METHODS, *_HIDDEN))
+_METHODS = "|".join((*safe_builtins.METHODS, *_HIDDEN))
 _SUSPECT = re.compile(rf"[+*%]|<<|\b[fF][rR]?['\"]|\b[rR][fF]['\"]|\.\s*(?:{_METHODS})")
 
 
@@ -84,7 +84,7 @@ class _Bounded(ast.NodeTransformer):
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         """Replace a method of a string."""
         self.generic_visit(node)
-        if node.attr not in bounded.METHODS:
+        if node.attr not in safe_builtins.METHODS:
             return node
         name = ast.copy_location(ast.Constant(node.attr), node)
         return _call(node, "__method__", node.value, name)
@@ -95,7 +95,7 @@ class _Bounded(ast.NodeTransformer):
         for part in getattr(node.format_spec, "values", []):
             if not isinstance(part, ast.Constant):
                 raise ForbiddenNameError("a format width cannot be an expression")
-            bounded.check_format(str(part.value))
+            safe_builtins.check_format(str(part.value))
         return node
 
 
@@ -106,10 +106,10 @@ def _call(node: ast.expr, function: str, *arguments: ast.expr) -> ast.Call:
 
 # Python searches these names last; _check_names prevents their direct use.
 BUILTINS: dict[str, Any] = {
-    "__power__": bounded.power,
-    "__shift__": bounded.shift,
-    "__product__": bounded.product,
-    "__total__": bounded.total,
-    "__remainder__": bounded.remainder,
-    "__method__": bounded.method,
+    "__power__": safe_builtins.compute_power,
+    "__shift__": safe_builtins.shift,
+    "__product__": safe_builtins.multiply,
+    "__total__": safe_builtins.add,
+    "__remainder__": safe_builtins.compute_remainder,
+    "__method__": safe_builtins.get_method,
 }

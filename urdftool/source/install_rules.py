@@ -105,7 +105,7 @@ def _install(package_dir: Path, share: str, words: list[str]) -> list[InstallRul
     return rules
 
 
-def installed_path(rules: list[InstallRule], relative: str, workspace: Workspace) -> Path | None:
+def find_installed(rules: list[InstallRule], relative: str, workspace: Workspace) -> Path | None:
     """Return the source file that is installed at a path below the share folder; None if none is.
 
     Args:

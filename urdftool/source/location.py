@@ -69,16 +69,16 @@ class SourceFile:
         """Return the byte span (name to closing quote) of each attribute of the tag at a byte."""
         spans = self._tags.get(start)
         if spans is None:
-            from .tags import attribute_spans
+            from .tags import locate_attributes
 
-            spans = self._tags[start] = attribute_spans(self.data, start)
+            spans = self._tags[start] = locate_attributes(self.data, start)
         return spans
 
     def tag_end(self, start: int) -> int:
         """Return the byte after the ``>`` of the tag at a byte."""
-        from .tags import tag_end
+        from .tags import find_tag_end
 
-        return tag_end(self.data, start)
+        return find_tag_end(self.data, start)
 
     def editable(self) -> Source:
         """Parse the file once, as written, without expansion.

@@ -17,8 +17,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from ..errors import PackageNotFound
-from ..workspace import Workspace, memoized
-from .install_rules import InstallRule, installed_path, read_install_rules
+from ..workspace import Workspace, memoize_by_workspace
+from .install_rules import InstallRule, find_installed, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
 _XML_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
@@ -31,8 +31,8 @@ _MAX_CLIMB = 6
 _NEAR = 3
 
 
-@memoized
-def _names(workspace: Workspace, folder: str) -> str | None:
+@memoize_by_workspace
+def _read_package_name(workspace: Workspace, folder: str) -> str | None:
     try:
         text = workspace.read_bytes(os.path.join(folder, "package.xml"))
     except OSError:
@@ -41,31 +41,31 @@ def _names(workspace: Workspace, folder: str) -> str | None:
     return match[1].decode("utf-8", "replace") if match else os.path.basename(folder)
 
 
-def own_package(path: Path, workspace: Workspace | None = None) -> tuple[str, Path] | None:
+def find_own_package(path: Path, workspace: Workspace | None = None) -> tuple[str, Path] | None:
     """Return name and folder of the package of a file: the nearest ``package.xml`` above it."""
-    return _owners(workspace or Workspace(), os.path.dirname(path))
+    return _find_owner(workspace or Workspace(), os.path.dirname(path))
 
 
-@memoized
-def _owners(workspace: Workspace, folder: str) -> tuple[str, Path] | None:
-    name = _names(workspace, folder)
+@memoize_by_workspace
+def _find_owner(workspace: Workspace, folder: str) -> tuple[str, Path] | None:
+    name = _read_package_name(workspace, folder)
     if name is not None:
         return name, Path(folder)
     parent = os.path.dirname(folder)
-    return _owners(workspace, parent) if parent != folder else None
+    return _find_owner(workspace, parent) if parent != folder else None
 
 
-def packages_below(folder: Path, workspace: Workspace | None = None) -> dict[str, Path]:
+def find_packages(folder: Path, workspace: Workspace | None = None) -> dict[str, Path]:
     """Return all packages in a folder and below it, by name; the topmost of duplicates.
 
     Hidden folders, build output and folders with an ``…_IGNORE`` file are skipped; packages within
     packages are not searched.
     """
-    return _below(workspace or Workspace(), str(folder))
+    return _scan_packages(workspace or Workspace(), str(folder))
 
 
-@memoized
-def _below(workspace: Workspace, folder: str) -> dict[str, Path]:
+@memoize_by_workspace
+def _scan_packages(workspace: Workspace, folder: str) -> dict[str, Path]:
     found: dict[str, Path] = {}
     level = [folder]
     seen = 0
@@ -83,7 +83,7 @@ def _below(workspace: Workspace, folder: str) -> dict[str, Path]:
             if names & _IGNORE_FILES:
                 continue
             if "package.xml" in names:
-                name = _names(workspace, place)
+                name = _read_package_name(workspace, place)
                 if name:
                     found.setdefault(name, Path(place))
                 continue
@@ -98,7 +98,7 @@ def _below(workspace: Workspace, folder: str) -> dict[str, Path]:
     return found
 
 
-def shown_path(path: str | Path) -> str:
+def shorten_path(path: str | Path) -> str:
     """Return a path relative to the current folder if it is below it."""
     text = os.path.normpath(path)
     here = os.getcwd() + os.sep
@@ -145,7 +145,7 @@ class Packages:
     @property
     def own(self) -> tuple[str, Path] | None:
         """Return name and folder of the package of the description; None without a package."""
-        return own_package(self.file, self.workspace)
+        return find_own_package(self.file, self.workspace)
 
     def find(self, name: str) -> Path:
         """Return the folder of a package.
@@ -161,7 +161,7 @@ class Packages:
                 rule="package-not-found",
             )
         searched: list[str] = []
-        for where, folder in self._candidates(name):
+        for where, folder in self._list_candidates(name):
             if folder is not None and self.workspace.is_folder(folder):
                 self.used[name] = folder
                 return folder
@@ -181,8 +181,8 @@ class Packages:
         own = self.own
         if own is None:
             return [self.file.parent]
-        roots = self._workspace_roots(own[1])
-        siblings = [folder for root in roots for folder in self._below(root).values()]
+        roots = self._list_workspace_roots(own[1])
+        siblings = [folder for root in roots for folder in self._find_packages(root).values()]
         return list(dict.fromkeys([own[1], *siblings]))
 
     def folder_with(self, name: str, inner: str) -> Path | None:
@@ -197,9 +197,9 @@ class Packages:
         """
         inner = inner.lstrip("/")
         own = self.own
-        roots = self._workspace_roots(own[1] if own else None)
+        roots = self._list_workspace_roots(own[1] if own else None)
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]
-        siblings = [folder for root in roots for folder in self._below(root).values()]
+        siblings = [folder for root in roots for folder in self._find_packages(root).values()]
         parts = inner.split("/")
         named = [folder / name for folder in above[:2]]
         for folder in (*above, *named, *siblings) if inner and ".." not in parts else ():
@@ -207,7 +207,7 @@ class Packages:
                 return folder
         return None
 
-    def _folder_named(self, name: str, inner: str) -> Path | None:
+    def _find_folder_named(self, name: str, inner: str) -> Path | None:
         """Return the only folder of a name near the description that contains a file.
 
         PyBullet reads ``package://meshes/arm.stl`` as the file ``meshes/arm.stl`` next to the
@@ -225,13 +225,13 @@ class Packages:
         self.assumed[name] = found[0]
         return found[0]
 
-    def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
+    def _list_candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
         """Yield each searched place: its text for the notes, and the folder, if it exists."""
         if name in self.named:
             yield f"--package {name}={self.named[name]} (does not exist)", self.named[name]
         for path in self.paths:
-            below = self._below(path)
-            yield f"--package-path {path}", below.get(name) or self._child(path, name)
+            below = self._find_packages(path)
+            yield f"--package-path {path}", below.get(name) or self._find_child(path, name)
         own = self.own
         if own:
             yield (
@@ -240,8 +240,8 @@ class Packages:
             )
         else:
             yield f"for a package.xml above {self.file}", None
-        for root in self._workspace_roots(own[1] if own else None):
-            yield f"packages below {root}", self._below(root).get(name)
+        for root in self._list_workspace_roots(own[1] if own else None):
+            yield f"packages below {root}", self._find_packages(root).get(name)
         if name in self.configured:
             folder = Path(self.configured[name])
             yield f"the configuration: {name} = {folder} (does not exist)", folder
@@ -251,7 +251,7 @@ class Packages:
                 yield f"{variable} (not set)", None
             for entry in filter(None, value.split(os.pathsep)):
                 if variable == "ROS_PACKAGE_PATH":
-                    folder_or_none = self._below(Path(entry)).get(name)
+                    folder_or_none = self._find_packages(Path(entry)).get(name)
                 else:
                     share = Path(entry) / "share" / name
                     folder_or_none = share if self.workspace.is_folder(share) else None
@@ -261,15 +261,15 @@ class Packages:
                 yield f"a folder above the file named {name}", folder
         yield f"for a folder named '{name}' above the file", None
 
-    def _below(self, folder: Path) -> dict[str, Path]:
-        return packages_below(folder, self.workspace)
+    def _find_packages(self, folder: Path) -> dict[str, Path]:
+        return find_packages(folder, self.workspace)
 
-    def _child(self, path: Path, name: str) -> Path | None:
+    def _find_child(self, path: Path, name: str) -> Path | None:
         """Return a folder of that name directly in a search path; it needs no ``package.xml``."""
         folder = path / name
         return folder if name and self.workspace.is_folder(folder) else None
 
-    def _workspace_roots(self, package: Path | None) -> list[Path]:
+    def _list_workspace_roots(self, package: Path | None) -> list[Path]:
         """Return the folders to search, from the parent of the package to the workspace root."""
         start = package.parent if package else self.file.parent
         roots = []
@@ -301,7 +301,7 @@ class Packages:
                 continue
             if name not in self._rules:
                 self._rules[name] = read_install_rules(folder, name, self.workspace)
-            source = installed_path(self._rules[name], relative.as_posix(), self.workspace)
+            source = find_installed(self._rules[name], relative.as_posix(), self.workspace)
             if source is not None:
                 return source
         return path
@@ -325,14 +325,14 @@ class Packages:
             try:
                 folder = self.find(name)
             except PackageNotFound as error:
-                same = self._folder_named(name, inner) if scheme == "package" else None
+                same = self._find_folder_named(name, inner) if scheme == "package" else None
                 if same is not None:
                     return same / inner
                 near = self.folder_with(name, inner)
                 if near is None:
                     raise
                 raise PackageNotFound(
-                    f"package '{name}' is not found; {has_it(name, near)}",
+                    f"package '{name}' is not found; {suggest_folder(name, near)}",
                     notes=error.notes,
                     rule=error.rule,
                 ) from None
@@ -343,7 +343,7 @@ class Packages:
         return self.installed(base.parent / uri)
 
 
-def has_it(name: str, folder: Path) -> str:
+def suggest_folder(name: str, folder: Path) -> str:
     """Return the remedy for a missing package whose file is in another folder."""
-    shown = shown_path(folder)
+    shown = shorten_path(folder)
     return f"the file exists in {shown}; to use it, pass --package {name}={shown}"

@@ -12,7 +12,7 @@ _ATTRIBUTE = re.compile(rb"""\s*([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 _TAG_NAME = re.compile(rb"<[^\s<>/]+")
 
 
-def attribute_spans(data: bytes, start: int) -> dict[str, tuple[int, int]]:
+def locate_attributes(data: bytes, start: int) -> dict[str, tuple[int, int]]:
     """Return byte spans ``(start of the name, byte after the closing quote)`` by attribute name.
 
     Args:
@@ -30,7 +30,7 @@ def attribute_spans(data: bytes, start: int) -> dict[str, tuple[int, int]]:
     return spans
 
 
-def value_span(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
+def locate_value(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
     """Return the span of the value between its quotes, for a span of :func:`attribute_spans`."""
     match = _ATTRIBUTE.match(data, span[0])
     if match is None:
@@ -38,7 +38,7 @@ def value_span(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
     return match.start(2) + 1, match.end(2) - 1
 
 
-def tag_end(data: bytes, start: int) -> int:
+def find_tag_end(data: bytes, start: int) -> int:
     """Return the byte after the ``>`` that ends the tag starting at ``start``."""
     name = _TAG_NAME.match(data, start)
     position = name.end() if name else start

@@ -48,7 +48,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
 
     def declaration(_: str, encoding: str | None, __: int) -> None:
         if encoding and encoding.lower() not in ("utf-8", "utf8", "us-ascii", "ascii"):
-            file.encoding = _codec(encoding)
+            file.encoding = _find_codec(encoding)
 
     parser.EntityDeclHandler = entity
     parser.XmlDeclHandler = declaration
@@ -72,7 +72,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
         ) from None
 
 
-def _codec(encoding: str) -> str:
+def _find_codec(encoding: str) -> str:
     import codecs
 
     try:
@@ -127,7 +127,7 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
         reason = f'the XML declaration is invalid ({reason}); use <?xml version="1.0"?>'
         case = "a wrong declaration"
-    elif _in_comment(data, offset):
+    elif _is_in_comment(data, offset):
         reason = "a comment contains '--', which XML does not allow; use '- -' or '-'"
         case = "'--' in a comment"
     else:
@@ -152,12 +152,12 @@ _UNBOUND_PREFIX = 27
 _NOT_CLOSED = ("mismatched tag", "no element found")
 
 
-def _in_comment(data: bytes, offset: int) -> bool:
+def _is_in_comment(data: bytes, offset: int) -> bool:
     before = data.rfind(b"<!--", 0, offset + 1)
     return before >= 0 and b"-->" not in data[before:offset] and b"--" in data[before + 4 :]
 
 
-def mend(file: SourceFile) -> SourceFile | None:
+def repair(file: SourceFile) -> SourceFile | None:
     """Return a file that tolerant readers accept, made well-formed at unchanged offsets.
 
     Blanks replace what TinyXML ignores: a wrong or late ``<?xml …?>`` and ``--`` in comments. The

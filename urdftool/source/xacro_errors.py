@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..errors import UrdftoolError, XacroError
 from ..suggestions import nearest
 from .location import Place
-from .xacro_sentences import Failure, causes_of, odd_parameter, sentence_of
+from .xacro_messages import Failure, explain_failure, find_unknown_parameter, list_causes
 
 if TYPE_CHECKING:
     from ..workspace import Workspace
@@ -34,12 +34,12 @@ def explain(
         result: Files and definitions read so far.
         workspace: Lists folders to find similar names.
     """
-    at = None if node is None else _place(node, failed_text, odd_parameter(error))
-    for cause in causes_of(error):
+    at = None if node is None else _place(node, failed_text, find_unknown_parameter(error))
+    for cause in list_causes(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # unreadable file: report it at the reference
-                argument = _argument_of(node, result)
-                return _missing(cause.path, cause.message, at, argument, workspace)
+                argument = _suggest_argument(node, result)
+                return _make_missing_error(cause.path, cause.message, at, argument, workspace)
             return type(cause)(
                 cause.message,
                 at=at,
@@ -50,15 +50,15 @@ def explain(
             )
         if isinstance(cause, UrdftoolError):
             return cause
-    rule, message, data = sentence_of(Failure(error, node, failed_text, result))
+    rule, message, data = explain_failure(Failure(error, node, failed_text, result))
     if rule == "include-not-found":
-        message += _argument_of(node, result)
+        message += _suggest_argument(node, result)
     if at is None:
         return XacroError(message, path=result.file.path, rule=rule, data=data)
     return XacroError(message, at=at, rule=rule, data=data)
 
 
-def _argument_of(include: XacroElement | None, result: Expansion) -> str:
+def _suggest_argument(include: XacroElement | None, result: Expansion) -> str:
     """Return advice to set the argument that names an included file, if it was not given."""
     if include is None:
         return ""
@@ -71,7 +71,9 @@ def _argument_of(include: XacroElement | None, result: Expansion) -> str:
     return f"; the file name comes from an xacro argument: pass {missing[0]}:=…" if missing else ""
 
 
-def _missing(path: str, reason: str, at: Place, argument: str, workspace: Workspace) -> XacroError:
+def _make_missing_error(
+    path: str, reason: str, at: Place, argument: str, workspace: Workspace
+) -> XacroError:
     """Return the error for a file that cannot be read, with the nearest existing name."""
     folder, name = os.path.split(path)
     try:

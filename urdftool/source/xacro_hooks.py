@@ -22,17 +22,17 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import SourceError, UrdftoolError, XacroError
-from .bounded import MAX_LENGTH, check_size
 from .document import read_file
 from .expansion import Argument, Expansion, Warned
 from .expressions import BUILTINS, compile_expression
+from .limits import EvaluationLimits
 from .location import Call, Place
-from .packages import Packages, shown_path
-from .patience import Patience
-from .reach import Reach, safe_eval
+from .packages import Packages, shorten_path
+from .safe_builtins import MAX_LENGTH, check_size
+from .sandbox import Sandbox, evaluate_number
 from .xacro_parse import parse_xacro
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
-from .yaml_bounds import bounded
+from .yaml_bounds import check_yaml
 
 MAX_CALLS = 400
 MAX_ELEMENTS = 200_000
@@ -64,7 +64,7 @@ def _load_xacro() -> Any:
 xacro: Any = _load_xacro()
 
 
-def _substitution_args() -> Any:
+def _import_substitution_args() -> Any:
     """Return xacro's module for ``$(…)``, imported without yaml, which it rarely uses."""
     absent = "yaml" not in sys.modules
     if absent:
@@ -82,14 +82,14 @@ class Run:
     def __init__(self, result: Expansion, packages: Packages) -> None:
         self.result = result
         self.packages = packages
-        self.reach = Reach(packages, self.load_yaml)
+        self.reach = Sandbox(packages, self.load_yaml)
         self.instances = Instances()
         self.node: XacroElement | None = None
         self.failed_text: str | None = None
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
-        self.patience = Patience(self.too_long)
+        self.patience = EvaluationLimits(self.too_long)
 
     def expand(self) -> None:
         """Parse the file and expand it with xacro; requires :meth:`hooks`."""
@@ -114,7 +114,7 @@ class Run:
             "get_include_files": self.included_files,
             "_empty_text_node": Characters("\n\n"),
             "_global_symbols": self.reach.symbols(xacro._global_symbols, self.warning),
-            "safe_eval": safe_eval,
+            "safe_eval": evaluate_number,
             "warning": self.warning,
             "print_location": lambda *_: None,
             "all_includes": [],
@@ -122,7 +122,7 @@ class Run:
             "root_dir": os.curdir,
         }
         saved = {name: getattr(xacro, name) for name in (*here, "filestack", "macrostack")}
-        substitution = _substitution_args()
+        substitution = _import_substitution_args()
         commands: dict[str, Any] = {
             "find": self.find,
             "env": self.reach.variable,
@@ -156,7 +156,7 @@ class Run:
 
     def parse(self, _: object, filename: str) -> XacroDocument:
         """Parse an included file; raise xacro's exception if it cannot be opened."""
-        path = shown_path(self.packages.installed(filename))
+        path = shorten_path(self.packages.installed(filename))
         if len(xacro.filestack) > MAX_INCLUDES:
             raise XacroError(
                 f"includes are nested more than {MAX_INCLUDES} deep; a file includes itself",
@@ -215,7 +215,7 @@ class Run:
         with io.TextIOWrapper(self.packages.workspace.open(path)) as stream:
             xacro.filestack.append(path)
             try:
-                value = yaml.load(bounded(stream, fast), Loader=loader)
+                value = yaml.load(check_yaml(stream, fast), Loader=loader)
                 return xacro.YamlListWrapper.wrap(value)
             finally:
                 xacro.filestack.pop()
@@ -405,7 +405,7 @@ class Run:
     def note_dependencies(self) -> None:
         """Store the files that xacro read, each once."""
         seen = dict.fromkeys(
-            shown_path(self.packages.installed(path)) for path in xacro.all_includes
+            shorten_path(self.packages.installed(path)) for path in xacro.all_includes
         )
         self.result.dependencies = list(seen)
 

@@ -50,9 +50,9 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
         values = Attributes(declared)
         declared.clear()
         for name, value in attributes.items():
-            values[_qualified(name) if " " in name else name] = value
+            values[_qualify(name) if " " in name else name] = value
         element = XacroElement(
-            _qualified(tag) if " " in tag else tag, values, file, parser.CurrentByteIndex, calls
+            _qualify(tag) if " " in tag else tag, values, file, parser.CurrentByteIndex, calls
         )
         if not stack:
             document.documentElement = element
@@ -101,7 +101,7 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
     return document
 
 
-def _qualified(name: str) -> str:
+def _qualify(name: str) -> str:
     """Return ``prefix:local`` for expat's ``uri local prefix``."""
     parts = name.split(" ")
     return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[1]

@@ -31,7 +31,7 @@ def write_xml(document: XacroDocument, banner: list[str]) -> str:
 def _write(node: Node, indent: str, parts: list[str]) -> None:
     if isinstance(node, Characters):
         end = "" if node.nodeType == CDATA else "\n"
-        parts.append(_characters(node, indent) + end)
+        parts.append(_escape_characters(node, indent) + end)
         return
     assert isinstance(node, XacroElement)
     parts.append(f"{indent}<{node.tagName}")
@@ -55,7 +55,7 @@ def _write(node: Node, indent: str, parts: list[str]) -> None:
     parts.append(f"{indent}</{node.tagName}>\n")
 
 
-def _characters(node: Characters, indent: str) -> str:
+def _escape_characters(node: Characters, indent: str) -> str:
     if node.nodeType == COMMENT:
         return f"{indent}<!--{node.data}-->"
     if node.nodeType == CDATA:

@@ -13,7 +13,7 @@ MAX_VALUES = 1_000_000
 MAX_DEPTH = 100
 
 
-def bounded(stream: Any, loader: Any) -> Any:
+def check_yaml(stream: Any, loader: Any) -> Any:
     """Check the size of a YAML stream and return it from its beginning.
 
     Counts the events of the parser without storing them: nested lists would overflow the stack in
@@ -32,7 +32,7 @@ def bounded(stream: Any, loader: Any) -> Any:
     name = str(getattr(stream, "name", "YAML"))
     text = stream.read(MAX_BYTES + 1)
     if len(text) > MAX_BYTES:
-        raise _beyond(name, f"the file has more than {MAX_BYTES} characters")
+        raise _make_limit_error(name, f"the file has more than {MAX_BYTES} characters")
     sizes: dict[str, int] = {}
     open_ones: list[tuple[str | None, int]] = []
     count = 0
@@ -57,18 +57,20 @@ def bounded(stream: Any, loader: Any) -> Any:
             open_ones.append((anchor, count))
             count += 1
             if len(open_ones) > MAX_DEPTH:
-                raise _beyond(where, f"values are nested more than {MAX_DEPTH} deep")
+                raise _make_limit_error(where, f"values are nested more than {MAX_DEPTH} deep")
         elif isinstance(event, (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
             around, before = open_ones.pop()
             if around:
                 sizes[around] = count - before
         if count > MAX_VALUES:
-            raise _beyond(where, f"the file has more than {MAX_VALUES} values with its aliases")
+            raise _make_limit_error(
+                where, f"the file has more than {MAX_VALUES} values with its aliases"
+            )
     again.seek(0)
     return again
 
 
-def _beyond(where: str, what: str) -> XacroError:
+def _make_limit_error(where: str, what: str) -> XacroError:
     return XacroError(
         f"{where}: {what}, the limit of YAML in a description", rule="expansion-failed"
     )

@@ -145,10 +145,10 @@ def read_yaml(path: str) -> Node:
         ConfigError: It is not valid YAML, not a mapping, or exceeds the limits.
         SourceError: It cannot be read.
     """
-    return yaml_of(read_file(path))
+    return parse_yaml(read_file(path))
 
 
-def yaml_of(file: SourceFile) -> Node:
+def parse_yaml(file: SourceFile) -> Node:
     """Return the mapping in a file that was read.
 
     Several documents are one mapping. The last value of a duplicate key counts, as in PyYAML, with
@@ -206,14 +206,17 @@ class _Reader:
         self._ascii = text.isascii()
         self._merges = "ros__parameters" in text
 
-    def _byte(self, index: int) -> int:
+    def _compute_byte(self, index: int) -> int:
         return index if self._ascii else len(self.text[:index].encode())
 
     def node(self, node: Any, key: str, depth: int) -> Node:
         import yaml
 
         self.count += 1
-        start, end = self._byte(node.start_mark.index), self._byte(node.end_mark.index)
+        start, end = (
+            self._compute_byte(node.start_mark.index),
+            self._compute_byte(node.end_mark.index),
+        )
         if self.count > MOST_NODES or depth > _DEEP:
             raise ConfigError(
                 f"has more than {MOST_NODES} values (with aliases), or values nested more than "
@@ -229,10 +232,10 @@ class _Reader:
         elif isinstance(node, yaml.SequenceNode):
             made.items = [self.node(item, key, depth + 1) for item in node.value]
         else:
-            made.fields = self._fields(node, depth)
+            made.fields = self._build_fields(node, depth)
         return made
 
-    def _fields(self, node: Any, depth: int) -> dict[str, Node]:
+    def _build_fields(self, node: Any, depth: int) -> dict[str, Node]:
         merged: dict[str, Node] = {}
         own = Node(self.file, 0, 0, "", None, False, None, {})
         for key, value in node.value:

@@ -13,7 +13,7 @@ _FLOAT, _UINT32 = 5126, 5125
 _ARRAY, _ELEMENTS = 34962, 34963
 
 
-def glb(
+def encode_glb(
     vertices: npt.NDArray[np.float32],
     faces: npt.NDArray[np.uint32],
     normals: npt.NDArray[np.float64],

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
-from ..model.kinematics import with_mimics
+from ..model.kinematics import add_mimic_positions
 from . import panels
-from .numbers import shortened
-from .sliders import Slider, sliders_of
+from .properties import shorten_name
+from .sliders import Slider, create_sliders
 
 if TYPE_CHECKING:
     import viser
@@ -48,7 +48,9 @@ class Joints:
         with tab:
             self._buttons = gui.add_button_group("all joints", WHERE)
             self._buttons.on_click(lambda event: safely(self.put, event.target.value))
-            self._none = gui.add_html(panels.box("The robot has no movable joints."), visible=False)
+            self._none = gui.add_html(
+                panels.wrap_html("The robot has no movable joints."), visible=False
+            )
 
     @property
     def positions(self) -> dict[str, float]:
@@ -68,43 +70,45 @@ class Joints:
             reach: Travel to either side of a prismatic joint without limits [m].
         """
         self._robot = robot
-        sliders = sliders_of(robot, self._start, reach)
+        sliders = create_sliders(robot, self._start, reach)
         if sliders != self._sliders:
             for handle in self._handles.values():
                 handle.remove()
             self._sliders = sliders
             with self._tab:
-                self._handles = {slider.name: self._slider(slider) for slider in sliders}
+                self._handles = {slider.name: self._make_slider(slider) for slider in sliders}
         self._buttons.visible, self._none.visible = bool(sliders), not sliders
-        zero = {slider.name: slider.zero for slider in self._free()}
-        same = {slider.name: slider for slider in self._free() if slider.name in self._positions}
+        zero = {slider.name: slider.zero for slider in self._list_free()}
+        same = {
+            slider.name: slider for slider in self._list_free() if slider.name in self._positions
+        }
         stay = {name: slider.meant(self._positions[name]) for name, slider in same.items()}
         self._positions = {}
         self.move({**zero, **stay})
 
-    def _slider(self, slider: Slider) -> Any:
+    def _make_slider(self, slider: Slider) -> Any:
         low, high = slider.shown_bounds
         if high <= low:
             low, high = low - slider.step, high + slider.step
         unit = "rad" if slider.turns else "m"
         handle = self._gui.add_slider(
-            shortened(slider.name, _LONGEST),
+            shorten_name(slider.name, _LONGEST),
             min=low,
             max=high,
             step=slider.step,
             initial_value=min(max(slider.shown(slider.zero), low), high),
             marks=((low, slider.words(slider.lower)), (high, slider.words(slider.upper))),
             disabled=slider.locked,
-            hint=f"{shortened(slider.name)} [{unit}]{': ' * bool(slider.note)}{slider.note}",
+            hint=f"{shorten_name(slider.name)} [{unit}]{': ' * bool(slider.note)}{slider.note}",
         )
 
         def slid(_: object) -> None:
-            self._safely(self._slid, slider)
+            self._safely(self._handle_slider, slider)
 
         handle.on_update(slid)
         return handle
 
-    def _slid(self, slider: Slider) -> None:
+    def _handle_slider(self, slider: Slider) -> None:
         """Handle a slider update, by the user or by this page."""
         handle = self._handles.get(slider.name)
         if handle is None or slider.locked or slider not in self._sliders:
@@ -121,14 +125,14 @@ class Joints:
         """
         if self._robot is None:
             return
-        free = {slider.name for slider in self._free()}
+        free = {slider.name for slider in self._list_free()}
         given = {name: at for name, at in {**self._positions, **requested}.items() if name in free}
-        positions = with_mimics(self._robot, given)
+        positions = add_mimic_positions(self._robot, given)
         self._positions = {slider.name: positions[slider.name] for slider in self._sliders}
         self._moved(positions)
         for slider in self._sliders:
             value, handle = positions[slider.name], self._handles[slider.name]
-            words = f"{shortened(slider.name, _LONGEST)} {slider.brief(value)}"
+            words = f"{shorten_name(slider.name, _LONGEST)} {slider.brief(value)}"
             if handle.label != words:
                 handle.label = words
             if slider.name != leader and handle.value != slider.shown(value):
@@ -136,11 +140,11 @@ class Joints:
 
     def put(self, where: str) -> None:
         """Move every joint that does not mimic another to one of ``WHERE``."""
-        free = self._free()
+        free = self._list_free()
         if where == "random":
             self.move({slider.name: random.uniform(slider.lower, slider.upper) for slider in free})
         else:
             self.move({slider.name: getattr(slider, where) for slider in free})
 
-    def _free(self) -> list[Slider]:
+    def _list_free(self) -> list[Slider]:
         return [slider for slider in self._sliders if not slider.follows]

@@ -14,7 +14,7 @@ from ..source.location import Call, Place
 Owners = dict[tuple[str, tuple[Call, ...]], list[tuple[int, str]]]
 
 
-def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding]]:
+def group_by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding]]:
     """Group findings by the names of the links that they concern, in their order.
 
     A finding on a joint belongs to its child link. A finding that names no link or joint belongs to
@@ -26,10 +26,10 @@ def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding
     for finding in findings:
         links: dict[str, None] = {}
         for name, calls in ((finding.name, finding.location.calls), *finding.others):
-            link = _named(robot, finding.kind, name)
+            link = _find_link(robot, finding.kind, name)
             if link is None:
-                owners = _owners(robot) if owners is None else owners
-                link = _owner(owners, finding.location, calls)
+                owners = _map_owners(robot) if owners is None else owners
+                link = _find_owner(owners, finding.location, calls)
             if link is not None and link in robot.link:
                 links[link] = None
         for link in links:
@@ -37,12 +37,12 @@ def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding
     return found
 
 
-def worst(findings: Iterable[Finding]) -> Severity | None:
+def find_highest_severity(findings: Iterable[Finding]) -> Severity | None:
     """Return the highest severity among findings; None if there are none."""
     return max((finding.severity for finding in findings), default=None)
 
 
-def counted(findings: Iterable[Finding]) -> str:
+def format_counts(findings: Iterable[Finding]) -> str:
     """Format counts such as ``2 errors, 1 warning``; empty if there are none."""
     counts = dict.fromkeys(sorted(Severity, reverse=True), 0)
     for finding in findings:
@@ -55,7 +55,7 @@ def counted(findings: Iterable[Finding]) -> str:
     )
 
 
-def _named(robot: Robot, kind: str, name: str) -> str | None:
+def _find_link(robot: Robot, kind: str, name: str) -> str | None:
     if kind == "link" and name in robot.link:
         return name
     if kind == "joint" and name in robot.joint:
@@ -64,7 +64,7 @@ def _named(robot: Robot, kind: str, name: str) -> str | None:
     return None
 
 
-def _owners(robot: Robot) -> Owners:
+def _map_owners(robot: Robot) -> Owners:
     """Map file and macro calls to the start of each tag in a link or joint, with the link."""
     starts: Owners = {}
     for part, link in (
@@ -78,7 +78,7 @@ def _owners(robot: Robot) -> Owners:
     return starts
 
 
-def _owner(owners: Owners, place: Place, calls: tuple[Call, ...]) -> str | None:
+def _find_owner(owners: Owners, place: Place, calls: tuple[Call, ...]) -> str | None:
     """Return the link with the innermost tag that contains a place."""
     rows = owners.get((place.file.path, calls), [])
     index = bisect_right(rows, place.start, key=itemgetter(0)) - 1

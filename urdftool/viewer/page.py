@@ -12,16 +12,16 @@ import numpy as np
 from ..errors import ModelError, UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
-from ..model.files import sources
-from ..model.gltf_axes import gltf_note
+from ..model.files import list_sources
+from ..model.gltf_axes import describe_gltf_axes
 from ..model.kinematics import NOWHERE, link_poses
 from . import panels
-from .body import KINDS, Body
+from .environment import SHEET, VIEW, add_lights, compute_viewpoint, lay_ground
 from .joints import Joints
-from .marks import by_link
-from .numbers import link_rows, shortened
-from .sliders import unmovable
-from .surroundings import SHEET, VIEW, eye_for, lay_ground, light
+from .marks import group_by_link
+from .properties import link_rows, shorten_name
+from .robot_scene import KINDS, RobotScene
+from .sliders import explain_unmovable
 from .watch import Watch
 
 if TYPE_CHECKING:
@@ -94,57 +94,61 @@ class Page:
         self._tried = 0.0
         self._generation = 0
         self.moves = 0
-        self.body = self._embodied(robot)
-        self._furnish(shown, start)
-        self._watch = Watch(sources(robot))
-        self._put()
+        self.body = self._make_scene(robot)
+        self._create_controls(shown, start)
+        self._watch = Watch(list_sources(robot))
+        self._fill()
 
     # Display
 
     @property
     def title(self) -> str:
         """Return the title of the browser window."""
-        return f"{shortened(self.robot.name) or 'robot'} · urdftool"
+        return f"{shorten_name(self.robot.name) or 'robot'} · urdftool"
 
-    def _furnish(self, shown: tuple[str, ...], start: Mapping[str, float]) -> None:
+    def _create_controls(self, shown: tuple[str, ...], start: Mapping[str, float]) -> None:
         """Create the controls, which do not depend on the robot."""
         gui, scene = self.server.gui, self.server.scene
         gui.configure_theme(show_share_button=False, show_logo=False, brand_color=(30, 110, 200))
-        light(scene)
+        add_lights(scene)
         self._banner = gui.add_html("", visible=False)
         self._notices = gui.add_html("", visible=False)
         self._summary = gui.add_html("")
         tabs = gui.add_tab_group()
-        self.joints = Joints(gui, tabs.add_tab("Joints"), self._moved, self._safely, start)
+        self.joints = Joints(
+            gui, tabs.add_tab("Joints"), self._handle_motion, self._run_safely, start
+        )
         self._boxes: dict[str, Any] = {}
         with tabs.add_tab("Show"):
             for kind in KINDS:
                 self._boxes[kind] = gui.add_checkbox(LABELS[kind], kind in shown)
-                self._boxes[kind].on_update(lambda _, kind=kind: self._safely(self.refresh, kind))
+                self._boxes[kind].on_update(
+                    lambda _, kind=kind: self._run_safely(self.refresh, kind)
+                )
             self._clear_box = gui.add_checkbox("transparent visuals", False)
-            self._clear_box.on_update(lambda _: self._safely(self._clear))
+            self._clear_box.on_update(lambda _: self._run_safely(self._clear))
             self._grid_box = gui.add_checkbox("ground", True)
-            self._grid_box.on_update(lambda _: self._safely(self._ground))
+            self._grid_box.on_update(lambda _: self._run_safely(self._update_ground))
         with tabs.add_tab("Parts"):
             self._chooser: Any = gui.add_dropdown("link", (NO_LINK,))
-            self._chooser.on_update(lambda _: self._safely(self._chosen))
+            self._chooser.on_update(lambda _: self._run_safely(self._handle_choice))
             self._one = gui.add_html("")
             self._all = gui.add_html("")
         with tabs.add_tab("Findings"):
             self._list = gui.add_html("")
-        self.server.on_client_connect(self._greet)
+        self.server.on_client_connect(self._adjust_camera)
 
-    def _embodied(self, robot: Robot) -> Body:
+    def _make_scene(self, robot: Robot) -> RobotScene:
         self._generation += 1
-        return Body(
+        return RobotScene(
             self.server.scene,
             robot,
             lambda kind: self._load(robot, kind),
-            lambda link: self._safely(self.select, link),
+            lambda link: self._run_safely(self.select, link),
             root=f"/robot{self._generation}",
         )
 
-    def _put(self) -> None:
+    def _fill(self) -> None:
         """Fill the page with the current robot."""
         robot, body = self.robot, self.body
         shapes = [body.load(kind) for kind in ("visual", "collision") if self._boxes[kind].value]
@@ -157,14 +161,14 @@ class Page:
                 if kind not in MARKS:
                     body.show(kind, self._boxes[kind].value)
             self._clear()
-            self._ground()
-            self._camera()
-            self._choices()
+            self._update_ground()
+            self._set_camera()
+            self._update_choices()
             self.select(self._selected if self._selected in body.links else None)
-            self._say(shapes)
-        self.server.gui.set_panel_label(shortened(robot.name, 30) or "robot")
+            self._update_texts(shapes)
+        self.server.gui.set_panel_label(shorten_name(robot.name, 30) or "robot")
 
-    def _say(self, shapes: list[Shapes]) -> None:
+    def _update_texts(self, shapes: list[Shapes]) -> None:
         """Update the notices, the summary, the tables and the marks of findings."""
         robot, body = self.robot, self.body
         lost = [link.name for link in robot.links if link.name not in body.links]
@@ -172,12 +176,14 @@ class Page:
         messages += [
             f"link '{name}' is not connected to the root and is not shown" for name in lost
         ]
-        messages += unmovable(robot)
-        messages += filter(None, [gltf_note(robot)])
-        self._set(self._notices, panels.notices(dict.fromkeys(messages)))
-        self._set(self._summary, panels.summary(robot, self._findings))
-        self._set(self._all, panels.all_parts(robot, self._found))
-        self._set(self._list, panels.list_of(self._findings if self._check else [], self._found))
+        messages += explain_unmovable(robot)
+        messages += filter(None, [describe_gltf_axes(robot)])
+        self._set(self._notices, panels.format_notices(dict.fromkeys(messages)))
+        self._set(self._summary, panels.format_summary(robot, self._findings))
+        self._set(self._all, panels.format_parts(robot, self._found))
+        self._set(
+            self._list, panels.format_findings(self._findings if self._check else [], self._found)
+        )
         body.mark(self._found, [kind for kind in MARKS if self._boxes[kind].value])
 
     def _set(self, handle: Any, content: str) -> None:
@@ -190,16 +196,16 @@ class Page:
         with self.server.atomic():
             self.body.see_through(self._clear_box.value)
 
-    def _ground(self) -> None:
+    def _update_ground(self) -> None:
         lay_ground(self.server.scene, self.body.size, self._floor, self._grid_box.value)
 
-    def _camera(self) -> None:
+    def _set_camera(self) -> None:
         """Set the initial camera so that new browsers show all of the robot."""
-        camera, (eye, middle) = self.server.initial_camera, eye_for(self._low, self._high)
+        camera, (eye, middle) = self.server.initial_camera, compute_viewpoint(self._low, self._high)
         camera.position, camera.look_at, camera.up = eye, middle, np.array([0.0, 0.0, 1.0])
         camera.fov, camera.near, camera.far = VIEW, self.body.size / 1000, self.body.size * 200
 
-    def _greet(self, client: viser.ClientHandle) -> None:
+    def _adjust_camera(self, client: viser.ClientHandle) -> None:
         """Move the camera back in a portrait window, as on a phone.
 
         viser may set the initial camera after this method does, so it is checked for five seconds,
@@ -211,24 +217,26 @@ class Page:
             return
         for _ in range(20):
             with self._lock:
-                eye, middle = eye_for(self._low, self._high, max(aspect, 0.2), covered=SHEET)
+                eye, middle = compute_viewpoint(
+                    self._low, self._high, max(aspect, 0.2), covered=SHEET
+                )
                 if np.allclose(camera.position, self.server.initial_camera.position, rtol=1e-4):
                     with client.atomic():
                         camera.position, camera.look_at = eye, middle
             time.sleep(0.25)
 
-    def _moved(self, positions: Mapping[str, float]) -> None:
+    def _handle_motion(self, positions: Mapping[str, float]) -> None:
         self.moves += 1
         self.body.move(positions)
         if self._selected is not None:
-            self._tell()
+            self._update_properties()
 
     # Links
 
-    def _choices(self) -> None:
+    def _update_choices(self) -> None:
         self._links: dict[str, str] = {}
         for link in self.body.links:
-            label = base = shortened(link) or "(no name)"
+            label = base = shorten_name(link) or "(no name)"
             number = 2
             while label in self._links or label == NO_LINK:
                 label, number = f"{base} ({number})", number + 1
@@ -237,7 +245,7 @@ class Page:
         if self._chooser.options != options:
             self._chooser.options = options
 
-    def _chosen(self) -> None:
+    def _handle_choice(self) -> None:
         link = self._links.get(self._chooser.value)
         if link != self._selected:
             self.select(link)
@@ -249,17 +257,19 @@ class Page:
         label = next((label for label, name in self._links.items() if name == link), NO_LINK)
         if self._chooser.value != label:
             self._chooser.value = label
-        self._tell()
+        self._update_properties()
 
-    def _tell(self) -> None:
+    def _update_properties(self) -> None:
         """Show the properties of the selected link at its current pose."""
         if self._selected is None:
-            self._set(self._one, panels.box("Click a link, or choose one, to show its properties."))
+            self._set(
+                self._one, panels.wrap_html("Click a link, or choose one, to show its properties.")
+            )
             return
         pose = link_poses(self.robot, self.joints.positions).get(self._selected)
         link = self.robot.link[self._selected]
         rows = link_rows(self.robot, link, pose)
-        self._set(self._one, panels.one_link(self.robot, self._selected, rows))
+        self._set(self._one, panels.format_link(self.robot, self._selected, rows))
 
     def refresh(self, kind: str) -> None:
         """Show or hide one of ``KINDS`` according to its checkbox."""
@@ -267,7 +277,7 @@ class Page:
             self.body.show(kind, self._boxes[kind].value)
             self._clear()
             if kind in ("visual", "collision"):
-                self._say(list(self.body.shapes.values()))
+                self._update_texts(list(self.body.shapes.values()))
 
     # Files
 
@@ -276,16 +286,16 @@ class Page:
         changed = self._watch.changed()
         late = self._error is not None and time.monotonic() - self._tried > PATIENCE
         if changed or late:
-            self._safely(self.reload)
+            self._run_safely(self.reload)
         elif not self._linted and self._check is not None:
             self._linted = True
             try:
                 findings = self._check(self.robot)
             except UrdftoolError as error:
                 with self._lock:
-                    self._set(self._list, panels.broken(error))
+                    self._set(self._list, panels.format_error(error))
                 return
-            self._safely(self._lint, findings)
+            self._run_safely(self._set_findings, findings)
 
     def run(self) -> None:
         """Poll until the process is interrupted."""
@@ -296,43 +306,43 @@ class Page:
     def reload(self) -> None:
         """Read the description again; keep the last robot if it is broken."""
         self._tried = time.monotonic()
-        self._watch.take({*self._watch.paths, *sources(self.robot)})
+        self._watch.take({*self._watch.paths, *list_sources(self.robot)})
         try:
-            robot = worthy(self._read())
+            robot = require_viewable(self._read())
             kinds = [kind for kind in ("visual", "collision") if self._boxes[kind].value]
             shapes = {kind: self._load(robot, kind) for kind in kinds}
         except UrdftoolError as error:
             if str(error) != str(self._error):
                 self._error = error
-                self._set(self._banner, panels.broken(error))
+                self._set(self._banner, panels.format_error(error))
             if error.path:
                 self._watch.take({*self._watch.paths, error.path})
             return
         self._error = None
         with self.server.atomic():
             self.body.remove()
-            self.robot, self.body = robot, self._embodied(robot)
+            self.robot, self.body = robot, self._make_scene(robot)
             self.body.shapes.update(shapes)
             self._findings, self._found, self._linted = None, {}, self._check is None
-            self._put()
+            self._fill()
             self._set(self._banner, "")
-        self._watch.take(sources(robot))
+        self._watch.take(list_sources(robot))
 
-    def _lint(self, findings: list[Finding]) -> None:
-        self._findings, self._found = findings, by_link(self.robot, findings)
+    def _set_findings(self, findings: list[Finding]) -> None:
+        self._findings, self._found = findings, group_by_link(self.robot, findings)
         with self.server.atomic():
-            self._say(list(self.body.shapes.values()))
+            self._update_texts(list(self.body.shapes.values()))
 
-    def _safely(self, action: Callable[..., None], *arguments: Any) -> None:
+    def _run_safely(self, action: Callable[..., None], *arguments: Any) -> None:
         """Run an action under the lock; an exception is shown on the page, which continues."""
         with self._lock:
             try:
                 action(*arguments)
             except Exception as error:
-                self._banner.content, self._banner.visible = panels.bug(error), True
+                self._banner.content, self._banner.visible = panels.format_bug(error), True
 
 
-def worthy(robot: Robot) -> Robot:
+def require_viewable(robot: Robot) -> Robot:
     """Return the robot if it can be displayed.
 
     Raises:

@@ -8,8 +8,8 @@ from ..diagnostic import Severity
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
-from .marks import counted, worst
-from .numbers import joint_rows, link_rows, safe, shortened, table
+from .marks import find_highest_severity, format_counts
+from .properties import format_table, link_rows, list_joint_rows, safe, shorten_name
 
 COLORS = {Severity.ERROR: "#e03131", Severity.WARNING: "#e8590c", Severity.INFO: "#1c7ed6"}
 
@@ -22,12 +22,12 @@ SAID = 12
 _SMALL = "font-size:.85em;line-height:1.35;padding:.2em .75em"
 
 
-def box(inner: str) -> str:
+def wrap_html(inner: str) -> str:
     """Wrap HTML in the font size of the page."""
     return f"<div style='{_SMALL}'>{inner}</div>"
 
 
-def broken(error: UrdftoolError) -> str:
+def format_error(error: UrdftoolError) -> str:
     """Format the error of a description that cannot be read."""
     lines = [str(error)]
     lines += [
@@ -35,33 +35,33 @@ def broken(error: UrdftoolError) -> str:
     ]
     lines += error.notes
     text = "<br>".join(safe(line) for line in lines)
-    return _alert(f"{text}<br><i>The page shows the last valid version.</i>", "#e03131")
+    return _format_alert(f"{text}<br><i>The page shows the last valid version.</i>", "#e03131")
 
 
-def bug(error: BaseException) -> str:
+def format_bug(error: BaseException) -> str:
     """Format an exception of the page itself."""
     what = safe(f"{type(error).__name__}: {error}")
-    return _alert(f"Bug in urdftool (not in the robot): {what}", "#e03131")
+    return _format_alert(f"Bug in urdftool (not in the robot): {what}", "#e03131")
 
 
-def notices(messages: Iterable[str]) -> str:
+def format_notices(messages: Iterable[str]) -> str:
     """Format problems with meshes, joints and links; empty if there are none."""
     lines = list(messages)
     if not lines:
         return ""
     rest = f"<br>… and {len(lines) - SAID} more" if len(lines) > SAID else ""
-    return _alert("<br>".join(safe(line) for line in lines[:SAID]) + rest, "#e8590c")
+    return _format_alert("<br>".join(safe(line) for line in lines[:SAID]) + rest, "#e8590c")
 
 
-def _alert(inner: str, color: str) -> str:
-    return box(
+def _format_alert(inner: str, color: str) -> str:
+    return wrap_html(
         f"<div role='alert' style='border-left:4px solid {color};padding:.4em .6em;"
         f"background:{color}18;overflow-wrap:anywhere;max-height:9em;overflow-y:auto'>"
         f"{inner}</div>"
     )
 
 
-def summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
+def format_summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
     """Summarize the robot in one line."""
     mass = sum(link.mass for link in robot.links)
     moving = f" ({len(robot.moving_joints)} moving)" if robot.joints else ""
@@ -71,36 +71,37 @@ def summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
         f"{mass:.4g} kg",
     ]
     if findings is not None:
-        words.append(counted(findings) or "no lint findings")
-    return box(safe(" · ".join(words)))
+        words.append(format_counts(findings) or "no lint findings")
+    return wrap_html(safe(" · ".join(words)))
 
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}{'s' * (number != 1)}"
 
 
-def one_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
+def format_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
     """Format the properties of the selected link and its parent joint."""
-    text = f"<b style='overflow-wrap:anywhere'>{safe(name)}</b>{table(rows)}"
+    text = f"<b style='overflow-wrap:anywhere'>{safe(name)}</b>{format_table(rows)}"
     joint = robot.tree.parent_joint(name)
     if joint is not None:
         text += f"<b style='overflow-wrap:anywhere'>{safe(joint.name)}</b>"
-        text += table(joint_rows(joint))
-    return box(text)
+        text += format_table(list_joint_rows(joint))
+    return wrap_html(text)
 
 
-def all_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
+def format_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
     """Format every link and every joint as a collapsible item."""
     links = "".join(
-        _unfolding(
+        _format_details(
             link.name, _link_hint(link.mass, found.get(link.name, [])), link_rows(robot, link)
         )
         for link in robot.links
     )
     joints = "".join(
-        _unfolding(joint.name, safe(joint.type), joint_rows(joint)) for joint in robot.joints
+        _format_details(joint.name, safe(joint.type), list_joint_rows(joint))
+        for joint in robot.joints
     )
-    return box(
+    return wrap_html(
         f"<b>{_count(len(robot.links), 'link')}</b>{links}"
         f"<b style='display:block;margin-top:.6em'>{_count(len(robot.joints), 'joint')}</b>{joints}"
     )
@@ -108,40 +109,42 @@ def all_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
 
 def _link_hint(mass: float, findings: list[Finding]) -> str:
     words = f"{mass:.4g} kg" if mass else ""
-    severity = worst(finding for finding in findings if finding.severity > Severity.INFO)
+    severity = find_highest_severity(
+        finding for finding in findings if finding.severity > Severity.INFO
+    )
     if severity is None:
         return words
-    text = counted(finding for finding in findings if finding.severity > Severity.INFO)
+    text = format_counts(finding for finding in findings if finding.severity > Severity.INFO)
     return f"{words} <span style='color:{COLORS[severity]}'>{text}</span>"
 
 
-def _unfolding(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
-    shown = safe(shortened(name) or "(no name)")
+def _format_details(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
+    shown = safe(shorten_name(name) or "(no name)")
     return (
         f"<details><summary style='cursor:pointer;overflow-wrap:anywhere'>{shown} "
-        f"<span style='opacity:.7'>{hint}</span></summary>{table(rows)}</details>"
+        f"<span style='opacity:.7'>{hint}</span></summary>{format_table(rows)}</details>"
     )
 
 
-def list_of(findings: list[Finding] | None, found: Mapping[str, list[Finding]]) -> str:
+def format_findings(findings: list[Finding] | None, found: Mapping[str, list[Finding]]) -> str:
     """Format the findings, the most severe first; None while lint is running."""
     if findings is None:
-        return box("linting …")
+        return wrap_html("linting …")
     if not findings:
-        return box("no lint findings")
+        return wrap_html("no lint findings")
     on: dict[int, list[str]] = {}
     for link, those in found.items():
         for finding in those:
             on.setdefault(id(finding), []).append(link)
     ordered = sorted(findings, key=lambda finding: -finding.severity)
-    items = "".join(_item(finding, on.get(id(finding), [])) for finding in ordered[:MOST])
+    items = "".join(_format_finding(finding, on.get(id(finding), [])) for finding in ordered[:MOST])
     more = f"<p>… and {len(findings) - MOST} more</p>" if len(findings) > MOST else ""
-    return box(f"<b>{safe(counted(findings))}</b>{items}{more}")
+    return wrap_html(f"<b>{safe(format_counts(findings))}</b>{items}{more}")
 
 
-def _item(finding: Finding, links: list[str]) -> str:
+def _format_finding(finding: Finding, links: list[str]) -> str:
     color = COLORS[finding.severity]
-    where = f" · on {', '.join(shortened(link, 30) for link in links[:4])}" if links else ""
+    where = f" · on {', '.join(shorten_name(link, 30) for link in links[:4])}" if links else ""
     more = " …" if len(links) > 4 else ""
     times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
     return (

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote, urlsplit
 
 from ..errors import AddressError
-from ..extras import missing
+from ..extras import make_missing_error
 
 if TYPE_CHECKING:
     import viser
@@ -50,7 +50,7 @@ def is_loopback(host: str) -> bool:
         return False
 
 
-def address(host: str, port: int) -> str:
+def make_url(host: str, port: int) -> str:
     """Return the URL of the page; an IPv6 address is put in brackets."""
     return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
 
@@ -121,7 +121,7 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
         import rich
         import viser
     except ImportError:
-        raise missing("viser", "the page of 'urdftool view'") from None
+        raise make_missing_error("viser", "the page of 'urdftool view'") from None
 
     class Server(viser.ViserServer):
         """viser's server without its tunnel."""
@@ -171,12 +171,12 @@ def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
     version = f"viser-v{viser.__version__}"
     try:
         with connect(
-            f"{address(here, port).replace('http', 'ws', 1)}",
+            f"{make_url(here, port).replace('http', 'ws', 1)}",
             sock=socket.create_connection((here.strip("[]"), port), _SECONDS),
             subprotocols=[Subprotocol(version)],
         ):
             library = servers.get(timeout=_SECONDS)
-        library.process_request = partial(_answer, host, title, library.process_request)
+        library.process_request = partial(_handle_request, host, title, library.process_request)
         guarded.set()
         inner.disconnect_all_clients()
         if not _refuses_others(here, port):
@@ -195,7 +195,9 @@ def _refuses_others(host: str, port: int) -> bool:
         link.close()
 
 
-def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, request: Any) -> Any:
+def _handle_request(
+    host: str, title: Callable[[], str], answer: Any, connection: Any, request: Any
+) -> Any:
     """Refuse requests of other websites; add title, policy and headers to the page."""
     asked = request.headers.get("Host", "")
     origin = request.headers.get("Origin")
@@ -214,7 +216,7 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
     if response is not None:
         ours = f"<title>{html.escape(title())}</title>".encode()
         response.body = (response.body or b"").replace(_ORIGINAL_TITLE, ours, 1)
-        response.headers["Content-Security-Policy"] = policy(asked)
+        response.headers["Content-Security-Policy"] = make_policy(asked)
         response.headers["Referrer-Policy"] = "no-referrer"
         response.headers["Cache-Control"] = "no-store"
         if "Content-Length" in response.headers:
@@ -223,7 +225,7 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
     return response
 
 
-def policy(asked: str) -> str:
+def make_policy(asked: str) -> str:
     """Return the Content-Security-Policy: the page, its embedded data and its websocket only.
 
     Args:

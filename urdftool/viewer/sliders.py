@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..model.elements import Joint, Robot
-from ..model.kinematics import limits_of, movable_joints, with_mimics
+from ..model.kinematics import add_mimic_positions, find_movable_joints, get_limits
 
 TURN = math.pi
 """Range to either side of a rotational joint without limits [rad]."""
@@ -73,33 +73,33 @@ class Slider:
 
     def words(self, position: float) -> str:
         """Format a position in degrees or millimeters."""
-        return in_words(position, self.turns)
+        return format_value(position, self.turns)
 
     def brief(self, position: float) -> str:
         """Format a position in few digits for a label, which would wrap after a decimal point."""
         if self.turns:
-            return _signed(f"{math.degrees(position):.0f}") + "°"
-        return _signed(f"{position * 1000:.{0 if abs(position) >= 0.01 else 1}f}") + " mm"
+            return _format_sign(f"{math.degrees(position):.0f}") + "°"
+        return _format_sign(f"{position * 1000:.{0 if abs(position) >= 0.01 else 1}f}") + " mm"
 
 
-def in_words(value: float, turns: bool) -> str:
+def format_value(value: float, turns: bool) -> str:
     """Format an angle [rad] in degrees, or a length [m] in millimeters, in few digits."""
     if not math.isfinite(value):
         return "no limit"
     if turns:
         degrees = round(math.degrees(value), 1) + 0.0
-        return f"{_signed(f'{degrees:g}')}°"
+        return f"{_format_sign(f'{degrees:g}')}°"
     if abs(value) >= 10:
-        return f"{_signed(f'{value:.4g}')} m"
-    return f"{_signed(f'{round(value * 1000, 2) + 0.0:g}')} mm"
+        return f"{_format_sign(f'{value:.4g}')} m"
+    return f"{_format_sign(f'{round(value * 1000, 2) + 0.0:g}')} mm"
 
 
-def _signed(number: str) -> str:
+def _format_sign(number: str) -> str:
     """Replace the hyphen by a minus sign, which does not wrap, and drop it before zero."""
     return number.lstrip("-") if not number.strip("-0.") else number.replace("-", "−")
 
 
-def sliders_of(
+def create_sliders(
     robot: Robot, start: Mapping[str, float] | None = None, reach: float = 1.0
 ) -> list[Slider]:
     """Create a slider for each joint with one degree of freedom, in the order of the file.
@@ -110,16 +110,18 @@ def sliders_of(
         reach: Travel to either side of a prismatic joint without limits [m].
     """
     start = start or {}
-    movable = movable_joints(robot)
-    extremes = _extremes(robot, {name: _bounds(joint, reach) for name, joint in movable.items()})
+    movable = find_movable_joints(robot)
+    extremes = _compute_extremes(
+        robot, {name: _get_bounds(joint, reach) for name, joint in movable.items()}
+    )
     found = []
     for name, joint in movable.items():
-        low, high, note = _bounds(joint, reach)
+        low, high, note = _get_bounds(joint, reach)
         locked = high <= low
         follows = joint.mimic is not None and joint.mimic.joint in movable
         if follows:
             locked = True
-            note = _formula(joint)
+            note = _format_mimic(joint)
             ends = extremes.get(name, ())
             low, high = min(low, *ends, low), max(high, *ends, high)
         given = start.get(name, 0.0)
@@ -130,7 +132,7 @@ def sliders_of(
     return found
 
 
-def unmovable(robot: Robot) -> list[str]:
+def explain_unmovable(robot: Robot) -> list[str]:
     """List messages on the joints without a single position: floating and planar ones."""
     return [
         f"joint '{joint.name}' is {joint.type} and cannot be moved with a slider"
@@ -139,12 +141,12 @@ def unmovable(robot: Robot) -> list[str]:
     ]
 
 
-def _bounds(joint: Joint, reach: float) -> tuple[float, float, str]:
+def _get_bounds(joint: Joint, reach: float) -> tuple[float, float, str]:
     """Return the bounds of a joint and a hint for the user."""
     free = TURN if joint.type != "prismatic" else reach
     if joint.type == "continuous":
         return -free, free, "continuous, no limits"
-    lower, upper = limits_of(joint)
+    lower, upper = get_limits(joint)
     if not (abs(lower) <= FARTHEST and abs(upper) <= FARTHEST):
         return -free, free, "limits not specified"
     if lower > upper:
@@ -154,22 +156,22 @@ def _bounds(joint: Joint, reach: float) -> tuple[float, float, str]:
     return lower, upper, ""
 
 
-def _extremes(
+def _compute_extremes(
     robot: Robot, bounds: Mapping[str, tuple[float, float, str]]
 ) -> dict[str, tuple[float, ...]]:
     """Compute the positions of mimic joints at both bounds of the joints they follow."""
     moved = {
         name: joint
-        for name, joint in movable_joints(robot).items()
+        for name, joint in find_movable_joints(robot).items()
         if joint.mimic is None or joint.mimic.joint not in bounds
     }
-    low = with_mimics(robot, {name: bounds[name][0] for name in moved})
-    high = with_mimics(robot, {name: bounds[name][1] for name in moved})
+    low = add_mimic_positions(robot, {name: bounds[name][0] for name in moved})
+    high = add_mimic_positions(robot, {name: bounds[name][1] for name in moved})
     ends = {name: (low[name], high[name]) for name in low if name not in moved}
     return {name: pair for name, pair in ends.items() if all(abs(end) <= FARTHEST for end in pair)}
 
 
-def _formula(joint: Joint) -> str:
+def _format_mimic(joint: Joint) -> str:
     mimic = joint.mimic
     if mimic is None:
         return ""

@@ -3,8 +3,8 @@
 import mujoco
 import numpy as np
 
-from urdftool.model.kinematics import motion_of
-from urdftool.model.pose import pose_of
+from urdftool.model.kinematics import compute_motion
+from urdftool.model.pose import make_pose
 
 
 def matrix(pose):
@@ -46,7 +46,7 @@ class Posed:
             own = self._free(self.frames[root])
             self.armature, self.count = list(model.dof_armature[:6]), 1
         elif robot.base is not None:
-            self.frames[root] = matrix(pose_of(robot.base.origin))
+            self.frames[root] = matrix(make_pose(robot.base.origin))
         self.columns[root] = list(enumerate(own))
         self.freedom = len(own)
         for joint in robot.joints:
@@ -57,7 +57,7 @@ class Posed:
         return [*along, *((frame[:3, k], frame[:3, 3], None) for k in range(3))]
 
     def _add(self, joint):
-        frame, own = self.frames[joint.parent] @ matrix(pose_of(joint.origin)), []
+        frame, own = self.frames[joint.parent] @ matrix(make_pose(joint.origin)), []
         if joint.type != "fixed":
             address = self.model.jnt_qposadr[self.count]
             assert self.model.joint(self.count).name in ("", joint.name)
@@ -72,7 +72,7 @@ class Posed:
                 axis = frame[:3, :3] @ joint.axis.xyz
                 slides = joint.type == "prismatic"
                 own = [(axis, None) if slides else (axis, frame[:3, 3].copy(), None)]
-                frame = frame @ matrix(motion_of(joint, self.qpos[address]))
+                frame = frame @ matrix(compute_motion(joint, self.qpos[address]))
             inertia = joint.dynamics.armature if joint.dynamics is not None else None
             self.armature += [inertia or 0.0] * len(own)
         self.frames[joint.child] = frame
@@ -85,7 +85,7 @@ class Posed:
         for link in body_links(self.robot):
             if link.inertial is None:
                 continue
-            frame = self.frames[link.name] @ matrix(pose_of(link.inertial.origin))
+            frame = self.frames[link.name] @ matrix(make_pose(link.inertial.origin))
             linear, angular = np.zeros((2, 3, self.freedom))
             for column, (axis, *point) in self.columns[link.name]:
                 if len(point) == 1:
@@ -120,7 +120,7 @@ def differences(robot, path):
     links = body_links(robot)
     assert len(links) == model.nbody - 1
     bodies = [frame for frame in robot.frames if frame.kind == "body"]
-    written = {frame.link: matrix(pose_of(frame.origin)) for frame in bodies}
+    written = {frame.link: matrix(make_pose(frame.origin)) for frame in bodies}
     worst = {"frame": 0.0, "mass": 0.0, "matrix": 0.0}
     for positions in (model.qpos0, *(random_positions(model, random) for _ in range(2))):
         data.qpos[:] = positions

@@ -1,7 +1,7 @@
 """The page of the format is as fresh as the code."""
 
 from tests.conftest import ROOT
-from urdftool.formats.mjcf.mapping import markdown
+from urdftool.formats.mjcf.mapping import format_markdown
 
 PAGE = ROOT / "docs" / "formats" / "mjcf.md"
 BEGIN, END = "<!-- mapping begins -->\n", "<!-- mapping ends -->"
@@ -10,7 +10,7 @@ BEGIN, END = "<!-- mapping begins -->\n", "<!-- mapping ends -->"
 def fresh(text: str) -> str:
     """The page with the code's mapping; ``python -m tests.formats.mjcf.test_docs`` writes it."""
     before, _, rest = text.partition(BEGIN)
-    return before + BEGIN + "\n" + markdown() + "\n" + END + rest.partition(END)[2]
+    return before + BEGIN + "\n" + format_markdown() + "\n" + END + rest.partition(END)[2]
 
 
 def test_the_mapping_is_fresh():

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.formats.mjcf.frame import plain, quaternion_of_rotation
-from urdftool.model.pose import quaternion_of_rpy, rotation_of_quaternion, rotation_of_rpy
+from urdftool.formats.mjcf.frame import quaternion_from_rotation, simplify_quaternion
+from urdftool.model.pose import quaternion_from_rpy, rotation_from_quaternion, rotation_from_rpy
 
 ANGLE = st.floats(-10, 10, allow_subnormal=False)
 
@@ -24,19 +24,19 @@ ANGLE = st.floats(-10, 10, allow_subnormal=False)
     ],
 )
 def test_quarter_turns_are_whole_numbers(rpy, expected):
-    assert plain(quaternion_of_rpy(rpy)) == expected
+    assert simplify_quaternion(quaternion_from_rpy(rpy)) == expected
 
 
 def test_a_turn_that_is_nearly_a_quarter_is_kept():
-    assert plain(quaternion_of_rpy((1.5708, 0, 0))) != (1, 1, 0, 0)
+    assert simplify_quaternion(quaternion_from_rpy((1.5708, 0, 0))) != (1, 1, 0, 0)
 
 
 @given(ANGLE, ANGLE, ANGLE)
 def test_same_rotation(roll, pitch, yaw):
-    rotation = rotation_of_rpy((roll, pitch, yaw))
-    for quaternion in (quaternion_of_rpy((roll, pitch, yaw)), quaternion_of_rotation(rotation)):
-        written = plain(quaternion) or (1, 0, 0, 0)
-        again = rotation_of_quaternion(written)
+    rotation = rotation_from_rpy((roll, pitch, yaw))
+    for quaternion in (quaternion_from_rpy((roll, pitch, yaw)), quaternion_from_rotation(rotation)):
+        written = simplify_quaternion(quaternion) or (1, 0, 0, 0)
+        again = rotation_from_quaternion(written)
         assert max(
             abs(a - b)
             for row, other in zip(rotation, again, strict=True)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from urdftool.formats.mjcf.digits import number_text, snapped
+from urdftool.formats.mjcf.digits import number_text, round_noise
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf
@@ -127,4 +127,4 @@ def test_numbers_have_no_noise(value, text):
 
 def test_most_numbers_stay_as_they_are():
     values = np.random.default_rng(1).normal(size=1000)
-    assert all(snapped(float(value)) == value for value in values)
+    assert all(round_noise(float(value)) == value for value in values)

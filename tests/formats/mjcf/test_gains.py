@@ -48,10 +48,10 @@ def test_bounded_gains_run_and_those_of_the_effort_do_not(write, tmp_path):
     text = written.text
     model = tmp_path / "model.xml"
     model.write_text(text)
-    assert run_at_home(model, 0.005).faults() == []
+    assert run_at_home(model, 0.005).list_faults() == []
     gain = next(e.get("kp") for e in tree(written).iter("position") if e.get("kp"))
     model.write_text(text.replace(f'kp="{gain}"', 'kp="1000000"'))
-    assert run_at_home(model, 0.005).faults()
+    assert run_at_home(model, 0.005).list_faults()
 
 
 @pytest.mark.library("mujoco")
@@ -142,13 +142,13 @@ def test_armature_of_all_joints_bounds_gains_less(write):
 def test_errors_of_an_actuator_file_name_the_key(write, text, message):
     path = write("a.toml", text)
     with pytest.raises(ConfigError, match=message) as caught:
-        read_actuator_config(Path(path)).for_joints(["left_knee", "right_knee"])
+        read_actuator_config(Path(path)).match_joints(["left_knee", "right_knee"])
     assert caught.value.path == str(path)
 
 
 def test_a_name_counts_before_a_pattern_and_a_later_pattern_before_an_earlier(write):
     text = '[joints.ab]\nkp = 1\n[joints."*"]\nkp = 2\nkd = 2\n[joints."a*"]\nkp = 3\n'
-    found = read_actuator_config(Path(write("a.toml", text))).for_joints(["ab", "ac", "b"])
+    found = read_actuator_config(Path(write("a.toml", text))).match_joints(["ab", "ac", "b"])
     assert [(s.kp, s.kd) for s in found.values()] == [(1, 2), (3, 2), (2, 2)]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from urdftool.api.export import export_mjcf, measure_overlap
-from urdftool.formats.mjcf.srdf_near import srdf_files
+from urdftool.formats.mjcf.srdf_near import find_srdf_files
 from urdftool.model.load import load
 
 from .robots import INERTIAL, export, joint, link, robot, rules, tree
@@ -100,7 +100,7 @@ def test_an_srdf_of_the_moveit_package_is_offered(tmp_path):
     path.write_text(robot(link("a"), name="arm"))
     (config / "arm.srdf").write_text('<robot name="arm"/>')
     (config / "other.srdf").write_text('<robot name="other"/>')
-    assert [file.name for file in srdf_files(load(path))] == ["arm.srdf"]
+    assert [file.name for file in find_srdf_files(load(path))] == ["arm.srdf"]
     written = export(path)
     assert "lossy-srdf-not-used" in rules(written)
     used = export(path, srdf=config / "arm.srdf")

@@ -23,13 +23,13 @@ def written_inertial(model, name):
 
 def tensor_of(element):
     """The tensor of an element along its body's axes."""
-    from urdftool.model.pose import rotation_of_quaternion
+    from urdftool.model.pose import rotation_from_quaternion
 
     if element.get("fullinertia"):
         xx, yy, zz, xy, xz, yz = map(float, element.get("fullinertia").split())
         return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     quaternion = tuple(map(float, element.get("quat", "1 0 0 0").split()))
-    turn = np.array(rotation_of_quaternion(quaternion))
+    turn = np.array(rotation_from_quaternion(quaternion))
     return turn @ np.diag(list(map(float, element.get("diaginertia").split()))) @ turn.T
 
 
@@ -105,9 +105,9 @@ def test_in_a_rigid_body_the_surplus_moves_and_the_whole_is_the_same(write):
     written = export(write("r.urdf", text))
     assert "lossy-inertia-moved" in rules(written)
     model = tree(written)
-    from urdftool.model.pose import rotation_of_rpy
+    from urdftool.model.pose import rotation_from_rpy
 
-    turn = np.array(rotation_of_rpy((0.3, 0.2, 0.1)))
+    turn = np.array(rotation_from_rpy((0.3, 0.2, 0.1)))
     total = tensor_of(written_inertial(model, "a"))
     total = total + turn @ tensor_of(written_inertial(model, "b")) @ turn.T
     assert total == pytest.approx(9 * np.eye(3) + turn @ np.diag([1, 1, 3]) @ turn.T)

@@ -3,8 +3,8 @@
 import pytest
 
 from urdftool.formats.defects import Refused
-from urdftool.formats.mjcf.joint import plane
-from urdftool.model.pose import dot
+from urdftool.formats.mjcf.joint import get_plane
+from urdftool.model.pose import compute_dot
 
 from .robots import export, find, joint, link, robot, rules, tree
 
@@ -162,12 +162,12 @@ def test_planar_is_two_slides_and_a_hinge(write):
 
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -2), (1, 0, 0), (1, 2, 3), (-1, 0.1, -9)])
 def test_a_plane_has_a_right_handed_frame(normal):
-    x, y, z = plane(tuple(map(float, normal)))
+    x, y, z = get_plane(tuple(map(float, normal)))
     for one, other, expected in ((x, x, 1), (y, y, 1), (x, y, 0), (x, z, 0), (y, z, 0)):
-        assert dot(one, other) == pytest.approx(expected, abs=1e-12)
-    from urdftool.model.pose import cross
+        assert compute_dot(one, other) == pytest.approx(expected, abs=1e-12)
+    from urdftool.model.pose import compute_cross
 
-    assert cross(x, y) == pytest.approx(z)
+    assert compute_cross(x, y) == pytest.approx(z)
 
 
 def test_floating_below_the_world_is_a_free_joint(write):

@@ -10,7 +10,7 @@ from urdftool.diagnostic import Severity
 from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.convert import convert
 from urdftool.formats.mjcf.cut import Cut
-from urdftool.formats.mjcf.obj import obj_bytes
+from urdftool.formats.mjcf.obj import write_obj_bytes
 from urdftool.geometry.load import load_mesh
 
 from .robots import INERTIAL, export, link, robot, rules, tree
@@ -291,7 +291,7 @@ def test_the_cache_gives_the_same(write, mesh):
 
 def test_obj_has_each_point_once():
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.1]])
-    text = obj_bytes(points, np.array([[0, 1, 2], [3, 5, 4]])).decode()
+    text = write_obj_bytes(points, np.array([[0, 1, 2], [3, 5, 4]])).decode()
     assert text.count("v ") == 4
     assert text.splitlines()[-2:] == ["f 1 3 2", "f 3 4 2"]
 

@@ -10,10 +10,10 @@ import pytest
 from tests.conftest import FIXTURES, ROOT
 from urdftool.errors import ModelError, SourceError, UrdftoolError
 from urdftool.formats.mjcf.read import read
-from urdftool.model.bounds import bounds_at
+from urdftool.model.bounds import compute_bounds_at
 from urdftool.model.elements import Box, Capsule, Ellipsoid, Mesh
 from urdftool.model.kinematics import link_poses
-from urdftool.model.pose import pose_of
+from urdftool.model.pose import make_pose
 
 pytestmark = pytest.mark.library("mujoco")
 
@@ -129,8 +129,8 @@ def test_shapes(robot):
     length = math.hypot(0.3, 0.1)
     assert isinstance(upper.geometry, Capsule)
     assert upper.geometry.length == pytest.approx(length)
-    ends = [pose_of(upper.origin).transform((0.0, 0.0, z)) for z in (length / 2, -length / 2)]
-    frame = pose_of(next(f.origin for f in robot.frames if f.name == "shoulder")).inverse()
+    ends = [make_pose(upper.origin).transform((0.0, 0.0, z)) for z in (length / 2, -length / 2)]
+    frame = make_pose(next(f.origin for f in robot.frames if f.name == "shoulder")).inverse()
     assert [frame.transform(end) for end in ends] == [
         pytest.approx((0.0, 0.0, 0.0)),
         pytest.approx((0.3, 0.1, 0.0)),
@@ -162,7 +162,7 @@ def test_meshes_are_where_mujoco_has_them(robot):
         mujoco.mju_quat2Mat(rotation, geom.quat)
         theirs = compiled.mesh_vert[first : first + count] @ rotation.reshape(3, 3).T + geom.pos
         mesh = load_mesh(robot.source.resolve(visual.geometry.filename), visual.geometry.scale)
-        pose = pose_of(visual.origin)
+        pose = make_pose(visual.origin)
         ours = mesh.vertices @ np.array(pose.rotation).T + pose.translation
         assert np.allclose(in_order(ours), in_order(theirs), atol=1e-6)
 
@@ -176,8 +176,8 @@ def test_a_loop_is_closed_as_drawn(robot):
     assert drawn == {"yaw": pytest.approx(math.radians(20))}
     poses = link_poses(robot, drawn)
     for closure in robot.closures:
-        one = poses[closure.parent] @ pose_of(closure.origin)
-        other = poses[closure.child] @ pose_of(closure.child_origin)
+        one = poses[closure.parent] @ make_pose(closure.origin)
+        other = poses[closure.child] @ make_pose(closure.child_origin)
         assert one.translation == pytest.approx(other.translation, abs=1e-12)
     glue = robot.closures[1]
     assert (glue.type, glue.is_active) == ("weld", False)
@@ -193,7 +193,7 @@ def test_mechanism(robot):
     assert (home.name, home.positions["yaw"], home.positions["left"]) == ("home", 0.5, 0.3)
     (eye,) = robot.cameras
     assert eye.vertical_fov == pytest.approx(math.radians(60))
-    assert pose_of(eye.origin).transform((1.0, 0.0, 0.0)) == pytest.approx((0.1, 0.0, -0.8))
+    assert make_pose(eye.origin).transform((1.0, 0.0, 0.0)) == pytest.approx((0.1, 0.0, -0.8))
     assert [(one.name, one.type, one.link, one.joint) for one in robot.mounted_sensors] == [
         ("gyro", "gyro", "base", ""),
         ("angle", "jointpos", "", "yaw"),
@@ -233,7 +233,7 @@ def test_several_bodies_hang_on_the_world(tmp_path):
     ]
     assert robot.joint["ball_joint"].place.line == 5
     assert robot.link["world"].collisions[0].geometry.size == (2.0, 4.0)
-    assert bounds_at(robot.link["world"].collisions[0].geometry, pose_of(None)) is None
+    assert compute_bounds_at(robot.link["world"].collisions[0].geometry, make_pose(None)) is None
     equal(path)
 
 

@@ -7,7 +7,7 @@ from zlib import compress, crc32
 import pytest
 
 from urdftool.formats.mjcf import texture
-from urdftool.formats.mjcf.texture import SIGNATURE, png
+from urdftool.formats.mjcf.texture import SIGNATURE, get_png
 
 from .robots import link, robot
 
@@ -39,23 +39,23 @@ WRONG = [
 
 @pytest.mark.parametrize("bad", WRONG, ids=lambda c: c[4:8].decode())
 def test_ancillary_chunks_are_dropped(bad):
-    assert png(image(bad)) == image()
+    assert get_png(image(bad)) == image()
 
 
 def test_what_changes_the_picture_is_kept():
     clear, space = chunk(b"tRNS", b"\0\1" * 3), chunk(b"sRGB", b"\0")
     palette = chunk(b"PLTE", bytes(range(12)))
-    assert png(image(clear)) == image(clear)
-    assert png(image(chunk(b"pHYs", bytes(9)), space)) == image(space)
+    assert get_png(image(clear)) == image(clear)
+    assert get_png(image(chunk(b"pHYs", bytes(9)), space)) == image(space)
     row = bytes([0, 1, 2, 3])
-    assert png(image(palette, color=3, row=row)) == image(palette, color=3, row=row)
+    assert get_png(image(palette, color=3, row=row)) == image(palette, color=3, row=row)
 
 
 def test_what_is_not_an_image_is_none(tmp_path):
     pytest.importorskip("PIL")
-    assert png(b"not an image") is None
-    assert png(SIGNATURE + b"cut") is None
-    assert png(tmp_path / "absent.png") is None
+    assert get_png(b"not an image") is None
+    assert get_png(SIGNATURE + b"cut") is None
+    assert get_png(tmp_path / "absent.png") is None
 
 
 def encoded(mode, kind):
@@ -69,10 +69,10 @@ def encoded(mode, kind):
 def test_another_format_is_converted_once(monkeypatch, tmp_path, mode, kind, color):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     data = encoded(mode, kind)
-    first = png(data)
+    first = get_png(data)
     assert first[25] == color  # as many channels as there were
     monkeypatch.setattr(texture, "_png_bytes", None)
-    assert png(data) == first
+    assert get_png(data) == first
 
 
 @pytest.mark.library("mujoco")

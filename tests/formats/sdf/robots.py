@@ -4,7 +4,7 @@ from lxml import etree
 
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.write import write
-from urdftool.model.load import robot_of
+from urdftool.model.load import make_robot
 from urdftool.source.description import Description
 from urdftool.source.document import parse
 from urdftool.source.location import SourceFile
@@ -43,7 +43,7 @@ def robot(*parts, name="r"):
     """A robot of text."""
     text = f'<robot name="{name}">' + "\n".join(parts) + "</robot>\n"
     file = SourceFile("r.urdf", text.encode())
-    return robot_of(Description("r.urdf", parse(file), [file], Packages(None)))
+    return make_robot(Description("r.urdf", parse(file), [file], Packages(None)))
 
 
 def export(*parts, **choices):

@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.formats.sdf.keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS
-from urdftool.rules.gazebo.block_values import kind_of_value
+from urdftool.rules.gazebo.block_values import get_kind
 
 from .robots import BOX, CUBE, TWO, export, gazebo, inertial, joint, link, named, names, rules, tree
 
@@ -15,7 +15,7 @@ VALUES = {"number": "0.25", "count": "7", "vector": "0 1 0", "flag": "true"}
 @pytest.mark.parametrize("form", ["<{0}>{1}</{0}>", '<{0} value="{1}"/>'])
 def test_contact_values_reach_every_collision_whatever_its_name(tag, form):
     keyword = COLLISION_KEYWORDS[tag]
-    value = VALUES[kind_of_value(tag)]
+    value = VALUES[get_kind(tag)]
     model = tree(export(link("a", NAMED), gazebo("a", form.format(tag, value))))
     assert [e.findtext(keyword.path) for e in model.iter("collision")] == [value, value]
 
@@ -23,7 +23,7 @@ def test_contact_values_reach_every_collision_whatever_its_name(tag, form):
 @pytest.mark.parametrize("tag", JOINT_KEYWORDS)
 def test_joint_values(tag):
     keyword = JOINT_KEYWORDS[tag]
-    value = VALUES[kind_of_value(tag)]
+    value = VALUES[get_kind(tag)]
     written = export(*TWO, gazebo("j", f"<{tag}>{value}</{tag}>"))
     assert named(tree(written), "joint", "j").findtext(keyword.path) == value
     assert rules(written) == []

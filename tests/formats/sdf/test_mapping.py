@@ -4,7 +4,7 @@ import re
 
 from tests.conftest import ROOT
 from urdftool.formats.sdf.losses import LOSSES
-from urdftool.formats.sdf.page import with_mapping
+from urdftool.formats.sdf.page import insert_mapping
 
 PAGE = ROOT / "docs" / "formats" / "sdf.md"
 SOURCES = sorted((ROOT / "urdftool" / "formats" / "sdf").glob("*.py"))
@@ -12,7 +12,9 @@ SOURCES = sorted((ROOT / "urdftool" / "formats" / "sdf").glob("*.py"))
 
 def test_the_page_is_fresh():
     text = PAGE.read_text("utf-8")
-    assert with_mapping(text) == text, "run python -m urdftool.formats.sdf.page docs/formats/sdf.md"
+    assert insert_mapping(text) == text, (
+        "run python -m urdftool.formats.sdf.page docs/formats/sdf.md"
+    )
 
 
 def test_every_loss_is_on_the_page():

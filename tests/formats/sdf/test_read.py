@@ -10,7 +10,7 @@ from urdftool.errors import ModelError, SourceError
 from urdftool.formats.sdf.read import read
 from urdftool.model.elements import Ellipsoid, Plane, UnknownShape
 from urdftool.model.kinematics import link_poses
-from urdftool.model.pose import IDENTITY, Pose, pose_of, rotation_of_quaternion
+from urdftool.model.pose import IDENTITY, Pose, make_pose, rotation_from_quaternion
 
 READERS = FIXTURES / "readers"
 MECHANISM = READERS / "mechanism.sdf"
@@ -40,8 +40,10 @@ def sdf(tmp_path, body, version="1.9", name="m"):
 
 def poses(robot):
     """Return the poses of the links, as written, in the world."""
-    start = pose_of(robot.base.origin) if robot.base is not None else IDENTITY
-    written = {frame.link: pose_of(frame.origin) for frame in robot.frames if frame.kind == "body"}
+    start = make_pose(robot.base.origin) if robot.base is not None else IDENTITY
+    written = {
+        frame.link: make_pose(frame.origin) for frame in robot.frames if frame.kind == "body"
+    }
     return {
         name: start @ pose @ written.get(name, IDENTITY) for name, pose in link_poses(robot).items()
     }
@@ -54,7 +56,7 @@ def test_links_are_where_drake_has_them(robot):
     assert {link.name for link in robot.links if not link.is_virtual} == set(expected)
     for name, pose in expected.items():
         assert found[name].translation == pytest.approx(pose["xyz"], abs=1e-9), name
-        rotation = rotation_of_quaternion(tuple(pose["wxyz"]))
+        rotation = rotation_from_quaternion(tuple(pose["wxyz"]))
         for row, wanted in zip(found[name].rotation, rotation, strict=True):
             assert row == pytest.approx(wanted, abs=1e-9), name
 
@@ -103,8 +105,8 @@ def test_a_second_joint_of_a_link_closes_a_loop(robot):
         *("loop", "revolute", "thumb", "left::thumb"),
     )
     found = link_poses(robot)
-    one = found[loop.parent] @ pose_of(loop.origin)
-    other = found[loop.child] @ pose_of(loop.child_origin)
+    one = found[loop.parent] @ make_pose(loop.origin)
+    other = found[loop.child] @ make_pose(loop.child_origin)
     assert one.translation == pytest.approx(other.translation)
     assert loop.axis == pytest.approx((0.0, 0.0, 1.0))
 
@@ -113,7 +115,7 @@ def test_shapes_and_sensors(robot):
     base = robot.link["base"]
     plane = base.collisions[0]
     assert plane.geometry == Plane(plane.geometry.provenance, (2.0, 3.0))
-    assert pose_of(plane.origin).transform((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, -0.1))
+    assert make_pose(plane.origin).transform((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, -0.1))
     body, hill = base.visuals
     assert body.geometry == Ellipsoid(body.geometry.provenance, (0.1, 0.2, 0.3))
     assert body.material.color == (0.1, 0.2, 0.3, 0.4)
@@ -142,7 +144,7 @@ def test_frames(robot):
         "left::mount": ("frame", "left::palm"),
     }
     foot = next(frame for frame in robot.frames if frame.name == "foot")
-    placed = pose_of(robot.base.origin) @ pose_of(foot.origin)
+    placed = make_pose(robot.base.origin) @ make_pose(foot.origin)
     assert placed.translation == pytest.approx((1.0, 2.0, 3.0))  # placement_frame
 
 

@@ -13,7 +13,7 @@ from tests.conftest import CORPUS
 from urdftool.formats.check import is_faithful
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of
-from urdftool.formats.sdf.verify.mechanism import turned
+from urdftool.formats.sdf.verify.mechanism import rotate_by_angles
 from urdftool.formats.sdf.write import write
 from urdftool.model.load import load
 
@@ -41,7 +41,7 @@ def mass_of(model, name):
             [i["ixz"], i["iyz"], i["izz"]],
         ]
     )
-    turn = turned(pose[3:])
+    turn = rotate_by_angles(pose[3:])
     return float(inertial.findtext("mass")), pose[:3], turn @ tensor @ turn.T
 
 
@@ -75,7 +75,7 @@ def test_reduction(case, visuals, collisions):
         got_mass, got_center, got_tensor = mass_of(model, name)
         xx, yy, zz = moments
         xy, xz, yz = products
-        turn = turned(rpy)
+        turn = rotate_by_angles(rpy)
         tensor = turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T
         assert got_mass == pytest.approx(mass)
         assert got_center == pytest.approx(center, abs=1e-5)

@@ -8,12 +8,12 @@ import pytest
 from urdftool.formats.check import is_faithful
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of, verify
-from urdftool.formats.sdf.verify.dynamics import mass_matrix, poses
-from urdftool.formats.sdf.verify.mechanism import by_quaternion, turned
-from urdftool.formats.sdf.verify.source import mechanism_of
+from urdftool.formats.sdf.verify.dynamics import compute_mass_matrix, compute_poses
+from urdftool.formats.sdf.verify.mechanism import rotate_by_angles, rotate_by_quaternion
+from urdftool.formats.sdf.verify.source import convert_mechanism
 from urdftool.formats.sdf.write import write
 from urdftool.model.load import load
-from urdftool.model.pose import quaternion_of_rpy, rotation_of_rpy
+from urdftool.model.pose import quaternion_from_rpy, rotation_from_rpy
 
 from .goldens import FOLDER
 from .robots import inertial, joint, link, robot
@@ -92,20 +92,20 @@ def test_what_was_announced_is_no_failure(tmp_path):
 
 @pytest.mark.parametrize("rpy", [(0.1, 0.2, 0.3), (2, -1.5707963, 4), (0, 0, 0)])
 def test_its_rotations_are_those_of_urdf(rpy):
-    assert turned(rpy) == pytest.approx(np.array(rotation_of_rpy(rpy)), abs=1e-15)
-    w, x, y, z = quaternion_of_rpy(rpy)
-    assert by_quaternion(x, y, z, w) == pytest.approx(turned(rpy), abs=1e-14)
+    assert rotate_by_angles(rpy) == pytest.approx(np.array(rotation_from_rpy(rpy)), abs=1e-15)
+    w, x, y, z = quaternion_from_rpy(rpy)
+    assert rotate_by_quaternion(x, y, z, w) == pytest.approx(rotate_by_angles(rpy), abs=1e-14)
 
 
 def test_a_pendulum_in_closed_form():
     """A bob of 2 kg half a metre out on a hinge about y: m l² + I, and m g l at rest."""
     bob = link("b", inertial(2, (0.01, 0.02, 0.03), xyz="0.5 0 0"))
     limit = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
-    mechanism = mechanism_of(robot(link("a"), joint("j", "a", "b", inside=limit), bob))
-    order = mechanism.in_order()
+    mechanism = convert_mechanism(robot(link("a"), joint("j", "a", "b", inside=limit), bob))
+    order = mechanism.sort_joints()
     for angle in (0.0, 0.7):
-        inertia, weight = mass_matrix(
-            mechanism, poses(mechanism, {"j": angle}, order), order, ["j"]
+        inertia, weight = compute_mass_matrix(
+            mechanism, compute_poses(mechanism, {"j": angle}, order), order, ["j"]
         )
         assert inertia[0, 0] == pytest.approx(2 * 0.25 + 0.02)
         assert weight[0] == pytest.approx(-2 * 9.81 * 0.5 * np.cos(angle))
@@ -121,11 +121,11 @@ def test_two_links_in_closed_form():
         joint("k", "b", "c", inside=limit, origin="1 0 0"),
         link("c", inertial(3, (0, 0, 0), xyz="1 0 0")),
     )
-    mechanism = mechanism_of(robot(*parts))
-    order = mechanism.in_order()
+    mechanism = convert_mechanism(robot(*parts))
+    order = mechanism.sort_joints()
     bend = 0.8
-    placed = poses(mechanism, {"k": bend}, order)
-    inertia, _ = mass_matrix(mechanism, placed, order, ["j", "k"])
+    placed = compute_poses(mechanism, {"k": bend}, order)
+    inertia, _ = compute_mass_matrix(mechanism, placed, order, ["j", "k"])
     near, far = 2.0, 3.0
     assert inertia[1, 1] == pytest.approx(far)
     assert inertia[0, 1] == pytest.approx(far * (1 + np.cos(bend)))

@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ConfigError
-from ...suggestions import did_you_mean
+from ...suggestions import suggest_name
 
 KEYS = ("kp", "kd", "armature", "damping", "friction", "force-range", "type")
 TYPES = ("position", "velocity", "motor")
@@ -54,7 +54,7 @@ class JointSettings:
     force_range: tuple[float, float] | None = None
     type: str | None = None
 
-    def over(self, other: JointSettings) -> JointSettings:
+    def override(self, other: JointSettings) -> JointSettings:
         """Return these settings, with missing values taken from ``other``."""
         values = {
             field.name: getattr(other, field.name)
@@ -72,7 +72,7 @@ class ActuatorConfig:
     path: Path
     tables: Mapping[str, JointSettings]
 
-    def for_joints(self, joints: Iterable[str]) -> dict[str, JointSettings]:
+    def match_joints(self, joints: Iterable[str]) -> dict[str, JointSettings]:
         """Choose the settings of each joint.
 
         Args:
@@ -90,16 +90,16 @@ class ActuatorConfig:
                 continue
             fitting = [name for name in names if fnmatchcase(name, pattern)]
             if not fitting:
-                raise ConfigError(self._unknown(pattern, names), path=self.path)
+                raise ConfigError(self._format_unknown(pattern, names), path=self.path)
             for name in fitting:
-                found[name] = settings.over(found[name])
+                found[name] = settings.override(found[name])
         for name, settings in exact.items():
-            found[name] = settings.over(found[name])
+            found[name] = settings.override(found[name])
         return found
 
-    def _unknown(self, pattern: str, names: list[str]) -> str:
+    def _format_unknown(self, pattern: str, names: list[str]) -> str:
         what = "pattern" if set(pattern) & set("*?[") else "name"
-        hint = did_you_mean(pattern, names, 0.5) or f"; there are {', '.join(names) or 'none'}"
+        hint = suggest_name(pattern, names, 0.5) or f"; there are {', '.join(names) or 'none'}"
         return f'[{_TABLE}."{pattern}"]: no joint that moves has this {what}{hint}'
 
 
@@ -129,21 +129,21 @@ def read_actuator_config(path: Path) -> ActuatorConfig:
     if not isinstance(joints, dict):
         raise ConfigError(f"'{_TABLE}' must be a table of tables, one a joint", path=path)
     return ActuatorConfig(
-        path, {name: _settings(name, table, path) for name, table in joints.items()}
+        path, {name: _make_settings(name, table, path) for name, table in joints.items()}
     )
 
 
-def _settings(name: str, table: Any, path: Path) -> JointSettings:
+def _make_settings(name: str, table: Any, path: Path) -> JointSettings:
     where = f'[{_TABLE}."{name}"]'
     if not isinstance(table, dict):
         raise ConfigError(f"{where} must be a table, with keys such as kp = 100", path=path)
     values: dict[str, Any] = {}
     for key, value in table.items():
         if key not in KEYS:
-            hint = did_you_mean(key, KEYS, 0.5) or f"; there are {', '.join(KEYS)}"
+            hint = suggest_name(key, KEYS, 0.5) or f"; there are {', '.join(KEYS)}"
             raise ConfigError(f"{where}: unknown key '{key}'{hint}", path=path)
         if key == "force-range":
-            values["force_range"] = _range(where, value, path)
+            values["force_range"] = _collect_range(where, value, path)
         elif key == "type":
             if value not in TYPES:
                 text = f"{where}: type must be {', '.join(TYPES[:-1])} or {TYPES[-1]}"
@@ -156,7 +156,7 @@ def _settings(name: str, table: Any, path: Path) -> JointSettings:
     return JointSettings(**values)
 
 
-def _range(where: str, value: Any, path: Path) -> tuple[float, float]:
+def _collect_range(where: str, value: Any, path: Path) -> tuple[float, float]:
     pair = [-value, value] if _is_number(value) else value
     right = isinstance(pair, list) and len(pair) == 2 and all(map(_is_number, pair))
     if not right or not pair[0] < pair[1]:

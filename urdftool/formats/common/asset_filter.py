@@ -42,7 +42,7 @@ def explain_invalid_mesh(path: Path) -> str:
 
 def is_image(path: Path) -> bool:
     """Tell whether a file is an image, by its first bytes."""
-    head = _head(path)
+    head = _get_head(path)
     return head.startswith(_STARTS) or head[8:12] == b"WEBP" or _is_tga(path, head)
 
 
@@ -50,13 +50,13 @@ def is_companion(path: Path) -> bool:
     """Tell whether a mesh may refer to a file: an image, an OBJ material, or a glTF buffer."""
     suffix = path.suffix.lower()
     if suffix == ".mtl":
-        return _MATERIAL.search(_head(path)) is not None
+        return _MATERIAL.search(_get_head(path)) is not None
     if suffix == ".bin":  # has no signature; a symbolic link could point to any file
         return path.resolve().suffix.lower() == ".bin"
     return is_image(path)
 
 
-def _head(path: Path) -> bytes:
+def _get_head(path: Path) -> bytes:
     if not os.path.isfile(path):  # a device or pipe may never end
         return b""
     with open(path, "rb") as stream:
@@ -73,7 +73,7 @@ def _is_tga(path: Path, head: bytes) -> bool:
 def _is_stl(path: Path) -> bool:
     facts = read_stl_header(path)
     if facts.kind == "ascii":
-        return b"facet" in _head(path).lower()
+        return b"facet" in _get_head(path).lower()
     return facts.expected_bytes is not None and facts.bytes >= facts.expected_bytes
 
 
@@ -82,21 +82,21 @@ def _is_obj(path: Path) -> bool:
     return _POINT.search(data) is not None and _FACE.search(data) is not None
 
 
-def _starts(*words: bytes) -> Callable[[Path], bool]:
-    return lambda path: _head(path).startswith(words)
+def _make_prefix_test(*words: bytes) -> Callable[[Path], bool]:
+    return lambda path: _get_head(path).startswith(words)
 
 
 def _has(*words: bytes) -> Callable[[Path], bool]:
-    return lambda path: any(word in _head(path) for word in words)
+    return lambda path: any(word in _get_head(path) for word in words)
 
 
 _MESHES: dict[str, Callable[[Path], bool]] = {
     ".stl": _is_stl,
     ".obj": _is_obj,
     ".dae": _has(b"<COLLADA", "<COLLADA".encode("utf-16-le"), "<COLLADA".encode("utf-16-be")),
-    ".ply": _starts(b"ply"),
+    ".ply": _make_prefix_test(b"ply"),
     ".gltf": _has(b'"asset"'),
-    ".glb": _starts(b"glTF"),
-    ".fbx": _starts(b"Kaydara FBX Binary", b"; FBX"),
-    ".3ds": _starts(b"MM"),
+    ".glb": _make_prefix_test(b"glTF"),
+    ".fbx": _make_prefix_test(b"Kaydara FBX Binary", b"; FBX"),
+    ".3ds": _make_prefix_test(b"MM"),
 }

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...errors import UrdftoolError
 from ...model.elements import Robot
-from ...source.packages import own_package
+from ...source.packages import find_own_package
 from .asset_filter import is_companion
 
 _NAMED = {
@@ -53,10 +53,10 @@ def find_companions(path: Path) -> Iterator[tuple[Path, str]]:
             yield other, name
 
 
-def package_path(path: Path) -> tuple[str, str]:
+def get_package_path(path: Path) -> tuple[str, str]:
     """Return the package of a file and its path there; without one, the name of its folder."""
     full = Path(os.path.abspath(path))
-    own = own_package(full)
+    own = find_own_package(full)
     if own is None:
         return full.parent.name, full.name
     return own[0], full.relative_to(own[1]).as_posix()

@@ -33,14 +33,14 @@ def mark(xml: bytes, source: str) -> bytes:
     start = xml.find(b"?>") + 2 if xml.startswith(b"<?xml") else 0
     head, rest = xml[:start], xml[start:].lstrip(b"\n")
     name = re.sub(r"[-;<>]*[;<>][-;<>]*|-{2,}", "-", source)
-    comment = f"<!-- Exported by urdftool {__version__} from {name}; {_digest(rest)} -->\n"
+    comment = f"<!-- Exported by urdftool {__version__} from {name}; {_format_digest(rest)} -->\n"
     return (head + b"\n" if head else b"") + comment.encode() + rest
 
 
 def is_ours(data: bytes) -> bool:
     """Tell whether urdftool wrote these bytes and they were not modified since."""
     found = _MARK.search(data, 0, _HEAD)
-    return found is not None and found[1].decode() == _digest(data[found.end() :])
+    return found is not None and found[1].decode() == _format_digest(data[found.end() :])
 
 
 def write_directory(
@@ -170,5 +170,5 @@ def _check_files(
         raise OutputError(f"{why}; keep it, or overwrite it with --overwrite", path=place)
 
 
-def _digest(data: bytes) -> str:
+def _format_digest(data: bytes) -> str:
     return sha256(data).hexdigest()[:12]

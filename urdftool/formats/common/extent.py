@@ -24,12 +24,12 @@ from ...model.elements import (
     Vector,
     Visual,
 )
-from ...model.pose import IDENTITY, Pose, pose_of
+from ...model.pose import IDENTITY, Pose, make_pose
 
 Array = npt.NDArray[np.float64]
 
 
-def box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
+def compute_box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
     """Compute the edge lengths [m] of the bounding box of links that form one body.
 
     Args:
@@ -45,7 +45,7 @@ def box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
         for link, pose in placed:
             turn, shift = np.array(pose.rotation), np.array(pose.translation)
             for shape in getattr(link, kind):
-                points = shape_points(robot, shape)
+                points = get_shape_points(robot, shape)
                 if points is not None:
                     found.append(points if pose is IDENTITY else points @ turn.T + shift)
         if found:
@@ -54,34 +54,34 @@ def box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
     return None
 
 
-def shape_points(robot: Robot, shape: Visual | Collision) -> Array | None:
+def get_shape_points(robot: Robot, shape: Visual | Collision) -> Array | None:
     """Return points [m] in the link's frame with the same extent as a shape along every axis.
 
     Return None if the shape has no size or its mesh cannot be read.
     """
-    points = None if shape.geometry is None else _points(robot, shape.geometry)
-    return None if points is None else placed(points, shape)
+    points = None if shape.geometry is None else _make_points(robot, shape.geometry)
+    return None if points is None else transform_to_link(points, shape)
 
 
-def placed(points: Array, shape: Visual | Collision) -> Array:
+def transform_to_link(points: Array, shape: Visual | Collision) -> Array:
     """Transform points of a shape's geometry to the frame of its link [m], shape (n, 3)."""
-    pose = pose_of(shape.origin)
+    pose = make_pose(shape.origin)
     moved: Array = points @ np.array(pose.rotation).T + np.array(pose.translation)
     return moved
 
 
-def _points(robot: Robot, geometry: Geometry) -> Array | None:
+def _make_points(robot: Robot, geometry: Geometry) -> Array | None:
     if isinstance(geometry, Box):
-        return _corners([edge / 2 for edge in geometry.size])
+        return _make_corners([edge / 2 for edge in geometry.size])
     if isinstance(geometry, Sphere):
-        return _corners([geometry.radius] * 3)
+        return _make_corners([geometry.radius] * 3)
     if isinstance(geometry, Cylinder | Cone):
-        return _corners([geometry.radius, geometry.radius, geometry.length / 2])
+        return _make_corners([geometry.radius, geometry.radius, geometry.length / 2])
     if isinstance(geometry, Ellipsoid):
-        return _corners(geometry.radii)
+        return _make_corners(geometry.radii)
     if isinstance(geometry, Capsule):
         reach = geometry.length / 2 + geometry.radius
-        return _corners([geometry.radius, geometry.radius, reach])
+        return _make_corners([geometry.radius, geometry.radius, reach])
     if isinstance(geometry, Mesh) and robot.source is not None:
         try:
             return load_named(robot.source, geometry.filename, geometry.scale).vertices
@@ -90,7 +90,7 @@ def _points(robot: Robot, geometry: Geometry) -> Array | None:
     return None
 
 
-def _corners(half: Sequence[float]) -> Array | None:
+def _make_corners(half: Sequence[float]) -> Array | None:
     if min(half) <= 0:
         return None
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])

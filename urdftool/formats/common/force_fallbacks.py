@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
-from ...model.world import with_world
-from ..defects import defects, identity
+from ...model.world import add_world
+from ..defects import get_identity, report_defects
 from ..written import Written
-from .naming import free_name
+from .naming import get_free_name
 
 FATAL = frozenset(("no-links", "no-root", "multiple-parents", "detached-cycle", "immense-number"))
 """Defects that no fallback passes."""
@@ -36,7 +36,7 @@ def drop_invalid_parts(robot: Robot) -> Robot:
     Args:
         robot: A robot, which stays as it is.
     """
-    robot, _ = with_world(robot)
+    robot, _ = add_world(robot)
     links: dict[str, Link] = {}
     for link in robot.links:
         if link.name:
@@ -47,13 +47,13 @@ def drop_invalid_parts(robot: Robot) -> Robot:
         if joint.parent in links and joint.child in links:
             name = joint.name
             if not name or name in joints:
-                name = free_name(name or f"{joint.child}_joint", names)
+                name = get_free_name(name or f"{joint.child}_joint", names)
                 names.add(name)
             joints[name] = joint if name == joint.name else replace(joint, name=name)
     return replace(robot, links=list(links.values()), joints=list(joints.values()))
 
 
-def tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
+def report_tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
     """Yield the defects of links and joints, without those that are consequences of others.
 
     Args:
@@ -61,11 +61,11 @@ def tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
         left: The robot without invalid parts.
         forced: Whether that is what is written, so that its own trees count.
     """
-    own, later = list(defects(robot)), list(defects(left))
-    remain = set(map(identity, later))
-    yield from (f for f in own if f.code not in OF_TREES or identity(f) in remain)
-    known = set(map(identity, own))
-    yield from (f for f in later if forced and f.code in OF_TREES and identity(f) not in known)
+    own, later = list(report_defects(robot)), list(report_defects(left))
+    remain = set(map(get_identity, later))
+    yield from (f for f in own if f.code not in OF_TREES or get_identity(f) in remain)
+    known = set(map(get_identity, own))
+    yield from (f for f in later if forced and f.code in OF_TREES and get_identity(f) not in known)
 
 
 def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:

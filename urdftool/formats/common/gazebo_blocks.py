@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...rules.gazebo.block_values import is_value_of_kind
 from ...rules.gazebo.keywords import is_true
-from .numbers import number_text, numbers_text
+from .numbers import format_numbers_text, number_text
 
 
 def read_value(kind: str, text: str) -> str | None:
@@ -20,5 +20,5 @@ def read_value(kind: str, text: str) -> str | None:
     if kind == "flag":
         return "true" if is_true(text) else "false"
     if kind == "vector":
-        return numbers_text(numbers(text, 3) or ())
+        return format_numbers_text(parse_numbers(text, 3) or ())
     return number_text(number(text) or 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Literal
 
-from ...mechanics.repair import box_tensor, sphere_tensor
+from ...mechanics.repair import compute_box_tensor, compute_sphere_tensor
 from ...mechanics.spatial_inertia import SpatialInertia
 from ...mechanics.tensor import SymmetricTensor
 from ...model.elements import Vector
@@ -40,9 +40,9 @@ def repair_tensor(
             return lift(
                 body.tensor
             ), "it has no geometry for a box, so its smallest moments are increased"
-        return box_tensor(
+        return compute_box_tensor(
             body.mass, edges
         ), "replaced by the inertia of a box around its geometry, and changed"
     if fix == "balance":
-        return sphere_tensor(body.tensor), "balanced"
+        return compute_sphere_tensor(body.tensor), "balanced"
     return lift(body.tensor), "lifted"

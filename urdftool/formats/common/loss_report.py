@@ -40,7 +40,7 @@ def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding,
     yield from ((some[0], len(some) - 1) for some in groups.values())
 
 
-def losses_as_errors(findings: Iterable[Finding]) -> list[Finding]:
+def raise_losses_as_errors(findings: Iterable[Finding]) -> list[Finding]:
     """Raise the severity of losses to error.
 
     Losses of severity info, after which the robot behaves the same, are left out.

@@ -23,10 +23,10 @@ class DeclaredLosses:
         """Collect the codes and names of findings."""
         return cls(frozenset((finding.code, finding.name) for finding in findings))
 
-    def any(self, *codes: str) -> bool:
+    def has_any(self, *codes: str) -> bool:
         """Return whether a loss with one of these codes was reported anywhere."""
         return any(code in codes for code, _ in self.losses)
 
-    def of(self, codes: Iterable[str], *names: str) -> bool:
+    def has_for(self, codes: Iterable[str], *names: str) -> bool:
         """Return whether a loss with one of these codes was reported for one of these names."""
         return any((code, name) in self.losses for code in codes for name in names)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ...model.elements import Joint, Robot
-from ...model.pose import IDENTITY, Pose, pose_of
+from ...model.pose import IDENTITY, Pose, make_pose
 
 
 @dataclass(frozen=True)
@@ -24,16 +24,16 @@ class LumpingPlan:
     pose: dict[str, Pose]
 
 
-def pose_of_child(joint: Joint) -> Pose:
+def get_pose_of_child(joint: Joint) -> Pose:
     """Return the pose of the child of a fixed joint in its parent."""
-    return pose_of(joint.origin)
+    return make_pose(joint.origin)
 
 
 def plan_lumping(
     robot: Robot,
     links: Iterable[str],
     is_lumped: Callable[[Joint], bool],
-    joint_pose: Callable[[Joint], Pose] = pose_of_child,
+    joint_pose: Callable[[Joint], Pose] = get_pose_of_child,
 ) -> LumpingPlan:
     """Group the links that lumped joints connect.
 

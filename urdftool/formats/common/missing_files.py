@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ...errors import SourceError
 from ...finding import Finding
 from ...model.elements import Link, Mesh, Robot
-from ..defects import defect
+from ..defects import make_defect
 
 
 class MissingFile(NamedTuple):
@@ -51,7 +51,7 @@ def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
     return MissingFile("does not exist", f"file {path} does not exist", str(path))
 
 
-def missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
+def create_missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
     """Create the finding for a mesh file that does not exist.
 
     Args:
@@ -60,7 +60,7 @@ def missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
         mesh: The mesh.
     """
     missing = explain_missing_file(robot, mesh.filename)
-    return defect(
+    return make_defect(
         "mesh-not-found",
         f"mesh '{mesh.filename}' of link '{link.name}' {missing.message}",
         mesh.element.attribute_place("filename"),

@@ -7,20 +7,20 @@ from collections.abc import Container, Iterable, Iterator
 from itertools import chain, count
 
 
-def numbered(stem: str, first: int = 2, suffix: str = "") -> Iterator[str]:
+def list_numbered_names(stem: str, first: int = 2, suffix: str = "") -> Iterator[str]:
     """Yield a name with increasing numbers from ``first``: ``arm_2``, ``arm_3``."""
     for number in count(first):
         yield f"{stem}_{number}{suffix}"
 
 
-def first_free(candidates: Iterable[str], taken: Container[str | None]) -> str:
+def get_first_free(candidates: Iterable[str], taken: Container[str | None]) -> str:
     """Return the first candidate that is not taken."""
     return next(name for name in candidates if name not in taken)
 
 
-def free_name(name: str, taken: Container[str | None]) -> str:
+def get_free_name(name: str, taken: Container[str | None]) -> str:
     """Return a name that is not taken: the name itself, or with the least number from 2."""
-    return first_free(chain((name,), numbered(name)), taken)
+    return get_first_free(chain((name,), list_numbered_names(name)), taken)
 
 
 class UniqueNames:
@@ -34,24 +34,24 @@ class UniqueNames:
             fold: Whether to ignore case, as some file systems do.
         """
         self._fold = fold
-        self._taken = {self._key(name) for name in taken}
+        self._taken = {self._format_key(name) for name in taken}
 
     def __contains__(self, name: object) -> bool:
         """Return whether a name is taken."""
-        return self._key(str(name)) in self._taken
+        return self._format_key(str(name)) in self._taken
 
-    def _key(self, name: str) -> str:
+    def _format_key(self, name: str) -> str:
         return name.casefold() if self._fold else name
 
     def take(self, *candidates: str) -> str:
         """Take the first candidate that is free, or the last one with the least number from 1."""
         names = [name for name in candidates if name]
         stem = names[-1] if names else "unnamed"
-        name = first_free(chain(names, numbered(stem, 1)), self)
-        self._taken.add(self._key(name))
+        name = get_first_free(chain(names, list_numbered_names(stem, 1)), self)
+        self._taken.add(self._format_key(name))
         return name
 
 
-def file_name(text: str) -> str:
+def replace_file_name(text: str) -> str:
     """Replace characters other than letters, digits, dots, dashes and underscores in a name."""
     return re.sub(r"[^\w.-]+", "_", text).strip("._-") or "unnamed"

@@ -17,6 +17,6 @@ def number_text(value: float) -> str:
     return repr(float(value))
 
 
-def numbers_text(values: Iterable[float]) -> str:
+def format_numbers_text(values: Iterable[float]) -> str:
     """Format numbers, separated by blanks."""
     return " ".join(map(number_text, values))

@@ -15,13 +15,13 @@ from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ..common.actuator_config import JointSettings
 from ..written import Written
-from .digits import number_text, numbers_text
-from .drives import plugin_drives
+from .digits import format_numbers_text, number_text
+from .drives import get_plugin_drives
 from .equality import follows
-from .gains import PART, TIMESTEP, Gain, position_gain, velocity_gain
-from .joint import effort_of
+from .gains import PART, TIMESTEP, Gain, choose_velocity_gain, position_gain
+from .joint import get_effort
 from .options import Actuators
-from .structure import Structure, bounds, locked_at
+from .structure import Structure, get_bounds, get_locked_at
 
 INTERFACES = ("position", "velocity", "effort")
 
@@ -35,7 +35,7 @@ class Drive:
     reduction: float = 1.0
 
 
-def actuator_section(
+def build_actuator_section(
     structure: Structure,
     actuators: Actuators,
     inertias: Mapping[str, float],
@@ -51,28 +51,28 @@ def actuator_section(
         settings: Settings by joint name, from the user.
         written: Receives losses and the assumed gains.
     """
-    drives = list(_drives(structure, actuators, settings, written))
+    drives = list(_list_drives(structure, actuators, settings, written))
     if not drives:
         return None, []
     section = etree.Element("actuator")
     assumed: dict[str, Gain] = {}
     for drive in drives:
         own = settings.get(drive.joint.name, JointSettings())
-        section.append(_element(structure, drive, inertias, own, assumed))
+        section.append(_build_element(structure, drive, inertias, own, assumed))
     if assumed:
         _report_assumed_gains(structure.robot, assumed, written)
     return section, drives
 
 
-def _drives(
+def _list_drives(
     structure: Structure,
     actuators: Actuators,
     settings: Mapping[str, JointSettings],
     written: Written,
 ) -> Iterator[Drive]:
-    said = dict(_described(structure.robot, written)) if actuators == "auto" else {}
+    said = dict(_list_described(structure.robot, written)) if actuators == "auto" else {}
     for joint in structure.moving:
-        if structure.kind(joint) not in ("hinge", "slide") or locked_at(joint) is not None:
+        if structure.get_kind(joint) not in ("hinge", "slide") or get_locked_at(joint) is not None:
             continue
         drive = None
         if actuators == "auto":
@@ -81,7 +81,7 @@ def _drives(
                 drive = Drive(joint, kind, reduction)
         elif actuators != "none":
             drive = Drive(joint, actuators)
-        drive = _chosen(joint, drive, settings.get(joint.name, JointSettings()))
+        drive = _get_chosen(joint, drive, settings.get(joint.name, JointSettings()))
         if drive is None:
             continue
         if follows(structure, joint):
@@ -91,7 +91,7 @@ def _drives(
         yield drive
 
 
-def _chosen(joint: Joint, drive: Drive | None, settings: JointSettings) -> Drive | None:
+def _get_chosen(joint: Joint, drive: Drive | None, settings: JointSettings) -> Drive | None:
     """Return the drive of a joint after applying the user's settings."""
     kind = settings.type
     if kind is None and settings.kp is not None:
@@ -136,9 +136,9 @@ def _report_assumed_gains(robot: Robot, assumed: Mapping[str, Gain], written: Wr
     )
 
 
-def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str, float]]]:
+def _list_described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str, float]]]:
     """Yield kind and reduction of each joint that the description drives; the last wins."""
-    for name, kind in plugin_drives(robot).items():
+    for name, kind in get_plugin_drives(robot).items():
         yield name, (kind, 1.0)
     for transmission in robot.transmissions:
         reductions = [a.mechanical_reduction for a in transmission.actuators]
@@ -156,7 +156,7 @@ def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str,
                 continue
             names = [*joint.hardware_interfaces]
             names += [name for a in transmission.actuators for name in a.hardware_interfaces]
-            kind = _kind(names)
+            kind = _get_kind(names)
             if "simple" not in transmission.type.lower() and transmission.type:
                 written.report_loss(
                     "transmission",
@@ -171,10 +171,10 @@ def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str,
         for component in block.joints:
             names = [interface.name for interface in component.command_interfaces]
             if names and component.name in robot.joint:
-                yield component.name, (_kind(names), 1.0)
+                yield component.name, (_get_kind(names), 1.0)
 
 
-def _kind(interfaces: list[str]) -> str:
+def _get_kind(interfaces: list[str]) -> str:
     """Return the actuator kind for hardware interfaces; the first known interface counts."""
     for name in interfaces:
         for interface in INTERFACES:
@@ -183,20 +183,20 @@ def _kind(interfaces: list[str]) -> str:
     return "motor"
 
 
-def _element(
+def _build_element(
     structure: Structure,
     drive: Drive,
     inertias: Mapping[str, float],
     settings: JointSettings,
     assumed: dict[str, Gain],
 ) -> etree._Element:
-    joint, kind = drive.joint, structure.kind(drive.joint)
-    effort = effort_of(joint)
+    joint, kind = drive.joint, structure.get_kind(drive.joint)
+    effort = get_effort(joint)
     inertia = inertias.get(joint.name, 0.0)
     element = etree.Element(drive.kind, name=joint.name, joint=joint.name)
     if settings.force_range is not None:
         effort = max(map(abs, settings.force_range))
-        element.set("forcerange", numbers_text(settings.force_range))
+        element.set("forcerange", format_numbers_text(settings.force_range))
     if drive.kind == "position":
         stiffness = settings.kp
         if stiffness is None:
@@ -207,22 +207,22 @@ def _element(
             element.set("dampratio", "1")
         else:
             element.set("kv", number_text(settings.kd))
-        limits = bounds(joint)
+        limits = get_bounds(joint)
         if limits is not None and limits[0] < limits[1]:
             element.set("inheritrange", "1")
     elif drive.kind == "velocity":
         velocity = abs(joint.limit.velocity or 0.0) if joint.limit is not None else 0.0
         damping = settings.kd
         if damping is None:
-            assumed[joint.name] = velocity_gain(kind, effort, velocity)
+            assumed[joint.name] = choose_velocity_gain(kind, effort, velocity)
             damping = assumed[joint.name].value
         element.set("kv", number_text(damping))
         if velocity:
-            element.set("ctrlrange", numbers_text((-velocity, velocity)))
+            element.set("ctrlrange", format_numbers_text((-velocity, velocity)))
     else:
         if drive.reduction != 1.0:
             element.set("gear", number_text(drive.reduction))
         if effort:
             bound = effort / abs(drive.reduction)
-            element.set("ctrlrange", numbers_text((-bound, bound)))
+            element.set("ctrlrange", format_numbers_text((-bound, bound)))
     return element

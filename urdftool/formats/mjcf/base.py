@@ -11,11 +11,11 @@ from ..written import Written
 from .drives import drive_plugins
 from .options import Base
 from .shape_box import ShapeBoxes
-from .standing import free_reason
+from .standing import explain_free_base
 from .structure import Structure
 
 
-def with_base(
+def decide_base(
     structure: Structure,
     base: Base,
     virtual_joint: str | None,
@@ -36,7 +36,7 @@ def with_base(
     """
     free, reason = _decide(structure, base, virtual_joint)
     if not reason:
-        standing = free_reason(structure, boxes, home)
+        standing = explain_free_base(structure, boxes, home)
         free, reason = (
             standing is not None,
             standing or "the description has no sign of a mobile base",

@@ -8,7 +8,7 @@ from ..common.naming import UniqueNames
 from ..written import Written
 from .body import Bodies
 from .joint import SITE
-from .sensor import put_before_bodies, site_sensor
+from .sensor import create_site_sensor, put_before_bodies
 from .structure import Structure
 
 KINDS = (
@@ -34,7 +34,7 @@ def add_base_sensors(
     Returns:
         ``<sensor>``, or None if it is empty.
     """
-    base = _free_link(structure)
+    base = _get_free_link(structure)
     if base is None:
         written.advice.append("--base-sensors adds nothing: the base is fixed")
         return section
@@ -56,13 +56,15 @@ def add_base_sensors(
         put_before_bodies(bodies[base], site)
         names = UniqueNames(sensor.get("name", "") for sensor in section)
         for kind, suffix in wanted:
-            section.append(site_sensor(kind, names.take(base + suffix), site.get("name", "")))
+            section.append(
+                create_site_sensor(kind, names.take(base + suffix), site.get("name", ""))
+            )
     return section
 
 
-def _free_link(structure: Structure) -> str | None:
+def _get_free_link(structure: Structure) -> str | None:
     """Return the link of a floating base: the root, or the one floating link below a world root."""
     if structure.free:
         return structure.root.name
-    floating = [j.child for j in structure.moving if structure.kind(j) == "free"]
+    floating = [j.child for j in structure.moving if structure.get_kind(j) == "free"]
     return floating[0] if structure.in_world and len(floating) == 1 else None

@@ -7,14 +7,14 @@ from lxml import etree
 from ...model.elements import Joint, Link
 from ..common.naming import UniqueNames
 from ..written import Written
-from .digits import numbers_text
+from .digits import format_numbers_text
 from .frame import set_origin, set_pose
 from .gazebo import link_friction, link_is_weightless
-from .geom import collision_geoms, visual_geoms
-from .home import Home, robot_origin
-from .inertials import massless_leaves
-from .joint import joint_elements, locked_site
-from .link_inertia import LinkInertia, inertial_element
+from .geom import list_collision_geoms, list_visual_geoms
+from .home import Home, get_robot_origin
+from .inertials import get_massless_leaves
+from .joint import build_joint_elements, create_locked_site
+from .link_inertia import LinkInertia, build_inertial_element
 from .material import Materials
 from .meshes import Assets
 from .structure import Structure
@@ -22,7 +22,7 @@ from .structure import Structure
 Bodies = dict[str, etree._Element]
 
 
-def body_tree(
+def build_body_tree(
     structure: Structure, home: Home, model: str, written: Written
 ) -> tuple[etree._Element, Bodies]:
     """Build ``<worldbody>`` with an empty body for each link; return it and the bodies by link.
@@ -42,20 +42,20 @@ def body_tree(
     if not structure.in_world:
         body = etree.SubElement(world, "body", name=structure.root.name)
         bodies[structure.root.name] = body
-        set_origin(body, robot_origin(robot))
+        set_origin(body, get_robot_origin(robot))
         if structure.free and any(home.start.translation):
-            body.set("pos", numbers_text(home.start.translation))
+            body.set("pos", format_numbers_text(home.start.translation))
     for joint in structure.joints:
-        body = etree.Element("body", name=structure.body_name(joint.child))
+        body = etree.Element("body", name=structure.get_body_name(joint.child))
         parent = bodies[joint.parent]
-        if structure.kind(joint) == "free" and parent is not world:
-            set_pose(body, home.start @ structure.pose_at_zero(joint.child))
+        if structure.get_kind(joint) == "free" and parent is not world:
+            set_pose(body, home.start @ structure.get_pose_at_zero(joint.child))
             world.append(body)
             if not structure.is_static(joint.parent):
                 _report_detached_body(joint, written)
         else:
             if structure.locked.get(joint.name):
-                set_pose(body, structure.joint_pose(joint))
+                set_pose(body, structure.compute_joint_pose(joint))
             else:
                 set_origin(body, joint.origin)
             parent.append(body)
@@ -75,7 +75,7 @@ def fill_bodies(
 ) -> None:
     """Insert inertial, joints and geoms of each link into its body, before its child bodies."""
     names = UniqueNames()
-    leaves = massless_leaves(structure)
+    leaves = get_massless_leaves(structure)
     for name, body in bodies.items():
         link = structure.robot.link[name]
         parts: list[etree._Element] = []
@@ -83,11 +83,11 @@ def fill_bodies(
             if body.tag == "worldbody":
                 _report_world_mass(link, written)
             else:
-                parts.append(inertial_element(masses[name]))
-        parts.extend(_joints(structure, name, leaves, written))
-        parts.extend(visual_geoms(link, assets, materials, names, written))
+                parts.append(build_inertial_element(masses[name]))
+        parts.extend(_build_joints(structure, name, leaves, written))
+        parts.extend(list_visual_geoms(link, assets, materials, names, written))
         friction = link_friction(structure.robot, name)
-        parts.extend(collision_geoms(link, assets, names, written, friction))
+        parts.extend(list_collision_geoms(link, assets, names, written, friction))
         for index, part in enumerate(parts):
             body.insert(index, part)
         if link_is_weightless(structure.robot, name) and body.tag == "body":
@@ -98,17 +98,17 @@ def fill_bodies(
                 geom.set("name", names.take(f"{name}_collision"))
 
 
-def _joints(
+def _build_joints(
     structure: Structure, link: str, leaves: set[str], written: Written
 ) -> list[etree._Element]:
     joint = structure.robot.tree.parent_joint(link)
     if joint is None:
         return [etree.Element("freejoint", name=f"{link}_freejoint")] if structure.free else []
     if joint.name in structure.locked:
-        return [locked_site(joint, written)]
-    if structure.kind(joint) == "weld":
+        return [create_locked_site(joint, written)]
+    if structure.get_kind(joint) == "weld":
         return []
-    return joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)
+    return build_joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)
 
 
 def _report_detached_body(joint: Joint, written: Written) -> None:

@@ -9,10 +9,10 @@ from io import BytesIO
 from pathlib import Path
 
 from ...geometry.mesh import MeshNote
-from ...parallel import cores, in_order, map_tasks
+from ...parallel import count_cores, map_tasks, yield_in_order
 from ...source.description import GltfUp
 from ...storage import DiskCache, cache_folder, cache_key
-from .convert import Converted, Piece, conversion
+from .convert import Converted, Piece, call_conversion
 
 _VERSION = 8
 _BIG = 400_000
@@ -24,10 +24,10 @@ Job = tuple[Path, bool, GltfUp]
 
 def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
     """Return the ``conversion`` of each job, from the cache or computed in parallel."""
-    keys = [_key(*job) for job in jobs]
+    keys = [_get_key(*job) for job in jobs]
     cache = DiskCache(cache_folder("mjcf-meshes"))
     found: list[Converted | str | None] = [
-        None if key is None else _decoded(cache.get(key), job[0])
+        None if key is None else _decode(cache.get(key), job[0])
         for key, job in zip(keys, jobs, strict=True)
     ]
     todo = [index for index, known in enumerate(found) if known is None]
@@ -35,7 +35,7 @@ def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
         found[index] = made
         key = keys[index]
         if key is not None and isinstance(made, Converted):
-            cache.put(key, _encoded(made, jobs[index][0]))
+            cache.put(key, _encode(made, jobs[index][0]))
     if todo:
         cache.trim()
     return [made for made in found if made is not None]
@@ -43,15 +43,15 @@ def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
 
 def _run(jobs: Sequence[Job]) -> list[Converted | str]:
     size = sum(path.stat().st_size for path, *_ in jobs if os.path.isfile(path))
-    workers = 1 if size < _BIG else cores()
-    return list(in_order(map_tasks(_convert, jobs, workers=workers)))
+    workers = 1 if size < _BIG else count_cores()
+    return list(yield_in_order(map_tasks(_convert, jobs, workers=workers)))
 
 
 def _convert(job: Job) -> Converted | str:
-    return conversion(*job)
+    return call_conversion(*job)
 
 
-def _key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
+def _get_key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
     """Return the key of a conversion; None if it depends on more than can be read cheaply."""
     suffix = path.suffix.lower()
     if suffix == ".gltf":
@@ -59,19 +59,19 @@ def _key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
     try:
         inputs = [path.read_bytes()]
         if suffix == ".obj":
-            inputs += [(path.parent / name).read_bytes() for name in _libraries(inputs[0])]
+            inputs += [(path.parent / name).read_bytes() for name in _list_libraries(inputs[0])]
     except (OSError, ValueError):
         return None
     return cache_key(_VERSION, [collides, suffix, gltf_up if suffix == ".glb" else ""], inputs)
 
 
-def _libraries(data: bytes) -> Iterable[str]:
+def _list_libraries(data: bytes) -> Iterable[str]:
     for line in data.split(b"\n"):
         if line.startswith(b"mtllib "):
             yield line[7:].strip().decode("utf-8", "replace")
 
 
-def _decoded(entry: bytes | None, path: Path) -> Converted | None:
+def _decode(entry: bytes | None, path: Path) -> Converted | None:
     """Decode the conversion of a file from a cache entry; return None if the entry is not valid."""
     if entry is None:
         return None
@@ -94,7 +94,7 @@ def _decoded(entry: bytes | None, path: Path) -> Converted | None:
         return None
 
 
-def _encoded(made: Converted, path: Path) -> bytes:
+def _encode(made: Converted, path: Path) -> bytes:
     """Encode a conversion as a cache entry."""
     head = {
         "hull": made.hull,

@@ -42,8 +42,8 @@ def add_joint_classes(
     for joint in world.iter("joint"):
         own = driven.get(joint.get("name", ""), [])
         key = (
-            _signature(joint, (*_OWN, "axis")),
-            tuple((str(actuator.tag), _signature(actuator, _OWN)) for actuator in own),
+            _make_signature(joint, (*_OWN, "axis")),
+            tuple((str(actuator.tag), _make_signature(actuator, _OWN)) for actuator in own),
         )
         groups.setdefault(key, []).append(joint)
     names = UniqueNames(("main", "visual", "collision", "foot", model))
@@ -51,7 +51,7 @@ def add_joint_classes(
         shared, drives = key
         if len(joints) < 2 or len(drives) > 1 or len(shared) + sum(len(d[1]) for d in drives) < 2:
             continue
-        role = _role([joint.get("name", "") for joint in joints]) or f"size{number}"
+        role = _join_role([joint.get("name", "") for joint in joints]) or f"size{number}"
         name = names.take(role)
         default = etree.SubElement(robot, "default", {"class": name})
         of_joint = etree.SubElement(default, "joint", dict(shared))
@@ -93,7 +93,7 @@ def add_foot_class(collision: etree._Element, world: etree._Element) -> None:
 
 
 def _is_foot(body: etree._Element | None) -> bool:
-    return body is not None and any(word in FEET for word in _words(body.get("name", "")))
+    return body is not None and any(word in FEET for word in _collect_words(body.get("name", "")))
 
 
 def _take_off(element: etree._Element, default: etree._Element, name: str) -> None:
@@ -103,16 +103,16 @@ def _take_off(element: etree._Element, default: etree._Element, name: str) -> No
     element.set("class", name)
 
 
-def _signature(element: etree._Element, but: Iterable[str]) -> Signature:
+def _make_signature(element: etree._Element, but: Iterable[str]) -> Signature:
     return tuple((str(k), str(v)) for k, v in element.attrib.items() if str(k) not in but)
 
 
-def _role(names: Sequence[str]) -> str:
+def _join_role(names: Sequence[str]) -> str:
     """Join the words common to the names of all joints, without those that describe a location."""
-    first, *others = (_words(name) for name in names)
+    first, *others = (_collect_words(name) for name in names)
     common = [word for word in first if all(word in words for words in others)]
     return "_".join(dict.fromkeys(word for word in common if word not in SIDES))
 
 
-def _words(name: str) -> list[str]:
+def _collect_words(name: str) -> list[str]:
     return [word.lower() for word in _WORD.findall(name)]

@@ -20,7 +20,7 @@ PLAIN: dict[tuple[float, ...], str] = {
 }
 
 
-def share_colors(world: etree._Element, materials: list[etree._Element]) -> None:
+def create_share_colors(world: etree._Element, materials: list[etree._Element]) -> None:
     """Create a material for each color of two or more visual geoms.
 
     Args:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import MissingDependency, OutputError
-from ...extras import missing
+from ...extras import make_missing_error
 from ..common.directory import write_directory
 from ..mechanics import GRAVITY, Array
 from ..registry import format_named
@@ -24,7 +24,7 @@ _PLAIN = (
 )
 
 
-def mujoco_module() -> Any:
+def import_mujoco_module() -> Any:
     """Import and return the MuJoCo library.
 
     Raises:
@@ -33,7 +33,7 @@ def mujoco_module() -> Any:
     try:
         import mujoco  # type: ignore[import-untyped,unused-ignore]
     except ImportError as error:
-        raise missing("mujoco", "--verify") from error
+        raise make_missing_error("mujoco", "--verify") from error
     return mujoco
 
 
@@ -49,7 +49,7 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
     """
     import warnings
 
-    mujoco = mujoco_module()
+    mujoco = import_mujoco_module()
     said: list[str] = []
     mujoco.set_mju_user_warning(said.append)  # else MuJoCo writes a log file
     try:
@@ -72,10 +72,10 @@ def compile_copy(written: Written) -> None:
         OutputError: The model, or the scene around it, does not compile.
     """
     try:
-        mujoco_module()
+        import_mujoco_module()
     except MissingDependency:
         return
-    with copied(written) as folder:
+    with copy_export(written) as folder:
         compile_all(written, folder)
 
 
@@ -92,7 +92,7 @@ def compile_all(written: Written, folder: Path) -> None:
 
 
 @contextmanager
-def copied(written: Written) -> Iterator[Path]:
+def copy_export(written: Written) -> Iterator[Path]:
     """Write a copy of an export to a temporary folder, and yield the folder."""
     with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
         folder = Path(os.path.realpath(place)) / "model"
@@ -126,15 +126,15 @@ class Compiled:
             MissingDependency: MuJoCo is not installed.
             OutputError: The file does not compile.
         """
-        self.mujoco = mujoco_module()
+        self.mujoco = import_mujoco_module()
         self._reference: Any = None
         self.renamed = dict(renamed or {})
         self.model, self.warnings = compile_file(path)
         self.mujoco.set_mju_user_warning(self._warn)
-        self.written_options = self._options(self.model)
+        self.written_options = self._collect_options(self.model)
         self.model.opt.gravity = GRAVITY
         self.data = self.mujoco.MjData(self.model)
-        self.root = max(self.body(root), 0)
+        self.root = max(self.get_body(root), 0)
 
     @property
     def tensor_rounding(self) -> float:
@@ -142,19 +142,19 @@ class Compiled:
         major = str(self.mujoco.__version__).partition(".")[0]
         return 1e-8 if major.isdigit() and int(major) >= 4 else 2e-6
 
-    def _options(self, model: Any) -> dict[str, Any]:
+    def _collect_options(self, model: Any) -> dict[str, Any]:
         names = [name for name in dir(model.opt) if not name.startswith("_")]
         return {name: np.array(getattr(model.opt, name)).tolist() for name in names}
 
-    def options_of(self, section: str) -> dict[str, Any]:
+    def get_options(self, section: str) -> dict[str, Any]:
         """Return the options that an ``<option>`` element sets; empty if MuJoCo rejects it."""
         try:
             model = self.mujoco.MjModel.from_xml_string(f"<mujoco>{section}</mujoco>")
         except ValueError:
             return {}
-        return self._options(model)
+        return self._collect_options(model)
 
-    def reference(self) -> Any:
+    def get_reference(self) -> Any:
         """Return a model of one body, joint and geom with MuJoCo's defaults."""
         if self._reference is None:
             self._reference = self.mujoco.MjModel.from_xml_string(_PLAIN)
@@ -165,16 +165,16 @@ class Compiled:
         if line not in self.warnings:
             self.warnings.append(line)
 
-    def id(self, kind: str, name: str) -> int:
+    def get_id(self, kind: str, name: str) -> int:
         """Return the index of an object by kind (``BODY``, ``JOINT`` …) and name; -1 for none."""
         number = self.mujoco.mj_name2id(
             self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), name
         )
         return int(number)
 
-    def body(self, link: str) -> int:
+    def get_body(self, link: str) -> int:
         """Return the index of a link's body; -1 if not found, 0 for the world."""
-        return self.id("BODY", self.renamed.get(("link", link), link))
+        return self.get_id("BODY", self.renamed.get(("link", link), link))
 
     def name(self, kind: str, number: int) -> str:
         """Return the name of an object; empty if it has none."""
@@ -183,24 +183,24 @@ class Compiled:
         )
         return found or ""
 
-    def pose(self, positions: Mapping[str, float]) -> None:
+    def set_pose(self, positions: Mapping[str, float]) -> None:
         """Set joint positions by name [rad or m]; the other joints get their initial positions."""
         self.mujoco.mj_resetData(self.model, self.data)
         for name, value in positions.items():
-            joint = self.id("JOINT", name)
+            joint = self.get_id("JOINT", name)
             if joint >= 0:
                 self.data.qpos[self.model.jnt_qposadr[joint]] = value
         self.mujoco.mj_fwdPosition(self.model, self.data)
         self.mujoco.mj_fwdVelocity(self.model, self.data)
         self.mujoco.mj_camlight(self.model, self.data)
 
-    def pose_at_key(self, key: int) -> None:
+    def set_pose_at_key(self, key: int) -> None:
         """Set the state to a keyframe."""
         self.mujoco.mj_resetDataKeyframe(self.model, self.data, key)
         self.mujoco.mj_fwdPosition(self.model, self.data)
         self.mujoco.mj_fwdVelocity(self.model, self.data)
 
-    def positions_of_key(self, key: int) -> dict[str, float]:
+    def get_positions_of_key(self, key: int) -> dict[str, float]:
         """Return the position [rad or m] of each hinge and slide in a keyframe, by name."""
         model, found = self.model, {}
         for joint in range(model.njnt):
@@ -209,43 +209,45 @@ class Compiled:
                 found[self.name("JOINT", joint)] = float(value)
         return found
 
-    def frame(self, link: str) -> Array | None:
+    def get_frame(self, link: str) -> Array | None:
         """Return the pose of a link in the root's frame, 4 × 4; None if it is not a body."""
-        body = self.body(link)
-        return None if body < 0 else self._in_root(self.data.xpos[body], self.data.xmat[body])
+        body = self.get_body(link)
+        return (
+            None if body < 0 else self._compute_in_root(self.data.xpos[body], self.data.xmat[body])
+        )
 
-    def geoms(self, body: int) -> range:
+    def get_geoms(self, body: int) -> range:
         """Return the indices of the geoms of a body, in file order."""
         if body < 0:
             return range(0)
         first = int(self.model.body_geomadr[body])
         return range(first, first + int(self.model.body_geomnum[body])) if first >= 0 else range(0)
 
-    def geom_frame(self, geom: int) -> Array:
+    def get_geom_frame(self, geom: int) -> Array:
         """Return the pose of a geom in the root's frame, 4 × 4."""
-        return self._in_root(self.data.geom_xpos[geom], self.data.geom_xmat[geom])
+        return self._compute_in_root(self.data.geom_xpos[geom], self.data.geom_xmat[geom])
 
-    def site_frame(self, site: int) -> Array:
+    def get_site_frame(self, site: int) -> Array:
         """Return the pose of a site in the root's frame, 4 × 4."""
-        return self._in_root(self.data.site_xpos[site], self.data.site_xmat[site])
+        return self._compute_in_root(self.data.site_xpos[site], self.data.site_xmat[site])
 
-    def camera_frame(self, camera: int) -> Array:
+    def get_camera_frame(self, camera: int) -> Array:
         """Return the pose of a camera in the root's frame, 4 × 4; it looks along -z."""
-        return self._in_root(self.data.cam_xpos[camera], self.data.cam_xmat[camera])
+        return self._compute_in_root(self.data.cam_xpos[camera], self.data.cam_xmat[camera])
 
-    def _in_root(self, position: Array, rotation: Array) -> Array:
+    def _compute_in_root(self, position: Array, rotation: Array) -> Array:
         turn = self.data.xmat[self.root].reshape(3, 3)
         pose = np.eye(4)
         pose[:3, :3] = turn.T @ rotation.reshape(3, 3)
         pose[:3, 3] = turn.T @ (position - self.data.xpos[self.root])
         return pose
 
-    def dofs(self, joints: list[str]) -> list[int]:
+    def get_dofs(self, joints: list[str]) -> list[int]:
         """Return the degree of freedom of each hinge or slide; -1 for joints that do not exist."""
-        numbers = [self.id("JOINT", name) for name in joints]
+        numbers = [self.get_id("JOINT", name) for name in joints]
         return [int(self.model.jnt_dofadr[n]) if n >= 0 else -1 for n in numbers]
 
-    def mass_matrix(self, dofs: list[int]) -> Array:
+    def compute_mass_matrix(self, dofs: list[int]) -> Array:
         """Compute the mass matrix of some degrees of freedom, without armature."""
         count = self.model.nv
         full = np.zeros((count, count))
@@ -257,24 +259,24 @@ class Compiled:
         full -= np.diag(self.model.dof_armature)
         return full[np.ix_(dofs, dofs)]
 
-    def moved_by(self, joint: str) -> tuple[float, float]:
+    def get_moved_by(self, joint: str) -> tuple[float, float]:
         """Return the inertia [kg·m² or kg] that a joint moves: with other joints held, and free.
 
         MuJoCo computes critical damping from the first, and from the second since version 4.
         """
         everything = list(range(self.model.nv))
-        matrix = self.mass_matrix(everything) + np.diag(self.model.dof_armature)
-        dof = self.dofs([joint])[0]
+        matrix = self.compute_mass_matrix(everything) + np.diag(self.model.dof_armature)
+        dof = self.get_dofs([joint])[0]
         unit = np.zeros(len(everything))
         unit[dof] = 1.0
         free = np.linalg.lstsq(matrix, unit, rcond=None)[0][dof]
         return float(matrix[dof, dof]), 1 / float(free) if free > 0 else 0.0
 
-    def gravity(self, dofs: list[int]) -> Array:
+    def get_gravity(self, dofs: list[int]) -> Array:
         """Return the force [N·m or N] that each degree of freedom needs to hold still."""
         return np.array(self.data.qfrc_bias)[dofs]
 
-    def centroid(self) -> tuple[float, Array, Array]:
+    def compute_centroid(self) -> tuple[float, Array, Array]:
         """Compute mass [kg], center of mass [m] and inertia about it [kg·m²], in the root frame."""
         masses = np.array(self.model.body_mass)
         mass = float(masses.sum())

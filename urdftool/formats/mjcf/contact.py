@@ -10,19 +10,21 @@ from __future__ import annotations
 from lxml import etree
 
 from .body import Bodies
-from .loops import loops
+from .loops import list_loops
 from .options import Exclude
 from .srdf import Srdf
 from .structure import Structure
 
 
-def contact_section(
+def build_contact_section(
     structure: Structure, bodies: Bodies, srdf: Srdf | None, exclude: Exclude
 ) -> etree._Element | None:
     """Build ``<contact>``, or return None if no pair is excluded."""
-    pairs = _beside_the_world(structure, bodies) if exclude != "none" else []
+    pairs = _pair_beside_the_world(structure, bodies) if exclude != "none" else []
     filtered = set(map(frozenset, pairs))
-    joined = [(loop.parent, loop.child) for loop in loops(structure)] if exclude != "none" else []
+    joined = (
+        [(loop.parent, loop.child) for loop in list_loops(structure)] if exclude != "none" else []
+    )
     for one, other in (*joined, *(srdf.disabled if srdf is not None else ())):
         pair = frozenset((one, other))
         if pair in filtered or not _can_collide(structure, bodies, one, other):
@@ -37,7 +39,7 @@ def contact_section(
     return section
 
 
-def _touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
+def _get_touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
     """Return the links of a rigid body that have a collision geom."""
     return [
         link.name
@@ -46,17 +48,17 @@ def _touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
     ]
 
 
-def _beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[str, str]]:
+def _pair_beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[str, str]]:
     """Pair the static links with the links of the moving bodies attached to them."""
     if structure.free:
         return []
     pairs = []
     root = structure.root.name
     for joint in structure.moving:
-        if structure.group[joint.parent] != root or structure.kind(joint) == "free":
+        if structure.group[joint.parent] != root or structure.get_kind(joint) == "free":
             continue
-        for held in _touching(structure, bodies, root):
-            for moving in _touching(structure, bodies, joint.child):
+        for held in _get_touching(structure, bodies, root):
+            for moving in _get_touching(structure, bodies, joint.child):
                 pairs.append((held, moving))
     return pairs
 
@@ -70,11 +72,13 @@ def _can_collide(structure: Structure, bodies: Bodies, one: str, other: str) -> 
         return False
     for top, neighbour in (tops, tops[::-1]):
         joint = structure.robot.tree.parent_joint(top)
-        if joint is None or structure.kind(joint) == "free":
+        if joint is None or structure.get_kind(joint) == "free":
             continue
         if structure.group[joint.parent] == neighbour and not structure.is_static(joint.parent):
             return False
-    return all(name in _touching(structure, bodies, structure.group[name]) for name in (one, other))
+    return all(
+        name in _get_touching(structure, bodies, structure.group[name]) for name in (one, other)
+    )
 
 
 def _name(bodies: Bodies, link: str) -> str:

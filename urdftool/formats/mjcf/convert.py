@@ -19,7 +19,7 @@ from ...geometry.load import load_mesh
 from ...geometry.mesh import Faces, Mesh, MeshNote, Part, Points
 from ...geometry.stl_header import read_stl_header
 from ...source.description import GltfUp
-from .obj import obj_bytes
+from .obj import write_obj_bytes
 
 MAX_STL_TRIANGLES = 200_000
 
@@ -80,41 +80,41 @@ def convert(path: Path, *, collides: bool, gltf_up: GltfUp = "y") -> Converted:
     notes = list(mesh.notes)
     copied = _is_readable(mesh)
     if collides:
-        return _collision(mesh, copied, notes)
-    groups = _by_material(mesh)
+        return _make_collision(mesh, copied, notes)
+    groups = _group_by_material(mesh)
     pieces = []
     for part, faces, uv in groups:
         vertices = mesh.vertices
         shell = _is_shell(vertices, faces)
         data = None
-        image = part_image(part)
+        image = get_part_image(part)
         if image is None and not (part.texture is None and part.image is None):
             message = "An image has no texture coordinates in the file, so it is lost."
             notes.append(MeshNote("image-without-coordinates", message, lossy=True))
-        if _points(vertices[faces]) < 4:
+        if _count_points(vertices[faces]) < 4:
             message = "A part has fewer than four points, MuJoCo's least; it is thickened."
             notes.append(MeshNote("few-points", message, lossy=True))
-            data, image = _thick_obj(vertices[faces]), None
+            data, image = _convert_thick_obj(vertices[faces]), None
         elif not (copied and len(groups) == 1):
             # a piece without a color may get an image from the material of the visual
             seen = image is not None or part.rgba is None
-            data = obj_bytes(vertices, faces, uv if seen else None)
+            data = write_obj_bytes(vertices, faces, uv if seen else None)
         pieces.append(Piece(data, part.rgba, image, shell))
     return Converted(pieces, None, list(dict.fromkeys(notes)))
 
 
-def _collision(mesh: Mesh, copied: bool, notes: list[MeshNote]) -> Converted:
+def _make_collision(mesh: Mesh, copied: bool, notes: list[MeshNote]) -> Converted:
     corners = mesh.vertices[mesh.faces]
-    if _points(corners) < 4 or _thickness(corners.reshape(-1, 3)) < FLAT:
+    if _count_points(corners) < 4 or _compute_thickness(corners.reshape(-1, 3)) < FLAT:
         message = (
             "The mesh is flat, and MuJoCo collides bodies with volume; it is thickened to "
             f"{THICKENED:.1%} of its size."
         )
         notes.append(MeshNote("flat-mesh", message, lossy=True))
-        return Converted([Piece(_thick_obj(corners))], None, notes, thick=True)
-    data = None if copied else obj_bytes(mesh.vertices, mesh.faces)
+        return Converted([Piece(_convert_thick_obj(corners))], None, notes, thick=True)
+    data = None if copied else write_obj_bytes(mesh.vertices, mesh.faces)
     shell = _is_shell(mesh.vertices, mesh.faces)
-    return Converted([Piece(data, shell=shell)], _hull_ratio(mesh), notes)
+    return Converted([Piece(data, shell=shell)], _compute_hull_ratio(mesh), notes)
 
 
 def _is_readable(mesh: Mesh) -> bool:
@@ -135,18 +135,18 @@ def _is_readable(mesh: Mesh) -> bool:
     return False
 
 
-def part_image(part: Part) -> Image | None:
+def get_part_image(part: Part) -> Image | None:
     """Return the image of a part; None if the part has no valid texture coordinates."""
     if part.uv is None or not np.isfinite(part.uv).all():
         return None
     return part.image if part.texture is None else part.texture
 
 
-def _by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
+def _group_by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
     """Group the faces by color and image, with their texture coordinates, in file order."""
     looks: dict[tuple[Rgba | None, Path | bytes | None], list[Part]] = {}
     for part in mesh.parts:
-        looks.setdefault((part.rgba, part_image(part)), []).append(part)
+        looks.setdefault((part.rgba, get_part_image(part)), []).append(part)
     groups = []
     for parts in looks.values():
         faces = np.concatenate([mesh.part_faces(part) for part in parts])
@@ -156,12 +156,12 @@ def _by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
     return groups
 
 
-def _points(corners: Points) -> int:
+def _count_points(corners: Points) -> int:
     """Count the distinct points among the first 64, up to four."""
     return min(len(np.unique(corners.reshape(-1, 3)[:64], axis=0)), 4)
 
 
-def _thickness(points: Points) -> float:
+def _compute_thickness(points: Points) -> float:
     """Compute the extent of points along their thinnest direction, relative to their size."""
     centered = points - points.mean(axis=0)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -171,7 +171,7 @@ def _thickness(points: Points) -> float:
     return float(np.ptp(centered @ normal)) / size
 
 
-def _thick_obj(corners: Points) -> bytes:
+def _convert_thick_obj(corners: Points) -> bytes:
     """Convert triangles, shape (n, 3, 3), to an OBJ of two offset layers connected by walls."""
     points = corners.reshape(-1, 3)
     size = float(np.linalg.norm(np.ptp(points, axis=0))) or 1e-3
@@ -186,10 +186,10 @@ def _thick_obj(corners: Points) -> bytes:
         first, second = faces[:, a], faces[:, b]
         walls.append(np.stack([first, first + count, second], axis=1))
         walls.append(np.stack([second, first + count, second + count], axis=1))
-    return obj_bytes(layers, np.concatenate([faces, faces[:, ::-1] + count, *walls]))
+    return write_obj_bytes(layers, np.concatenate([faces, faces[:, ::-1] + count, *walls]))
 
 
-def signed_volume(vertices: Points, faces: Faces) -> float:
+def compute_signed_volume(vertices: Points, faces: Faces) -> float:
     """Compute the volume [m³] by the divergence theorem; it is exact for closed surfaces."""
     a, b, c = (vertices[faces[:, i]] - vertices[faces[0, 0]] for i in range(3))
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6
@@ -197,15 +197,15 @@ def signed_volume(vertices: Points, faces: Faces) -> float:
 
 def _is_shell(vertices: Points, faces: Faces) -> bool:
     extent = np.ptp(vertices[faces].reshape(-1, 3), axis=0)
-    volume = signed_volume(vertices, faces)
+    volume = compute_signed_volume(vertices, faces)
     return volume < 1e-12 or volume < 1e-3 * float(np.prod(extent))
 
 
-def _hull_ratio(mesh: Mesh) -> float | None:
+def _compute_hull_ratio(mesh: Mesh) -> float | None:
     """Compute the ratio of the hull's volume to the mesh's; None for an open or flat mesh."""
     if not _is_closed(mesh):
         return None
-    volume = signed_volume(mesh.vertices, mesh.faces)
+    volume = compute_signed_volume(mesh.vertices, mesh.faces)
     if volume <= 0:
         return None
     hull = convex_hull(mesh.vertices)
@@ -224,7 +224,7 @@ def _is_closed(mesh: Mesh) -> bool:
     return bool(np.array_equal(forward, backward))
 
 
-def conversion(path: Path, collides: bool, gltf_up: GltfUp) -> Converted | str:
+def call_conversion(path: Path, collides: bool, gltf_up: GltfUp) -> Converted | str:
     """Call ``convert``; return the message of a MeshError, for use in a worker process."""
     try:
         return convert(path, collides=collides, gltf_up=gltf_up)

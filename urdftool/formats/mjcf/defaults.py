@@ -17,7 +17,7 @@ VISUAL = {"contype": "0", "conaffinity": "0", "group": "2"}
 COLLISION = {"group": "3"}
 
 
-def default_section(
+def build_default_section(
     model: str, world: etree._Element, actuators: etree._Element | None = None
 ) -> etree._Element:
     """Build ``<default>`` with the robot's class; remove the shared attributes from the elements.
@@ -31,7 +31,7 @@ def default_section(
     robot = etree.SubElement(section, "default", {"class": model})
     joint = etree.Element("joint")
     joints = [j for j in world.iter("joint") if j.get("type") != "ball"]
-    _share(joint, joints, JOINT)
+    _move_share(joint, joints, JOINT)
     if len(joint.attrib):
         robot.append(joint)
         for ball in world.iter("joint"):
@@ -46,7 +46,7 @@ def default_section(
         if geoms:
             group = etree.SubElement(robot, "default", {"class": name})
             default = etree.SubElement(group, "geom")
-            _share(default, geoms, shared)
+            _move_share(default, geoms, shared)
             for attribute, value in fixed.items():
                 default.set(attribute, value)
             if name == "collision":
@@ -54,7 +54,7 @@ def default_section(
     return section
 
 
-def _share(
+def _move_share(
     default: etree._Element, elements: list[etree._Element], builtin: dict[str, str]
 ) -> None:
     """Move values that more than half of the elements share to the default; write others out."""

@@ -19,7 +19,7 @@ NOISE = 8
 """Units in the last place that are attributed to rounding."""
 
 
-def snapped(value: float) -> float:
+def round_noise(value: float) -> float:
     """Round a number to ten significant digits if the change is within rounding noise."""
     if not math.isfinite(value) or value == 0:
         return value
@@ -29,9 +29,9 @@ def snapped(value: float) -> float:
 
 def number_text(value: float) -> str:
     """Format a number as the shortest text that reads back as the same double, without noise."""
-    return numbers.number_text(snapped(value))
+    return numbers.number_text(round_noise(value))
 
 
-def numbers_text(values: Iterable[float]) -> str:
+def format_numbers_text(values: Iterable[float]) -> str:
     """Format numbers without noise, separated by blanks."""
     return " ".join(map(number_text, values))

@@ -36,10 +36,10 @@ def assemble(model: str, sections: dict[str, etree._Element]) -> bytes:
         section = sections.get(name)
         if section is not None and (len(section) or len(section.attrib)):
             root.append(section)
-    return serialise(root)
+    return serialize(root)
 
 
-def serialise(root: etree._Element) -> bytes:
+def serialize(root: etree._Element) -> bytes:
     """Serialize a tree; equal trees give equal bytes."""
     for element in root.iter(etree.Element):
         _order(element)
@@ -52,7 +52,7 @@ def serialise(root: etree._Element) -> bytes:
     return (text + "\n").encode()
 
 
-def note_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
+def report_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
     """Insert the losses of a link or joint as comments at its element."""
     joints = {
         element.get("name"): element
@@ -65,12 +65,12 @@ def note_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
             continue
         if loss.kind == "link" and loss.name in bodies:
             body = bodies[loss.name]
-            body.insert(0, comment(loss.message))
+            body.insert(0, create_comment(loss.message))
         elif loss.kind == "joint" and loss.name in joints:
-            joints[loss.name].addprevious(comment(loss.message))
+            joints[loss.name].addprevious(create_comment(loss.message))
 
 
-def comment(text: str) -> etree._Comment:
+def create_comment(text: str) -> etree._Comment:
     """Create a comment; XML does not allow two consecutive dashes in it."""
     return etree.Comment(f" {re.sub('-(?=-)', '- ', text.rstrip('-'))} ")
 

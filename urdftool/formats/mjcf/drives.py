@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ...model.elements import Plugin, Robot
-from ...model.kinematics import MOVABLE, limits_of
+from ...model.kinematics import MOVABLE, get_limits
 
 PLUGINS = (
     "diff_drive",
@@ -29,7 +29,7 @@ def drive_plugins(robot: Robot) -> list[Plugin]:
     return found
 
 
-def plugin_drives(robot: Robot) -> dict[str, str]:
+def get_plugin_drives(robot: Robot) -> dict[str, str]:
     """Return how drive plugins actuate the joints that they name.
 
     Returns:
@@ -41,15 +41,15 @@ def plugin_drives(robot: Robot) -> dict[str, str]:
             for name in re.split(r"[,\s]+", element.text.strip()):
                 joint = robot.joint.get(name)
                 if joint is not None and joint.type in MOVABLE:
-                    lower, upper = limits_of(joint)
+                    lower, upper = get_limits(joint)
                     turns = joint.type == "continuous" or not -7.0 < lower < upper < 7.0
                     found[name] = "velocity" if turns else "position"
     return found
 
 
-def commanded_joints(robot: Robot) -> set[str]:
+def get_commanded_joints(robot: Robot) -> set[str]:
     """Return the names of joints that a transmission, ros2_control or a drive plugin actuates."""
     names = {joint.name for part in robot.transmissions for joint in part.joints}
     for block in robot.ros2_controls:
         names |= {joint.name for joint in block.joints if joint.command_interfaces}
-    return (names & set(robot.joint)) | set(plugin_drives(robot))
+    return (names & set(robot.joint)) | set(get_plugin_drives(robot))

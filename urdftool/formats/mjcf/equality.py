@@ -7,29 +7,29 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint
 from ..written import Written
-from .digits import numbers_text
-from .loops import STIFF, loop_equalities
-from .structure import Structure, locked_at
+from .digits import format_numbers_text
+from .loops import STIFF, list_loop_equalities
+from .structure import Structure, get_locked_at
 
 
-def equality_section(structure: Structure, written: Written) -> etree._Element | None:
+def build_equality_section(structure: Structure, written: Written) -> etree._Element | None:
     """Build ``<equality>``; None if no joint mimics another, is locked or closes a loop."""
     section = etree.Element("equality")
     for joint in structure.moving:
         if joint.mimic is not None:
             _follow(structure, joint, section, written)
-        if structure.kind(joint) not in ("hinge", "slide"):
+        if structure.get_kind(joint) not in ("hinge", "slide"):
             continue
-        held = locked_at(joint)
+        held = get_locked_at(joint)
         if held is not None:
             _hold(joint, held, section)
-    section.extend(loop_equalities(structure, written))
+    section.extend(list_loop_equalities(structure, written))
     return section if len(section) else None
 
 
 def follows(structure: Structure, joint: Joint) -> bool:
     """Tell whether a joint mimics another one."""
-    if joint.mimic is None or structure.kind(joint) not in ("hinge", "slide"):
+    if joint.mimic is None or structure.get_kind(joint) not in ("hinge", "slide"):
         return False
     leader = structure.robot.joint.get(joint.mimic.joint)
     return leader is not None and leader is not joint
@@ -39,9 +39,9 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
     mimic = joint.mimic
     assert mimic is not None
     leader = structure.robot.joint.get(mimic.joint)
-    if leader is None or leader is joint or structure.kind(joint) not in ("hinge", "slide"):
+    if leader is None or leader is joint or structure.get_kind(joint) not in ("hinge", "slide"):
         _report_mimic_loss(joint, "its motion is not coupled", written)
-    elif structure.kind(leader) == "weld":
+    elif structure.get_kind(leader) == "weld":
         held = mimic.offset + mimic.multiplier * structure.locked.get(leader.name, 0.0)
         _hold(joint, held, section)
         written.report_loss(
@@ -52,7 +52,7 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
             name=joint.name,
             severity=Severity.INFO,
         )
-    elif structure.kind(leader) not in ("hinge", "slide"):
+    elif structure.get_kind(leader) not in ("hinge", "slide"):
         _report_mimic_loss(
             joint,
             f"'{mimic.joint}' of type {leader.type} cannot be a mimic leader in MuJoCo",
@@ -60,15 +60,20 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
         )
     else:
         coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
-        section.append(_equality(joint, coefficients, joint2=leader.name))
+        section.append(_build_equality(joint, coefficients, joint2=leader.name))
 
 
 def _hold(joint: Joint, value: float, section: etree._Element) -> None:
-    section.append(_equality(joint, (value, 0, 0, 0, 0)))
+    section.append(_build_equality(joint, (value, 0, 0, 0, 0)))
 
 
-def _equality(joint: Joint, coefficients: tuple[float, ...], **leader: str) -> etree._Element:
-    attributes = {"joint1": joint.name, **leader, "polycoef": numbers_text(coefficients), **STIFF}
+def _build_equality(joint: Joint, coefficients: tuple[float, ...], **leader: str) -> etree._Element:
+    attributes = {
+        "joint1": joint.name,
+        **leader,
+        "polycoef": format_numbers_text(coefficients),
+        **STIFF,
+    }
     return etree.Element("joint", attributes)
 
 

@@ -9,7 +9,7 @@ from ...model.elements import Robot
 from ...rules.simulation.mujoco_values import (
     READER_SETTINGS,
     SECTIONS,
-    required_attribute_value,
+    describe_required_setting,
 )
 from ...source.document import Element
 from ..written import Written
@@ -20,7 +20,7 @@ def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: 
     for extension in robot.element.all("mujoco"):
         for child in extension.children:
             if child.tag == "compiler":
-                _compiler(child, sections, written)
+                _add_compiler(child, sections, written)
             elif child.tag in SECTIONS:
                 target = sections.setdefault(child.tag, etree.Element(child.tag))
                 _merge(child, target)
@@ -35,10 +35,10 @@ def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: 
                 )
 
 
-def _compiler(element: Element, sections: dict[str, etree._Element], written: Written) -> None:
+def _add_compiler(element: Element, sections: dict[str, etree._Element], written: Written) -> None:
     for name, value in element.attributes.items():
         if name not in READER_SETTINGS:
-            if not required_attribute_value(element, name):
+            if not describe_required_setting(element, name):
                 sections["compiler"].set(name, value)
             continue
         changes = name in ("balanceinertia", "boundmass", "boundinertia", "settotalmass")
@@ -55,7 +55,7 @@ def _compiler(element: Element, sections: dict[str, etree._Element], written: Wr
 
 def _merge(element: Element, target: etree._Element) -> None:
     for name, value in element.attributes.items():
-        if not required_attribute_value(element, name):
+        if not describe_required_setting(element, name):
             target.set(name, value)
     for child in element.children:
         found = target.find(child.tag)

@@ -7,8 +7,8 @@ import math
 from lxml import etree
 
 from ...model.elements import Origin
-from ...model.pose import Pose, Quaternion, quaternion_of_rotation, quaternion_of_rpy
-from .digits import numbers_text
+from ...model.pose import Pose, Quaternion, quaternion_from_rotation, quaternion_from_rpy
+from .digits import format_numbers_text
 
 _SAME = 1e-15
 
@@ -18,32 +18,32 @@ def set_origin(element: etree._Element, origin: Origin | None) -> None:
     if origin is None:
         return
     if any(origin.xyz):
-        element.set("pos", numbers_text(origin.xyz))
-    quaternion = quaternion_of(origin)
+        element.set("pos", format_numbers_text(origin.xyz))
+    quaternion = get_quaternion(origin)
     if quaternion is not None:
-        element.set("quat", numbers_text(quaternion))
+        element.set("quat", format_numbers_text(quaternion))
 
 
 def set_pose(element: etree._Element, pose: Pose) -> None:
     """Set the pose of an element; MuJoCo's defaults are not written."""
     if any(pose.translation):
-        element.set("pos", numbers_text(pose.translation))
-    quaternion = plain(quaternion_of_rotation(pose.rotation))
+        element.set("pos", format_numbers_text(pose.translation))
+    quaternion = simplify_quaternion(quaternion_from_rotation(pose.rotation))
     if quaternion is not None:
-        element.set("quat", numbers_text(quaternion))
+        element.set("quat", format_numbers_text(quaternion))
 
 
-def quaternion_of(origin: Origin) -> Quaternion | None:
+def get_quaternion(origin: Origin) -> Quaternion | None:
     """Return the simplified quaternion of an origin; None for no rotation."""
     if origin.quaternion is not None:
         x, y, z, w = origin.quaternion
-        return plain((w, x, y, z))
+        return simplify_quaternion((w, x, y, z))
     if not any(origin.rpy):
         return None
-    return plain(quaternion_of_rpy(origin.rpy))
+    return simplify_quaternion(quaternion_from_rpy(origin.rpy))
 
 
-def plain(quaternion: Quaternion) -> Quaternion | None:
+def simplify_quaternion(quaternion: Quaternion) -> Quaternion | None:
     """Simplify a quaternion (w, x, y, z) for writing; return None for no rotation.
 
     MuJoCo normalizes quaternions, so a quarter turn may be ``1 1 0 0``. Components count as equal

@@ -15,14 +15,14 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...mechanics.spatial_inertia import combine
 from ...model.elements import Vector
-from ...model.pose import Pose, rotate, rotation_of_quaternion
+from ...model.pose import Pose, rotate, rotation_from_quaternion
 from ..common.naming import UniqueNames
 from ..written import Written
 from .body import Bodies
-from .digits import numbers_text
+from .digits import format_numbers_text
 from .frame import set_pose
 from .joint import SITE
-from .link_inertia import LinkInertia, inertial_element
+from .link_inertia import LinkInertia, build_inertial_element
 from .structure import Structure
 
 REFERENCES = ("body", "body1", "body2", "objname", "refname", "target")
@@ -48,8 +48,8 @@ def fuse_links(
         masses: Mass properties of the links.
         written: Receives a note with the number of merged links.
     """
-    kept = _kept(sections)
-    apart = _apart(sections.get("contact"))
+    kept = _get_kept(sections)
+    apart = _get_apart(sections.get("contact"))
     sites = UniqueNames(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
     owner: dict[str, str] = {}
     contacts: dict[str, set[str]] = {}
@@ -57,7 +57,7 @@ def fuse_links(
     for joint in structure.joints:
         link, body = joint.child, bodies[joint.child]
         parent = body.getparent()
-        if structure.kind(joint) != "weld" or parent is None or parent.tag != "body":
+        if structure.get_kind(joint) != "weld" or parent is None or parent.tag != "body":
             continue
         if body.get("name") in kept or body.get("gravcomp") != parent.get("gravcomp"):
             continue
@@ -71,7 +71,7 @@ def fuse_links(
             if first != own:
                 continue  # a merged body would exclude contacts that one of the links has
         owner[link] = top
-        poses[link] = pose_of_element(body)  # those above it are merged already
+        poses[link] = read_pose_of_element(body)  # those above it are merged already
         _merge(body, bodies[top], sites)
     groups: dict[str, list[str]] = {}
     for link, top in owner.items():
@@ -91,22 +91,22 @@ def fuse_links(
         bodies[link] = bodies[top]
 
 
-def _vector(text: str | None) -> Vector:
+def _compute_vector(text: str | None) -> Vector:
     x, y, z = (float(part) for part in (text or "0 0 0").split())
     return x, y, z
 
 
-def pose_of_element(element: etree._Element) -> Pose:
+def read_pose_of_element(element: etree._Element) -> Pose:
     """Read the pose of an element from ``pos`` and ``quat``."""
     w, a, b, c = (float(part) for part in (element.get("quat") or "1 0 0 0").split())
     size = (w * w + a * a + b * b + c * c) ** 0.5
     return Pose(
-        rotation_of_quaternion((w / size, a / size, b / size, c / size)),
-        _vector(element.get("pos")),
+        rotation_from_quaternion((w / size, a / size, b / size, c / size)),
+        _compute_vector(element.get("pos")),
     )
 
 
-def _kept(sections: Mapping[str, etree._Element]) -> set[str]:
+def _get_kept(sections: Mapping[str, etree._Element]) -> set[str]:
     """Return the names of the bodies that something refers to or measures at."""
     names = {
         str(element.get(attribute))
@@ -127,7 +127,7 @@ def _kept(sections: Mapping[str, etree._Element]) -> set[str]:
     return names
 
 
-def _apart(contact: etree._Element | None) -> dict[str, set[str]]:
+def _get_apart(contact: etree._Element | None) -> dict[str, set[str]]:
     """Return for each body in an exclusion the names of its partners."""
     found: dict[str, set[str]] = {}
     for exclude in contact if contact is not None else ():
@@ -143,7 +143,7 @@ def _collides(body: etree._Element) -> bool:
 
 def _merge(body: etree._Element, into: etree._Element, sites: UniqueNames) -> None:
     """Move the content of a body into another body, keeping its pose."""
-    at = pose_of_element(body)
+    at = read_pose_of_element(body)
     where = into.index(body)
     into.remove(body)
     name = body.get("name", "")
@@ -157,9 +157,9 @@ def _merge(body: etree._Element, into: etree._Element, sites: UniqueNames) -> No
             moved.append(child)
             continue
         if child.tag == "light" and child.get("dir"):
-            way = rotate(at.rotation, _vector(child.get("dir")))
-            child.set("dir", numbers_text(way))
-        pose = at @ pose_of_element(child)
+            way = rotate(at.rotation, _compute_vector(child.get("dir")))
+            child.set("dir", format_numbers_text(way))
+        pose = at @ read_pose_of_element(child)
         for attribute in ("pos", "quat"):
             if attribute in child.attrib:
                 del child.attrib[attribute]
@@ -184,24 +184,24 @@ def _write_inertia(
     parts = [(masses[name], poses.get(name, Pose())) for name in links if name in masses]
     if not parts or (len(parts) == 1 and links[0] in masses):
         return
-    whole = composed(parts)
+    whole = compute_composed(parts)
     for old in body.findall("inertial"):
         body.remove(old)
-    comments = sum(1 for _ in _leading_comments(body))
-    body.insert(comments, inertial_element(whole))
+    comments = sum(1 for _ in _list_leading_comments(body))
+    body.insert(comments, build_inertial_element(whole))
 
 
-def composed(parts: list[tuple[LinkInertia, Pose]]) -> LinkInertia:
+def compute_composed(parts: list[tuple[LinkInertia, Pose]]) -> LinkInertia:
     """Compute the mass properties of several links that form one rigid body.
 
     Args:
         parts: Mass properties of each link, with the link's pose in the frame of the whole.
     """
-    whole = combine(read.body.moved(pose) for read, pose in parts)
+    whole = combine(read.body.transform(pose) for read, pose in parts)
     return LinkInertia(whole, parts[0][0].place)
 
 
-def _leading_comments(body: etree._Element) -> Iterator[etree._Element]:
+def _list_leading_comments(body: etree._Element) -> Iterator[etree._Element]:
     for child in body:
         if not isinstance(child, etree._Comment):
             return

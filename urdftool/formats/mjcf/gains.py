@@ -58,7 +58,7 @@ def position_gain(kind: str, effort: float | None, inertia: float) -> Gain:
     return Gain(float(f"{most:.3g}"), is_bounded=True)
 
 
-def velocity_gain(kind: str, effort: float | None, velocity: float) -> Gain:
+def choose_velocity_gain(kind: str, effort: float | None, velocity: float) -> Gain:
     """Choose the gain of a velocity servo [N·m·s/rad or N·s/m].
 
     Args:

@@ -79,7 +79,7 @@ def link_is_weightless(robot: Robot, link: str) -> bool:
     return weightless
 
 
-def joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
+def get_joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
     """Return stiffness [N·m/rad, N/m] and reference [rad, m] of a joint's spring.
 
     Return None if Gazebo defines no spring, or one with zero stiffness.
@@ -92,7 +92,7 @@ def joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
     return found
 
 
-def gazebo_losses(robot: Robot, written: Written) -> None:
+def report_gazebo_losses(robot: Robot, written: Written) -> None:
     """Report the extensions that are not exported."""
     for block in robot.gazebo:
         reference = block.reference
@@ -109,8 +109,8 @@ def gazebo_losses(robot: Robot, written: Written) -> None:
                 name=reference,
             )
             continue
-        _keyword_losses(block, written)
-        _unequal_friction(block, written)
+        _report_keyword_losses(block, written)
+        _add_unequal_friction(block, written)
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",
@@ -122,7 +122,7 @@ def gazebo_losses(robot: Robot, written: Written) -> None:
         )
 
 
-def _keyword_losses(block: GazeboExtension, written: Written) -> None:
+def _report_keyword_losses(block: GazeboExtension, written: Written) -> None:
     about = f" of '{block.reference}'" if block.reference else ""
     for child in block.element.children:
         lost = LOST.get(child.tag)
@@ -139,7 +139,7 @@ def _keyword_losses(block: GazeboExtension, written: Written) -> None:
         )
 
 
-def _unequal_friction(block: GazeboExtension, written: Written) -> None:
+def _add_unequal_friction(block: GazeboExtension, written: Written) -> None:
     one, two = number(block.value("mu1")), number(block.value("mu2"))
     if one is not None and two is not None and one != two:
         written.report_loss(

@@ -46,7 +46,7 @@ COLORS: dict[str, tuple[float, float, float, float]] = {
 }
 
 
-def gazebo_color(robot: Robot, link: str) -> tuple[float, float, float, float] | None:
+def get_gazebo_color(robot: Robot, link: str) -> tuple[float, float, float, float] | None:
     """Return the color that ``<gazebo>`` sets for a link; None without a known color."""
     color = None
     for block in robot.extensions.get(link, ()):

@@ -19,10 +19,10 @@ from ...model.elements import (
     Visual,
 )
 from ...model.read import number
-from ...model.shapes import shape_name
+from ...model.shapes import get_shape_name
 from ..common.naming import UniqueNames
 from ..written import Written
-from .digits import numbers_text
+from .digits import format_numbers_text
 from .frame import set_origin
 from .material import Materials
 from .meshes import Assets, MeshPiece
@@ -30,24 +30,24 @@ from .meshes import Assets, MeshPiece
 SIZELESS = "not exported: it has no size"
 
 
-def visual_geoms(
+def list_visual_geoms(
     link: Link, assets: Assets, materials: Materials, names: UniqueNames, written: Written
 ) -> Iterator[etree._Element]:
     """Yield the geoms of a link's visuals, one for each material of a mesh."""
     for visual in link.visuals:
-        for index, (geom, piece) in enumerate(_geoms(link, visual, assets, written)):
+        for index, (geom, piece) in enumerate(_list_geoms(link, visual, assets, written)):
             _set_name(geom, link, visual, names, index)
             geom.set("class", "visual")
-            materials.dress(geom, visual, link.name, piece)
+            materials.set_material(geom, visual, link.name, piece)
             yield geom
 
 
-def collision_geoms(
+def list_collision_geoms(
     link: Link, assets: Assets, names: UniqueNames, written: Written, friction: dict[str, str]
 ) -> Iterator[etree._Element]:
     """Yield the geoms of a link's collisions, with the given friction attributes."""
     for collision in link.collisions:
-        for index, (geom, _) in enumerate(_geoms(link, collision, assets, written)):
+        for index, (geom, _) in enumerate(_list_geoms(link, collision, assets, written)):
             _set_name(geom, link, collision, names, index)
             geom.set("class", "collision")
             for name, value in friction.items():
@@ -55,7 +55,7 @@ def collision_geoms(
             yield geom
 
 
-def shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
+def get_shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
     """Return MuJoCo's type and half sizes [m] of a primitive; None for other geometry."""
     if isinstance(shape, Box):
         return "box", tuple(edge / 2 for edge in shape.size)
@@ -68,11 +68,11 @@ def shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
     if isinstance(shape, Ellipsoid):
         return "ellipsoid", shape.radii
     if isinstance(shape, UnknownShape):
-        return _drake_size(shape)
+        return _get_drake_size(shape)
     return None
 
 
-def _drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
+def _get_drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
     """Return type and half sizes [m] of Drake's extra shapes; None for others."""
     read = {
         name: number(shape.element.get(name)) or 0.0 for name in ("a", "b", "c", "radius", "length")
@@ -84,7 +84,7 @@ def _drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
     return None
 
 
-def _geoms(
+def _list_geoms(
     link: Link, shape: Visual | Collision, assets: Assets, written: Written
 ) -> Iterator[tuple[etree._Element, MeshPiece | None]]:
     what = "visual" if isinstance(shape, Visual) else "collision"
@@ -101,9 +101,9 @@ def _geoms(
                 written,
             )
         return
-    simple = shape_size(shape.geometry)
+    simple = get_shape_size(shape.geometry)
     if simple is None:
-        tag = f"<{shape_name(shape.geometry)}>" if shape.geometry is not None else "nothing"
+        tag = f"<{get_shape_name(shape.geometry)}>" if shape.geometry is not None else "nothing"
         _report_shape_loss(
             link,
             shape,
@@ -119,7 +119,7 @@ def _geoms(
                 link, shape, f"a {what} of link '{link.name}' is {SIZELESS}", written
             )
             return
-    geom = etree.Element("geom", type=simple[0], size=numbers_text(simple[1]))
+    geom = etree.Element("geom", type=simple[0], size=format_numbers_text(simple[1]))
     set_origin(geom, shape.origin)
     yield geom, None
 

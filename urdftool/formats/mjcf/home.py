@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 from ...errors import ConfigError, ModelError
 from ...model.elements import Joint, Origin, Robot, Vector
-from ...model.kinematics import check_positions, link_poses, movable_joints
-from ...model.pose import Pose, pose_of
-from ...model.read import number, numbers
-from ...model.start import allowed_positions, start_positions
+from ...model.kinematics import check_positions, find_movable_joints, link_poses
+from ...model.pose import Pose, make_pose
+from ...model.read import number, parse_numbers
+from ...model.start import compute_allowed_range, start_positions
 from ..written import Written
 from .shape_box import ShapeBoxes
 from .srdf import Srdf
-from .standing import ground_of
+from .standing import measure_ground
 from .structure import Structure
 
 NAMES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")
@@ -42,7 +42,7 @@ class Home:
     floating: dict[str, Pose]
 
 
-def home_of(structure: Structure, boxes: ShapeBoxes, positions: dict[str, float]) -> Home:
+def place_home(structure: Structure, boxes: ShapeBoxes, positions: dict[str, float]) -> Home:
     """Place a robot with a free root on the floor at z = 0; a fixed one keeps its pose.
 
     A floating joint below a world root counts as a floating base: the bodies that it carries are
@@ -53,26 +53,26 @@ def home_of(structure: Structure, boxes: ShapeBoxes, positions: dict[str, float]
         boxes: Boxes of its shapes.
         positions: Joint positions at home [rad, m].
     """
-    root = pose_of(robot_origin(structure.robot))
+    root = make_pose(get_robot_origin(structure.robot))
     pose, start = root, root
     if structure.free:
-        pose = lifted(structure, boxes, positions, root)
-        start = lifted(structure, boxes, structure.locked, root)
+        pose = shift_lifted(structure, boxes, positions, root)
+        start = shift_lifted(structure, boxes, structure.locked, root)
     poses = link_poses(structure.robot, positions)
     floating = {
         joint.name: pose @ poses[joint.child]
         for joint in structure.moving
-        if structure.kind(joint) == "free"
+        if structure.get_kind(joint) == "free"
     }
     if structure.in_world and floating:
-        ground = ground_of(structure, boxes, positions, root)
+        ground = measure_ground(structure, boxes, positions, root)
         depth = 0.0 if ground is None else min(ground.low, 0.0)
-        above = Pose(translation=(0.0, 0.0, _neat(-depth)))
+        above = Pose(translation=(0.0, 0.0, _round_neat(-depth)))
         floating = {name: above @ there for name, there in floating.items()}
     return Home(positions, pose, start, floating)
 
 
-def home_positions(
+def choose_home_positions(
     structure: Structure,
     pose: Mapping[str, float],
     state: str,
@@ -97,7 +97,7 @@ def home_positions(
     """
     robot = structure.robot
     check_positions(robot, pose)
-    leaders = _leaders(robot)
+    leaders = _get_leaders(robot)
     for name in pose:
         if name in leaders:
             raise ModelError(
@@ -105,20 +105,20 @@ def home_positions(
             )
     found: dict[str, float] = {}
     for source, positions in (
-        ("ros2_control", _initial_positions(robot)),
+        ("ros2_control", _get_initial_positions(robot)),
         ("the SRDF", _state(srdf, state)),
         ("--pose", pose),
     ):
         for name, value in positions.items():
             joint = robot.joint.get(name)
             if joint is not None and name not in leaders:
-                found[name] = _within(robot, joint, value, source, written)
+                found[name] = _compute_within(robot, joint, value, source, written)
     return start_positions(robot, found)[0]
 
 
-def _leaders(robot: Robot) -> dict[str, str]:
+def _get_leaders(robot: Robot) -> dict[str, str]:
     """Return the leader of each movable mimic joint, by name."""
-    movable = movable_joints(robot)
+    movable = find_movable_joints(robot)
     return {
         joint.name: joint.mimic.joint
         for joint in movable.values()
@@ -126,8 +126,10 @@ def _leaders(robot: Robot) -> dict[str, str]:
     }
 
 
-def _within(robot: Robot, joint: Joint, value: float, source: str, written: Written) -> float:
-    lower, upper = allowed_positions(robot, joint.name)
+def _compute_within(
+    robot: Robot, joint: Joint, value: float, source: str, written: Written
+) -> float:
+    lower, upper = compute_allowed_range(robot, joint.name)
     if lower > upper or lower <= value <= upper:
         return value
     near = min(max(value, lower), upper)
@@ -142,7 +144,7 @@ def _within(robot: Robot, joint: Joint, value: float, source: str, written: Writ
     return near
 
 
-def _initial_positions(robot: Robot) -> dict[str, float]:
+def _get_initial_positions(robot: Robot) -> dict[str, float]:
     """Return the initial joint positions [rad or m] of ros2_control."""
     found = {}
     for block in robot.ros2_controls:
@@ -169,23 +171,23 @@ def _state(srdf: Srdf | None, name: str) -> Mapping[str, float]:
             where if srdf is not None else f"--pose {name} is a group state of an SRDF; add --srdf",
             path=None if srdf is None else srdf.path,
         )
-    return next((states[known] for known in _candidates(states)), {})
+    return next((states[known] for known in _list_candidates(states)), {})
 
 
-def _candidates(states: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
+def _list_candidates(states: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
     """Yield the names of states, the likeliest home configuration first."""
     lowered = {name.casefold(): name for name in reversed(list(states))}
     yield from (lowered[name] for name in NAMES if name in lowered)
     yield from states
 
 
-def robot_origin(robot: Robot) -> Origin | None:
+def get_robot_origin(robot: Robot) -> Origin | None:
     """Return the ``<origin>`` of ``<robot>``, which some readers use as its pose in the world."""
     element = robot.element.child("origin")
     if element is None:
         return None
     zero: Vector = (0.0, 0.0, 0.0)
-    xyz, rpy = numbers(element.get("xyz"), 3), numbers(element.get("rpy"), 3)
+    xyz, rpy = parse_numbers(element.get("xyz"), 3), parse_numbers(element.get("rpy"), 3)
     return Origin(
         element,
         zero if xyz is None else (xyz[0], xyz[1], xyz[2]),
@@ -193,7 +195,7 @@ def robot_origin(robot: Robot) -> Origin | None:
     )
 
 
-def lifted(
+def shift_lifted(
     structure: Structure, boxes: ShapeBoxes, positions: Mapping[str, float], root: Pose
 ) -> Pose:
     """Shift the root vertically so that the lowest point of the collision geometry is at z = 0.
@@ -204,14 +206,14 @@ def lifted(
         positions: Joint positions [rad, m].
         root: Pose of the root in the description.
     """
-    ground = ground_of(structure, boxes, positions, root)
+    ground = measure_ground(structure, boxes, positions, root)
     if ground is None:
         return root
     x, y, z = root.translation
-    return Pose(root.rotation, (x, y, _neat(z - ground.low)))
+    return Pose(root.rotation, (x, y, _round_neat(z - ground.low)))
 
 
-def _neat(height: float) -> float:
+def _round_neat(height: float) -> float:
     """Round a height [m] down to micrometers, so that contacts at the floor are kept."""
     if not abs(height) < 1 / NEAT:  # a double has no micrometer resolution there
         return height

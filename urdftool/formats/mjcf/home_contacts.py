@@ -19,7 +19,7 @@ from lxml import etree
 from ...errors import MissingDependency
 from ..written import Written
 from .body import Bodies
-from .compiled import compile_file, mujoco_module
+from .compiled import compile_file, import_mujoco_module
 from .meshes import Assets
 from .options import Options
 from .structure import Structure
@@ -79,10 +79,10 @@ def exclude_overlapping(
     if options.exclude != "touching" and options.overlap is None:
         return
     try:
-        mujoco_module()
+        import_mujoco_module()
     except MissingDependency:
         return
-    deepest = _overlaps(sections, bodies, assets, positions, written)
+    deepest = _find_overlaps(sections, bodies, assets, positions, written)
     measure = options.overlap
     pairs = [
         Pair(
@@ -103,7 +103,7 @@ def exclude_overlapping(
     _report(structure, pairs, options, written)
 
 
-def _overlaps(
+def _find_overlaps(
     sections: Mapping[str, etree._Element],
     bodies: Bodies,
     assets: Assets,
@@ -113,7 +113,7 @@ def _overlaps(
     """Find the pairs of links that overlap, with their penetration depths [m]."""
     with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
         path = Path(place) / "home.xml"
-        model, files = _collision_model(sections, assets)
+        model, files = _copy_collision_model(sections, assets)
         path.write_bytes(etree.tostring(model))
         for name in files & written.files.keys():
             content, target = written.files[name], Path(place) / name
@@ -123,7 +123,7 @@ def _overlaps(
             else:
                 shutil.copyfile(content, target)
         compiled, _ = compile_file(path)
-    mujoco = mujoco_module()
+    mujoco = import_mujoco_module()
     data = mujoco.MjData(compiled)
     for name, value in positions.items():
         joint = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_JOINT, name)
@@ -144,7 +144,7 @@ def _overlaps(
     return found
 
 
-def _collision_model(
+def _copy_collision_model(
     sections: Mapping[str, etree._Element], assets: Assets
 ) -> tuple[etree._Element, set[str]]:
     """Copy the collision geometry of a model, without classes; return it and its mesh files."""
@@ -162,13 +162,13 @@ def _collision_model(
     files = set()
     section = etree.SubElement(root, "asset")
     for mesh in assets.elements:
-        if _mesh_name(mesh) in used:
+        if _format_mesh_name(mesh) in used:
             section.append(deepcopy(mesh))
             files.add("/".join(filter(None, (compiler.get("meshdir"), mesh.get("file")))))
     return root, files
 
 
-def _mesh_name(mesh: etree._Element) -> str:
+def _format_mesh_name(mesh: etree._Element) -> str:
     return mesh.get("name") or mesh.get("file", "").rpartition(".")[0]
 
 
@@ -177,9 +177,11 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
     hulls = [pair for pair in pairs if pair.is_of_hulls]
     parts = []
     if authored:
-        parts.append(_named(authored))
+        parts.append(_format_named(authored))
     if hulls:
-        parts.append(f"only by the convex hulls that MuJoCo makes of their meshes {_named(hulls)}")
+        parts.append(
+            f"only by the convex hulls that MuJoCo makes of their meshes {_format_named(hulls)}"
+        )
     does = (
         ", and are excluded from contact"
         if options.exclude == "touching"
@@ -199,7 +201,7 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
     )
 
 
-def _named(pairs: list[Pair]) -> str:
+def _format_named(pairs: list[Pair]) -> str:
     shown = [f"'{p.one}' and '{p.other}' {p.depth * 1000:.3g} mm" for p in pairs[:SHOWN]]
     more = f" and {len(pairs) - SHOWN} more" if len(pairs) > SHOWN else ""
     return ", ".join(shown) + more

@@ -12,12 +12,12 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ...mechanics.repair import nearest_consistent
+from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import (
     ZERO_TENSOR,
     SymmetricTensor,
-    consistency,
-    principal_axes,
+    compute_principal_axes,
+    measure_consistency,
 )
 from ...model.elements import Vector
 
@@ -32,7 +32,7 @@ _LIFT = 2e-12
 
 def is_possible(tensor: SymmetricTensor) -> bool:
     """Tell whether a tensor is physically consistent, up to rounding."""
-    return all(map(math.isfinite, tensor)) and consistency(tensor).excess <= ROUNDING
+    return all(map(math.isfinite, tensor)) and measure_consistency(tensor).excess <= ROUNDING
 
 
 def is_safe_diagonal(moments: Vector) -> bool:
@@ -43,24 +43,24 @@ def is_safe_diagonal(moments: Vector) -> bool:
 
 def is_safe_tensor(tensor: SymmetricTensor) -> bool:
     """Tell whether MuJoCo accepts a tensor, with a margin for rounding in its diagonalization."""
-    found = consistency(tensor)
+    found = measure_consistency(tensor)
     return found.excess < -_SAFE and found.moments[0] > _SAFE * max(map(abs, tensor))
 
 
-def principal(tensor: SymmetricTensor) -> tuple[Array, Array]:
+def compute_principal(tensor: SymmetricTensor) -> tuple[Array, Array]:
     """Compute principal moments, raised until MuJoCo accepts them, and axes as columns."""
-    moments, axes = principal_axes(tensor)
+    moments, axes = compute_principal_axes(tensor)
     size = moments[2]
     moments = np.maximum(moments, 0.0)
     gap = moments[2] - moments[0] - moments[1]
     if gap > -_SAFE * size:
         moments[:2] += max(gap, 0.0) / 2 + _LIFT * size
-        moments[:2] = [_rounded_up(moment) for moment in moments[:2]]
+        moments[:2] = [_round_up(moment) for moment in moments[:2]]
     moments[0] = max(moments[0], _LIFT * size)
     return moments, axes
 
 
-def _rounded_up(moment: float) -> float:
+def _round_up(moment: float) -> float:
     """Round up to twelve digits, by at most 1e-11 of the value."""
     short = float(f"{moment:.11e}")
     return short if short >= moment else float(f"{moment * (1 + 1e-11):.11e}")
@@ -68,6 +68,6 @@ def _rounded_up(moment: float) -> float:
 
 def lift(tensor: SymmetricTensor) -> SymmetricTensor:
     """Return the nearest physically consistent tensor; zeros if almost nothing remains."""
-    lifted = nearest_consistent(tensor)
+    lifted = find_nearest_consistent(tensor)
     negligible = max(map(abs, lifted)) < ROUNDING * max(map(abs, tensor))
     return ZERO_TENSOR if negligible else lifted

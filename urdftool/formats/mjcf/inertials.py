@@ -17,19 +17,19 @@ from ...mechanics.tensor import (
     ZERO_TENSOR,
     SymmetricTensor,
     add_tensors,
-    diagonal_tensor,
-    moments_text,
+    format_moments_text,
+    make_diagonal_tensor,
     rotate_tensor,
     scale_tensor,
 )
 from ...model.elements import ZERO
 from ...model.pose import IDENTITY, transpose
-from ..common.extent import box_size
+from ..common.extent import compute_box_size
 from ..common.inertia_repair import FixInertia, repair_tensor
-from ..defects import defect
+from ..defects import make_defect
 from ..written import Written
 from . import inertia as tensors
-from .link_inertia import LinkInertia, inertia_of
+from .link_inertia import LinkInertia, read_inertia
 from .structure import Structure
 
 TINY = 1e-12
@@ -48,7 +48,7 @@ LEAF_ARMATURE = 1e-4
 """Armature [kg·m² or kg] of the joint of a massless leaf link, so that it can be simulated."""
 
 
-def inertials(
+def compute_inertials(
     structure: Structure, fix: FixInertia, written: Written, *, force: bool = False
 ) -> tuple[dict[str, LinkInertia], list[Finding]]:
     """Compute the mass properties by link to write, and the defects that prevent an export.
@@ -58,7 +58,7 @@ def inertials(
     found: dict[str, LinkInertia] = {}
     wrong: list[Finding] = []
     for link in structure.robot.links:
-        read = inertia_of(link)
+        read = read_inertia(link)
         if read is not None:
             found[link.name] = read
     for top, members in structure.members.items():
@@ -76,7 +76,7 @@ def inertials(
     return found, wrong
 
 
-def massless_leaves(structure: Structure) -> set[str]:
+def get_massless_leaves(structure: Structure) -> set[str]:
     """Return the topmost links of moving bodies without mass and without mass below them."""
     weight = {
         top: sum(max(link.mass, 0.0) for link in links) for top, links in structure.members.items()
@@ -97,20 +97,20 @@ def _compose(
     """Repair tensors exactly inside a rigid body; return whether all of them are repaired."""
     for name in bad:
         source = group[name]
-        turn = structure.pose_in_group(name).rotation
+        turn = structure.get_pose_in_group(name).rotation
         kept = tensors.lift(source.tensor) if source.mass > 0 else ZERO_TENSOR
         surplus = rotate_tensor(add_tensors(source.tensor, scale_tensor(kept, -1.0)), turn)
         for other in sorted(set(group) - {name}, key=lambda n: (n != top, -group[n].mass, n)):
             taker = group[other]
-            back = transpose(structure.pose_in_group(other).rotation)
+            back = transpose(structure.get_pose_in_group(other).rotation)
             tensor = add_tensors(taker.tensor, rotate_tensor(surplus, back))
             if taker.mass > 0 and taker.is_possible and tensors.is_possible(tensor):
-                group[other] = taker.changed(tensor)
-                group[name] = source.changed(kept)
+                group[other] = taker.get_changed(tensor)
+                group[name] = source.get_changed(kept)
                 written.report_loss(
                     "inertia-moved",
                     f"inertia of link '{name}' is physically inconsistent (principal moments "
-                    f"{moments_text(source.tensor)} kg·m²); the excess is "
+                    f"{format_moments_text(source.tensor)} kg·m²); the excess is "
                     f"moved to link '{other}', which is welded to it; the total is unchanged",
                     source.place,
                     kind="link",
@@ -129,7 +129,9 @@ def _unite(
     """Write the combined mass properties to the topmost link, if they are consistent."""
     if len(group) < 2 and top in group:
         return False
-    whole = combine(read.body.moved(structure.pose_in_group(name)) for name, read in group.items())
+    whole = combine(
+        read.body.transform(structure.get_pose_in_group(name)) for name, read in group.items()
+    )
     if whole.mass <= 0 or not tensors.is_possible(whole.tensor):
         return False
     places = {name: group[name].place for name in bad}
@@ -161,10 +163,10 @@ def _repair(
 ) -> Iterator[Finding]:
     """Repair a tensor as the user chose; always repair static links."""
     read = group[name]
-    before = moments_text(read.tensor)
+    before = format_moments_text(read.tensor)
     static = structure.is_static(name)
     if fix == "none" and not (static or force):
-        yield defect(
+        yield make_defect(
             "inertia-triangle-inequality",
             f"inertia of link '{name}' is physically inconsistent: principal moments {before} "
             "kg·m² "
@@ -179,9 +181,9 @@ def _repair(
         del group[name]
         what = "it has no mass, and is written without inertia"
     else:
-        tensor, how = _repaired(structure, name, read, fix)
-        group[name] = read.changed(tensor)
-        what = f"{how} to {moments_text(tensor)} kg·m²"
+        tensor, how = _collect_repaired(structure, name, read, fix)
+        group[name] = read.get_changed(tensor)
+        what = f"{how} to {format_moments_text(tensor)} kg·m²"
     held = "; it is fixed to the world and does not move" if static else ""
     written.report_loss(
         "inertia",
@@ -193,32 +195,32 @@ def _repair(
     )
 
 
-def _repaired(
+def _collect_repaired(
     structure: Structure, name: str, read: LinkInertia, fix: FixInertia
 ) -> tuple[SymmetricTensor, str]:
     robot = structure.robot
     return repair_tensor(
         fix,
         read.body,
-        lambda: box_size(robot, [(robot.link[name], IDENTITY)]),
+        lambda: compute_box_size(robot, [(robot.link[name], IDENTITY)]),
         lift=tensors.lift,
     )
 
 
-def _part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia]) -> float:
+def _get_part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia]) -> float:
     """Return the inertia added to a point mass, relative to that about its joint's axis.
 
     Return zero if the joint does not rotate it, or moves other bodies too.
     """
     joint = structure.robot.tree.parent_joint(top)
     below = set(structure.robot.tree.descendants(top)) - group.keys()
-    if joint is None or structure.kind(joint) != "hinge":
+    if joint is None or structure.get_kind(joint) != "hinge":
         return 0.0
     if any(structure.robot.link[name].mass > 0 for name in below):
         return 0.0
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     about = sum(
-        read.body.moved(structure.pose_in_group(name)).moment_about(ZERO, axis)
+        read.body.transform(structure.get_pose_in_group(name)).compute_moment_about(ZERO, axis)
         for name, read in group.items()
     )
     return TINY / about if about > 0 else 1.0
@@ -234,9 +236,9 @@ def _give_weight(
     mass = sum(read.mass for read in group.values())
     if mass > ENOUGH:
         heaviest = max(group, key=lambda name: group[name].mass)
-        part = _part_of_tiny(structure, top, group)
-        group[heaviest] = group[heaviest].changed(
-            add_tensors(group[heaviest].tensor, diagonal_tensor(TINY, TINY, TINY))
+        part = _get_part_of_tiny(structure, top, group)
+        group[heaviest] = group[heaviest].get_changed(
+            add_tensors(group[heaviest].tensor, make_diagonal_tensor(TINY, TINY, TINY))
         )
         written.report_loss(
             "point-mass",
@@ -250,10 +252,10 @@ def _give_weight(
         )
         return
     group.clear()
-    leaf = top in massless_leaves(structure)
+    leaf = top in get_massless_leaves(structure)
     root = top == structure.root.name
     least = LEAST if leaf else TINY
-    point = SpatialInertia(least, tensor=diagonal_tensor(least, least, least))
+    point = SpatialInertia(least, tensor=make_diagonal_tensor(least, least, least))
     group[top] = LinkInertia(point, link.place)
     written.report_loss(
         "massless",

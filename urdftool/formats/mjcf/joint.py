@@ -8,12 +8,12 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
-from ...model.pose import cross, norm
+from ...model.pose import compute_cross, compute_norm
 from ..written import Written
-from .digits import number_text, numbers_text
-from .gazebo import joint_spring
+from .digits import format_numbers_text, number_text
+from .gazebo import get_joint_spring
 from .inertials import LEAF_ARMATURE
-from .structure import Structure, bounds
+from .structure import Structure, get_bounds
 
 PLANAR_SUFFIXES = ("_TX", "_TY", "_RZ")
 """Suffixes of the joint name for the two slides and the hinge of a planar joint."""
@@ -24,7 +24,7 @@ SITE = {"size": "0.005", "group": "5"}
 UNIT: Vector = (1.0, 0.0, 0.0)
 
 
-def joint_elements(
+def build_joint_elements(
     structure: Structure, joint: Joint, written: Written, *, leaf: bool = False
 ) -> list[etree._Element]:
     """Build the elements of a movable joint, in the order in which MuJoCo applies them.
@@ -35,29 +35,29 @@ def joint_elements(
         written: Receives losses.
         leaf: Whether none of the links that it moves has mass.
     """
-    kind = structure.kind(joint)
+    kind = structure.get_kind(joint)
     if kind == "free":
         return [etree.Element("freejoint", name=joint.name)]
     if kind == "planar":
-        elements = _planar(joint, written)
+        elements = _build_planar(joint, written)
     elif kind == "ball":
         elements = [etree.Element("joint", name=joint.name, type="ball")]
     else:
-        elements = [_single(joint, kind, written)]
+        elements = [_build_single(joint, kind, written)]
     for element in elements:
         _set_dynamics(element, joint)
         if leaf:
             element.set("armature", number_text(LEAF_ARMATURE))
-        _set_spring(element, joint_spring(structure.robot, joint.name))
+        _set_spring(element, get_joint_spring(structure.robot, joint.name))
     return elements
 
 
-def axis_of(joint: Joint) -> Vector:
+def get_axis(joint: Joint) -> Vector:
     """Return the axis as written; x by default."""
     return UNIT if joint.axis is None else joint.axis.xyz
 
 
-def locked_site(joint: Joint, written: Written) -> etree._Element:
+def create_locked_site(joint: Joint, written: Written) -> etree._Element:
     """Create the site of a joint with equal limits, and report that its link is welded."""
     assert joint.limit is not None
     for what, text, severity in _bound_losses(joint, joint.limit, welded=True):
@@ -66,23 +66,23 @@ def locked_site(joint: Joint, written: Written) -> etree._Element:
     return etree.Element("site", {"name": joint.name, **SITE})
 
 
-def effort_of(joint: Joint) -> float | None:
+def get_effort(joint: Joint) -> float | None:
     """Return the effort limit [N·m or N] of a joint; None if it has none or zero."""
     effort = joint.limit.effort if joint.limit is not None else None
     return abs(effort) if effort else None
 
 
-def _single(joint: Joint, kind: str, written: Written) -> etree._Element:
+def _build_single(joint: Joint, kind: str, written: Written) -> etree._Element:
     element = etree.Element("joint", name=joint.name)
     if kind == "slide":
         element.set("type", "slide")
-    element.set("axis", numbers_text(axis_of(joint)))
-    limits = bounds(joint)
+    element.set("axis", format_numbers_text(get_axis(joint)))
+    limits = get_bounds(joint)
     if limits is not None and limits[0] < limits[1]:
-        element.set("range", numbers_text(limits))
-    effort = effort_of(joint)
+        element.set("range", format_numbers_text(limits))
+    effort = get_effort(joint)
     if effort is not None:
-        element.set("actuatorfrcrange", numbers_text((-effort, effort)))
+        element.set("actuatorfrcrange", format_numbers_text((-effort, effort)))
     for what, text, severity in _limit_losses(joint):
         place = joint.place if joint.limit is None else joint.limit.place
         written.report_loss(what, text, place, kind="joint", name=joint.name, severity=severity)
@@ -155,12 +155,12 @@ def _bound_losses(
         )
 
 
-def _planar(joint: Joint, written: Written) -> list[etree._Element]:
+def _build_planar(joint: Joint, written: Written) -> list[etree._Element]:
     """Build two slides in the plane and a hinge about its normal.
 
     The slides are the x and y axes of the joint frame after the minimal rotation to the normal.
     """
-    x, y, normal = plane(axis_of(joint))
+    x, y, normal = get_plane(get_axis(joint))
     if joint.limit is not None:
         written.report_loss(
             "planar-limit",
@@ -174,19 +174,19 @@ def _planar(joint: Joint, written: Written) -> list[etree._Element]:
         element = etree.Element("joint", name=joint.name + suffix)
         if suffix != "_RZ":
             element.set("type", "slide")
-        element.set("axis", numbers_text(axis))
+        element.set("axis", format_numbers_text(axis))
         elements.append(element)
     return elements
 
 
-def plane(axis: Vector) -> tuple[Vector, Vector, Vector]:
+def get_plane(axis: Vector) -> tuple[Vector, Vector, Vector]:
     """Return unit vectors x and y of a plane and its normal, by the minimal rotation from z."""
-    length = norm(axis)
+    length = compute_norm(axis)
     a, b, c = (part / length for part in axis)
     if c < -1 + 1e-12:
         return (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)
     x = (1 - a * a / (1 + c), -a * b / (1 + c), -a)
-    return x, cross((a, b, c), x), (a, b, c)
+    return x, compute_cross((a, b, c), x), (a, b, c)
 
 
 def _set_dynamics(element: etree._Element, joint: Joint) -> None:

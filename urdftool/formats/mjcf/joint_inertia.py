@@ -7,12 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...model.kinematics import link_poses
-from .joint import axis_of
+from .joint import get_axis
 from .link_inertia import LinkInertia
 from .structure import Structure
 
 
-def joint_inertias(
+def compute_joint_inertias(
     structure: Structure, masses: Mapping[str, LinkInertia], positions: Mapping[str, float]
 ) -> dict[str, float]:
     """Compute the diagonal of the joint-space mass matrix.
@@ -30,11 +30,11 @@ def joint_inertias(
     row = {name: index for index, name in enumerate(names)}
     weights = np.array([masses[name].mass for name in names])
     centers = np.array([poses[name].transform(masses[name].com) for name in names]).reshape(-1, 3)
-    tensors = np.array([masses[name].body.moved(poses[name]).inertia for name in names])
-    below = _links_below(structure)
+    tensors = np.array([masses[name].body.transform(poses[name]).inertia for name in names])
+    below = _get_links_below(structure)
     found = {}
     for joint in structure.moving:
-        kind = structure.kind(joint)
+        kind = structure.get_kind(joint)
         if kind not in ("hinge", "slide"):
             continue
         rows = [row[name] for name in below[joint.child] if name in row]
@@ -42,7 +42,7 @@ def joint_inertias(
             found[joint.name] = float(weights[rows].sum())
             continue
         pose = poses[joint.child]
-        axis = np.array(pose.rotation) @ np.array(axis_of(joint))
+        axis = np.array(pose.rotation) @ np.array(get_axis(joint))
         axis /= np.linalg.norm(axis)
         arms = np.cross(axis, centers[rows] - np.array(pose.translation))
         about = np.einsum("i,nij,j->n", axis, tensors[rows].reshape(-1, 3, 3), axis)
@@ -50,10 +50,10 @@ def joint_inertias(
     return found
 
 
-def _links_below(structure: Structure) -> dict[str, list[str]]:
+def _get_links_below(structure: Structure) -> dict[str, list[str]]:
     """Return for each link itself and the links that move with it; floating bodies do not."""
     below: dict[str, list[str]] = {name: [name] for name in structure.group}
     for joint in reversed(structure.joints):
-        if structure.kind(joint) != "free":
+        if structure.get_kind(joint) != "free":
             below[joint.parent] += below[joint.child]
     return below

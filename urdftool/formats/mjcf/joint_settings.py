@@ -12,10 +12,10 @@ from ..written import Written
 from .body import Bodies
 from .digits import number_text
 from .options import Options
-from .structure import Structure, locked_at
+from .structure import Structure, get_locked_at
 
 
-def joint_settings(structure: Structure, options: Options) -> dict[str, JointSettings]:
+def choose_joint_settings(structure: Structure, options: Options) -> dict[str, JointSettings]:
     """Choose the settings of each movable hinge and slide, by joint name.
 
     Raises:
@@ -24,11 +24,11 @@ def joint_settings(structure: Structure, options: Options) -> dict[str, JointSet
     names = [
         joint.name
         for joint in structure.moving
-        if structure.kind(joint) in ("hinge", "slide") and locked_at(joint) is None
+        if structure.get_kind(joint) in ("hinge", "slide") and get_locked_at(joint) is None
     ]
     found = dict.fromkeys(names, JointSettings())
     if options.actuator_config is not None:
-        found = read_actuator_config(options.actuator_config).for_joints(names)
+        found = read_actuator_config(options.actuator_config).match_joints(names)
     if options.armature is not None:
         for name, settings in found.items():
             if settings.armature is None:

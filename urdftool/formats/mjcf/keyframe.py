@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ...model.pose import Pose, quaternion_of_rotation
+from ...model.pose import Pose, quaternion_from_rotation
 from .actuator import Drive
-from .digits import numbers_text
-from .frame import plain
+from .digits import format_numbers_text
+from .frame import simplify_quaternion
 from .home import Home
 from .joint import PLANAR_SUFFIXES
 from .structure import Structure
 
 
-def keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> etree._Element:
+def build_keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> etree._Element:
     """Build ``<keyframe>`` with the key ``home``, whose controls hold the joints in place."""
     section = etree.Element("keyframe")
     key = etree.SubElement(section, "key", name="home")
-    qpos = _positions(structure, home)
+    qpos = _get_positions(structure, home)
     if qpos:
-        key.set("qpos", numbers_text(qpos))
+        key.set("qpos", format_numbers_text(qpos))
     if drives:
         key.set(
             "ctrl",
-            numbers_text(
+            format_numbers_text(
                 home.positions.get(drive.joint.name, 0.0) if drive.kind == "position" else 0.0
                 for drive in drives
             ),
@@ -31,15 +31,15 @@ def keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> e
     return section
 
 
-def _positions(structure: Structure, home: Home) -> list[float]:
+def _get_positions(structure: Structure, home: Home) -> list[float]:
     """Return ``qpos`` in MuJoCo's order: nested free bodies come after the root's tree."""
-    first = _free(home.pose) if structure.free else []
+    first = _collect_free(home.pose) if structure.free else []
     later: list[float] = []
     torn: set[str] = set()
     for joint in structure.moving:
-        kind = structure.kind(joint)
+        kind = structure.get_kind(joint)
         if kind == "free":
-            values = _free(home.floating[joint.name])
+            values = _collect_free(home.floating[joint.name])
         elif kind == "ball":
             values = [1.0, 0.0, 0.0, 0.0]
         elif kind == "planar":
@@ -55,6 +55,6 @@ def _positions(structure: Structure, home: Home) -> list[float]:
     return first + later
 
 
-def _free(pose: Pose) -> list[float]:
-    turn = plain(quaternion_of_rotation(pose.rotation)) or (1.0, 0.0, 0.0, 0.0)
+def _collect_free(pose: Pose) -> list[float]:
+    turn = simplify_quaternion(quaternion_from_rotation(pose.rotation)) or (1.0, 0.0, 0.0, 0.0)
     return [*pose.translation, *turn]

@@ -10,16 +10,16 @@ from ...mechanics.spatial_inertia import SpatialInertia
 from ...mechanics.tensor import (
     ZERO_TENSOR,
     SymmetricTensor,
-    diagonal_of,
-    principal_moments,
-    written_tensor,
+    compute_principal_moments,
+    get_diagonal,
+    get_written_tensor,
 )
 from ...model.elements import ZERO, Link, Origin, Vector
-from ...model.pose import pose_of, quaternion_of_rotation
+from ...model.pose import make_pose, quaternion_from_rotation
 from ...source.location import Place
 from . import inertia as tensors
-from .digits import number_text, numbers_text
-from .frame import plain, quaternion_of
+from .digits import format_numbers_text, number_text
+from .frame import get_quaternion, simplify_quaternion
 
 POINT = 1e-15
 """Inertia [kg·m²] below which a body of 1 kg is a point mass; proportional for lighter bodies."""
@@ -63,51 +63,53 @@ class LinkInertia:
 
     def is_heavy(self, least: float) -> bool:
         """Tell whether mass and every principal moment exceed a bound."""
-        return self.mass > least and principal_moments(self.tensor)[0] > least
+        return self.mass > least and compute_principal_moments(self.tensor)[0] > least
 
-    def changed(self, tensor: SymmetricTensor) -> LinkInertia:
+    def get_changed(self, tensor: SymmetricTensor) -> LinkInertia:
         """Return a copy with another tensor."""
         return LinkInertia(replace(self.body, tensor=tensor), self.place)
 
 
-def inertia_of(link: Link) -> LinkInertia | None:
+def read_inertia(link: Link) -> LinkInertia | None:
     """Read a link's ``<inertial>``; None if it is missing, empty, or has a negative mass."""
     inertial = link.inertial
     if inertial is None:
         return None
     mass = inertial.mass or 0.0
-    local = written_tensor(inertial.inertia)
+    local = get_written_tensor(inertial.inertia)
     if mass > 0 and max(map(abs, local)) < POINT * min(mass, 1.0):
         local = ZERO_TENSOR  # rounding errors of a computed zero
     if mass < 0 or not (mass or any(local)):
         return None
-    body = SpatialInertia(mass, ZERO, local).moved(pose_of(inertial.origin))
+    body = SpatialInertia(mass, ZERO, local).transform(make_pose(inertial.origin))
     return LinkInertia(body, inertial.place, inertial.origin, local)
 
 
-def inertial_element(read: LinkInertia) -> etree._Element:
+def build_inertial_element(read: LinkInertia) -> etree._Element:
     """Build ``<inertial>``, with the numbers of the source if MuJoCo accepts them."""
-    element = etree.Element("inertial", pos=numbers_text(read.com), mass=number_text(read.mass))
-    quaternion = quaternion_of(read.origin) if read.origin is not None else None
+    element = etree.Element(
+        "inertial", pos=format_numbers_text(read.com), mass=number_text(read.mass)
+    )
+    quaternion = get_quaternion(read.origin) if read.origin is not None else None
     if read.local is not None and _is_diagonal(read.local):
-        diagonal = diagonal_of(read.local)
+        diagonal = get_diagonal(read.local)
         if tensors.is_safe_diagonal(diagonal):
             if quaternion is not None and len(set(diagonal)) > 1:
-                element.set("quat", numbers_text(quaternion))
-            element.set("diaginertia", numbers_text(diagonal))
+                element.set("quat", format_numbers_text(quaternion))
+            element.set("diaginertia", format_numbers_text(diagonal))
             return element
     full = read.local if read.local is not None and quaternion is None else read.tensor
     if tensors.is_safe_tensor(full) and not _is_diagonal(full):
-        element.set("fullinertia", numbers_text([full[i] for i in (0, 3, 5, 1, 2, 4)]))
+        element.set("fullinertia", format_numbers_text([full[i] for i in (0, 3, 5, 1, 2, 4)]))
         return element
-    if _is_diagonal(full) and tensors.is_safe_diagonal(diagonal_of(full)):
-        element.set("diaginertia", numbers_text(diagonal_of(full)))
+    if _is_diagonal(full) and tensors.is_safe_diagonal(get_diagonal(full)):
+        element.set("diaginertia", format_numbers_text(get_diagonal(full)))
         return element
-    moments, axes = tensors.principal(full)
-    turn = plain(quaternion_of_rotation(tuple(map(tuple, axes.tolist()))))  # type: ignore[arg-type]
+    moments, axes = tensors.compute_principal(full)
+    turn = simplify_quaternion(quaternion_from_rotation(tuple(map(tuple, axes.tolist()))))  # type: ignore[arg-type]
     if turn is not None:
-        element.set("quat", numbers_text(turn))
-    element.set("diaginertia", numbers_text(moments))
+        element.set("quat", format_numbers_text(turn))
+    element.set("diaginertia", format_numbers_text(moments))
     return element
 
 

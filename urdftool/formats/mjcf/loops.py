@@ -9,12 +9,12 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import GazeboExtension, Vector
-from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rpy
-from ...model.read import number, numbers
+from ...model.pose import IDENTITY, Pose, add, compute_dot, compute_norm, rotate, rotation_from_rpy
+from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..common.naming import UniqueNames
 from ..written import Written
-from .digits import numbers_text
+from .digits import format_numbers_text
 from .structure import WORLD, Structure
 
 KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}
@@ -53,7 +53,7 @@ class Loop:
         return self.element.get("name") or ""
 
 
-def loops(structure: Structure) -> Iterator[Loop]:
+def list_loops(structure: Structure) -> Iterator[Loop]:
     """Yield the loop-closing joints that can be exported."""
     for block in structure.robot.gazebo:
         for element in block.element.all("joint"):
@@ -62,15 +62,15 @@ def loops(structure: Structure) -> Iterator[Loop]:
                 yield found
 
 
-def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._Element]:
+def list_loop_equalities(structure: Structure, written: Written) -> Iterator[etree._Element]:
     """Yield ``<connect>`` and ``<weld>`` for each loop-closing joint, and report losses."""
     names = UniqueNames()
     for block in structure.robot.gazebo:
         for element in block.element.all("joint"):
             loop = _read(structure, block, element)
             if isinstance(loop, Loop):
-                _bounds_losses(loop, written)
-                yield from _equalities(structure, loop, names)
+                _report_bounds_losses(loop, written)
+                yield from _list_equalities(structure, loop, names)
             else:
                 written.report_loss(
                     "loop",
@@ -91,7 +91,7 @@ def _read(structure: Structure, block: GazeboExtension, element: Element) -> Loo
             f"a loop can be closed by joints of type {', '.join(KINDS)}, not by "
             f"'{element.get('type') or ''}'"
         )
-    child, parent = _text(element, "child"), _text(element, "parent")
+    child, parent = _format_text(element, "child"), _format_text(element, "parent")
     # a scoped name starts with the name of the model
     child, parent = child.rpartition("::")[2], parent.rpartition("::")[2]
     known = structure.robot.link
@@ -100,74 +100,76 @@ def _read(structure: Structure, block: GazeboExtension, element: Element) -> Loo
             return f"its {end} '{name}' is not a link"
     if child == parent:
         return f"it connects '{child}' to itself"
-    pose = _pose(structure, element, child)
+    pose = _make_pose(structure, element, child)
     return pose if isinstance(pose, str) else Loop(element, kind, child, parent, pose)
 
 
-def _pose(structure: Structure, joint: Element, child: str) -> Pose | str:
+def _make_pose(structure: Structure, joint: Element, child: str) -> Pose | str:
     element = joint.child("pose")
     if element is None:
         return IDENTITY
-    values = numbers(element.text, 6) or (0.0,) * 6
-    turn = rotation_of_rpy((values[3], values[4], values[5]))
+    values = parse_numbers(element.text, 6) or (0.0,) * 6
+    turn = rotation_from_rpy((values[3], values[4], values[5]))
     pose = Pose(turn, (values[0], values[1], values[2]))
     frame = element.get("relative_to") or element.get("frame") or child
     if frame == child:
         return pose
     if frame != "__model__" and frame not in structure.robot.link:
         return f"its pose is relative to '{frame}', which is not a link"
-    start = IDENTITY if frame == "__model__" else structure.pose_at_zero(frame)
-    return structure.pose_at_zero(child).inverse() @ start @ pose
+    start = IDENTITY if frame == "__model__" else structure.get_pose_at_zero(frame)
+    return structure.get_pose_at_zero(child).inverse() @ start @ pose
 
 
-def _equalities(structure: Structure, loop: Loop, names: UniqueNames) -> Iterator[etree._Element]:
-    bodies = {"body1": structure.body_name(loop.child)}
+def _list_equalities(
+    structure: Structure, loop: Loop, names: UniqueNames
+) -> Iterator[etree._Element]:
+    bodies = {"body1": structure.get_body_name(loop.child)}
     if loop.parent in structure.robot.link and loop.parent != WORLD:
         bodies["body2"] = loop.parent
     elif loop.parent in structure.robot.link and not structure.in_world:
-        bodies["body2"] = structure.body_name(loop.parent)
+        bodies["body2"] = structure.get_body_name(loop.parent)
     name = names.take(loop.name or f"{loop.child}_{loop.kind}")
     if loop.kind == "weld":
         yield etree.Element("weld", {"name": name, **bodies, **STIFF})
         return
     points = [loop.pose.translation]
     if loop.element.get("type") != "ball":
-        axis = _axis(structure, loop)
+        axis = _get_axis(structure, loop)
         if not _is_planar(structure, loop, axis):
             x, y, z = axis
             points.append(add(points[0], (ARM * x, ARM * y, ARM * z)))
     for index, point in enumerate(points):
         own = name if index == 0 else names.take(f"{name}_axis")
-        anchor = numbers_text(point)
+        anchor = format_numbers_text(point)
         yield etree.Element("connect", {"name": own, **bodies, "anchor": anchor, **STIFF})
 
 
-def _axis(structure: Structure, loop: Loop) -> Vector:
+def _get_axis(structure: Structure, loop: Loop) -> Vector:
     """Return the joint axis in the child's frame, of length 1."""
     axis = loop.element.child("axis")
     xyz = axis.child("xyz") if axis is not None else None
-    x, y, z = numbers(xyz.text if xyz is not None else "0 0 1", 3) or (0.0, 0.0, 1.0)
-    length = norm((x, y, z)) or 1.0
+    x, y, z = parse_numbers(xyz.text if xyz is not None else "0 0 1", 3) or (0.0, 0.0, 1.0)
+    length = compute_norm((x, y, z)) or 1.0
     direction = (x / length, y / length, z / length)
-    old = axis is not None and _text(axis, "use_parent_model_frame").lower() in ("1", "true")
+    old = axis is not None and _format_text(axis, "use_parent_model_frame").lower() in ("1", "true")
     if old or (xyz is not None and xyz.get("expressed_in") == "__model__"):
-        return rotate(structure.pose_at_zero(loop.child).inverse().rotation, direction)
+        return rotate(structure.get_pose_at_zero(loop.child).inverse().rotation, direction)
     return rotate(loop.pose.rotation, direction)
 
 
 def _is_planar(structure: Structure, loop: Loop, axis: Vector) -> bool:
     """Tell whether the other joints of the loop keep its axis already: all move in one plane."""
-    axis = rotate(structure.pose_at_zero(loop.child).rotation, axis)
+    axis = rotate(structure.get_pose_at_zero(loop.child).rotation, axis)
     paths = [_to_root(structure, link) for link in (loop.child, loop.parent)]
     for link in set(paths[0]) ^ set(paths[1]):
         joint = structure.robot.tree.parent_joint(link)
-        kind = structure.kind(joint) if joint is not None else "weld"
+        kind = structure.get_kind(joint) if joint is not None else "weld"
         if kind == "weld" or joint is None:
             continue
         if kind not in ("hinge", "slide") or joint.axis is None:
             return False
-        own = rotate(structure.pose_at_zero(link).rotation, joint.axis.xyz)
-        along = abs(dot(axis, own)) / norm(own)
+        own = rotate(structure.get_pose_at_zero(link).rotation, joint.axis.xyz)
+        along = abs(compute_dot(axis, own)) / compute_norm(own)
         if abs(along - (1.0 if kind == "hinge" else 0.0)) > 1e-6:
             return False
     return True
@@ -184,14 +186,18 @@ def _to_root(structure: Structure, link: str) -> list[str]:
     return path
 
 
-def _bounds_losses(loop: Loop, written: Written) -> None:
+def _report_bounds_losses(loop: Loop, written: Written) -> None:
     axis = loop.element.child("axis")
     if axis is None or loop.kind == "weld":
         return
     limit, dynamics = axis.child("limit"), axis.child("dynamics")
-    bounds = [number(_text(limit, end)) for end in ("lower", "upper")] if limit is not None else []
+    bounds = (
+        [number(_format_text(limit, end)) for end in ("lower", "upper")]
+        if limit is not None
+        else []
+    )
     rubs = (
-        [number(_text(dynamics, tag)) for tag in ("damping", "friction", "spring_stiffness")]
+        [number(_format_text(dynamics, tag)) for tag in ("damping", "friction", "spring_stiffness")]
         if dynamics is not None
         else []
     )
@@ -211,6 +217,6 @@ def _bounds_losses(loop: Loop, written: Written) -> None:
             )
 
 
-def _text(element: Element, tag: str) -> str:
+def _format_text(element: Element, tag: str) -> str:
     child = element.child(tag)
     return child.text.strip() if child is not None else ""

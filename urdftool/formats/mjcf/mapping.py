@@ -24,7 +24,7 @@ _JOINT_TEXT = {
 }
 
 
-def _loops(kind: str) -> str:
+def _format_loops(kind: str) -> str:
     return ", ".join(name for name, made in CLOSERS.items() if made == kind)
 
 
@@ -144,11 +144,11 @@ EXTENSIONS: tuple[Row, ...] = (
     ("gazebo `springStiffness`, `springReference`", EXACT, "`stiffness`, `springref`"),
     ("gazebo `static`", EXACT, "the root is fixed"),
     (
-        f"gazebo `joint` {_loops('connect')}",
+        f"gazebo `joint` {_format_loops('connect')}",
         CLOSE,
         "`equality/connect`, for a hinge in space two; its limits and dynamics are reported",
     ),
-    (f"gazebo `joint` {_loops('weld')}", CLOSE, "`equality/weld`"),
+    (f"gazebo `joint` {_format_loops('weld')}", CLOSE, "`equality/weld`"),
     ("gazebo `joint` of another type", LOST_MARK, "said"),
     ("gazebo `light`", CLOSE, "`light`"),
     (
@@ -163,13 +163,15 @@ EXTENSIONS: tuple[Row, ...] = (
 )
 
 
-def markdown() -> str:
+def format_markdown() -> str:
     """Format the tables as Markdown for the documentation."""
     joints = [(f"`joint@type` {name}", EXACT, _JOINT_TEXT[kind]) for name, kind in KINDS.items()]
-    sensors = [(f"sensor `{name}`", CLOSE, _sensors(name)) for name in AT_SITE]
-    sensors.append((f"sensor {_names(CAMERAS)}", CLOSE, "`camera` with `fovy` and `resolution`"))
+    sensors = [(f"sensor `{name}`", CLOSE, _format_sensors(name)) for name in AT_SITE]
     sensors.append(
-        (f"sensor {_names(SCANNERS)}", CLOSE, "`rangefinder`s up to 36 rays, else its site")
+        (f"sensor {_format_names(CAMERAS)}", CLOSE, "`camera` with `fovy` and `resolution`")
+    )
+    sensors.append(
+        (f"sensor {_format_names(SCANNERS)}", CLOSE, "`rangefinder`s up to 36 rays, else its site")
     )
     sensors.append(
         ("sensor `contact`", CLOSE, "`touch` in a site over the link's first simple shape")
@@ -181,18 +183,18 @@ def markdown() -> str:
         ("Joints", (*joints, *JOINT)),
         ("Extensions", (*EXTENSIONS, *sensors, *lost)),
     )
-    return "\n".join(_table(title, rows) for title, rows in parts)
+    return "\n".join(_format_table(title, rows) for title, rows in parts)
 
 
-def _sensors(name: str) -> str:
+def _format_sensors(name: str) -> str:
     return "site with " + ", ".join(f"`{kind}`" for kind, _ in AT_SITE[name])
 
 
-def _names(names: tuple[str, ...]) -> str:
+def _format_names(names: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
-def _table(title: str, rows: tuple[Row, ...]) -> str:
+def _format_table(title: str, rows: tuple[Row, ...]) -> str:
     lines = [f"### {title}", "", "| URDF | | MJCF |", "|---|---|---|"]
     lines += [f"| {urdf} | {mark} | {mjcf} |" for urdf, mark, mjcf in rows]
     return "\n".join([*lines, ""])

@@ -9,13 +9,13 @@ from lxml import etree
 
 from ...errors import SourceError
 from ...model.elements import Material, Robot, Visual
-from ..common.naming import UniqueNames, file_name
+from ..common.naming import UniqueNames, replace_file_name
 from ..written import Written
 from .convert import Image, Rgba
-from .digits import numbers_text
-from .gazebo_colors import gazebo_color
+from .digits import format_numbers_text
+from .gazebo_colors import get_gazebo_color
 from .meshes import MeshPiece
-from .texture import png
+from .texture import get_png
 
 
 class Materials:
@@ -48,7 +48,7 @@ class Materials:
         """Tell whether any image is used."""
         return any(self._textures.values())
 
-    def dress(
+    def set_material(
         self, geom: etree._Element, visual: Visual, link: str, piece: MeshPiece | None
     ) -> None:
         """Set the material or color of a geom.
@@ -57,26 +57,28 @@ class Materials:
         then Gazebo's color for the link.
         """
         if piece is not None and piece.texture is not None:
-            name = self._of_mesh(piece.texture, piece.file, visual)
+            name = self._get_mesh_material(piece.texture, piece.file, visual)
             if name is not None:
                 geom.set("material", name)
                 return
         if piece is not None and piece.rgba is not None:
-            geom.set("rgba", numbers_text(piece.rgba))
+            geom.set("rgba", format_numbers_text(piece.rgba))
             return
-        material = self._definition(visual)
+        material = self._make_definition(visual)
         if material is None:
-            color = gazebo_color(self._robot, link)
+            color = get_gazebo_color(self._robot, link)
             if color is not None:
-                geom.set("rgba", numbers_text(color))
+                geom.set("rgba", format_numbers_text(color))
         elif material.name or material.texture:
-            name = self._material(material.name, material.color, self._image(material), visual)
+            name = self._get_material(
+                material.name, material.color, self._get_image(material), visual
+            )
             if name is not None:
                 geom.set("material", name)
         elif material.color is not None:
-            geom.set("rgba", numbers_text(material.color))
+            geom.set("rgba", format_numbers_text(material.color))
 
-    def _of_mesh(self, image: Image, mesh: str, visual: Visual) -> str | None:
+    def _get_mesh_material(self, image: Image, mesh: str, visual: Visual) -> str | None:
         """Return the material for an image of a mesh file; None if the image is missing."""
         stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
         if isinstance(image, Path) and not os.path.isfile(image):
@@ -84,12 +86,12 @@ class Materials:
                 self._textures[image] = None
                 self._report_image_loss(f"image {image} of {mesh} does not exist", visual, mesh)
             return None
-        return self._material(stem, None, image, visual, mesh)
+        return self._get_material(stem, None, image, visual, mesh)
 
     def _report_image_loss(self, message: str, visual: Visual, name: str) -> None:
         self._written.report_loss("texture", message, visual.place, kind="material", name=name)
 
-    def _definition(self, visual: Visual) -> Material | None:
+    def _make_definition(self, visual: Visual) -> Material | None:
         material = visual.material
         if material is None or material.color or material.texture:
             return material
@@ -104,7 +106,7 @@ class Materials:
             )
         return found
 
-    def _image(self, material: Material) -> Path | None:
+    def _get_image(self, material: Material) -> Path | None:
         """Return the path of a material's texture; None if it does not exist."""
         if not material.texture or self._robot.source is None:
             return None
@@ -127,30 +129,30 @@ class Materials:
             name=material.name,
         )
 
-    def _material(
+    def _get_material(
         self, name: str, color: Rgba | None, image: Image | None, visual: Visual, mesh: str = ""
     ) -> str | None:
         key = (name, color, image)
         if key in self._used:
             return self._used[key]
-        texture = self._texture(image, visual, mesh) if image is not None else None
+        texture = self._get_texture(image, visual, mesh) if image is not None else None
         if texture is None and color is None:
             return None
         element = etree.Element("material", name=self._names.take(name or "material"))
         if texture is not None:
             element.set("texture", texture)
         elif color is not None:
-            element.set("rgba", numbers_text(color))
+            element.set("rgba", format_numbers_text(color))
         self.elements.append(element)
         self._used[key] = element.get("name", "")
         return self._used[key]
 
-    def _texture(self, image: Image, visual: Visual, mesh: str) -> str | None:
+    def _get_texture(self, image: Image, visual: Visual, mesh: str) -> str | None:
         if image in self._textures:
             return self._textures[image]
         file = f"in {mesh}" if isinstance(image, bytes) else image.name
         stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
-        data = png(image)
+        data = get_png(image)
         if data is None:
             named = visual.material.name if visual.material is not None else ""
             self._report_image_loss(
@@ -161,7 +163,7 @@ class Materials:
             )
             self._textures[image] = None
             return None
-        name = self._files.take(file_name(stem))
+        name = self._files.take(replace_file_name(stem))
         folder = f"{self._folder}/" if self._folder else ""
         self._written.files[f"{folder}{name}.png"] = data
         self.elements.append(etree.Element("texture", type="2d", name=name, file=f"{name}.png"))

@@ -13,14 +13,14 @@ from ...finding import Finding
 from ...geometry.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..common.assets import find_file
-from ..common.missing_files import missing_mesh
-from ..common.naming import UniqueNames, file_name
-from ..defects import defect
+from ..common.missing_files import create_missing_mesh
+from ..common.naming import UniqueNames, replace_file_name
+from ..defects import make_defect
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
 from .cut import Cut, Cutter
-from .digits import numbers_text
-from .obj import obj_bytes
+from .digits import format_numbers_text
+from .obj import write_obj_bytes
 from .options import Options
 
 ONE: Vector = (1.0, 1.0, 1.0)
@@ -54,9 +54,11 @@ class Assets:
     sources: list[Path]
 
 
-def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Assets, list[Finding]]:
+def create_mesh_assets(
+    robot: Robot, written: Written, options: Options
+) -> tuple[Assets, list[Finding]]:
     """Create the mesh assets, add their files to ``written``, and return the defects of meshes."""
-    uses, wrong = _uses(robot)
+    uses, wrong = _report_uses(robot)
     jobs = list(dict.fromkeys((path, collides) for path, collides, _ in uses))
     made: dict[tuple[Path, bool], Converted] = {}
     if jobs and robot.source is not None:
@@ -67,7 +69,7 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
             if isinstance(result, Converted):
                 made[job] = result
             else:
-                wrong.extend(_unreadable(uses, job, result))
+                wrong.extend(_report_unreadable(uses, job, result))
     if options.cutter is not None:
         _cut(options.cutter, uses, made, written)
     _report_notes(uses, made, written)
@@ -79,7 +81,7 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
     for path, collides, shape in sorted(uses, key=lambda use: use[1]):
         if (path, collides) not in made:
             continue
-        mesh = _mesh(shape)
+        mesh = _make_mesh(shape)
         for index, piece in enumerate(made[path, collides].pieces):
             many = len(made[path, collides].pieces) > 1
             file = files.place(path, piece, index if many else None, collides)
@@ -87,7 +89,7 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
             if key not in known:
                 stem = file.rpartition(".")[0]
                 known[key] = names.take(stem)
-                elements[collides].append(_element(known[key], file, mesh.scale, piece))
+                elements[collides].append(_build_element(known[key], file, mesh.scale, piece))
             used = MeshPiece(known[key], piece.rgba, piece.texture, path.name)
             pieces.setdefault(id(mesh), []).append(used)
     sources = list(dict.fromkeys(path for path, _, _ in uses))
@@ -97,12 +99,12 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
 _Use = tuple[Path, bool, Visual | Collision]
 
 
-def _mesh(shape: Visual | Collision) -> Mesh:
+def _make_mesh(shape: Visual | Collision) -> Mesh:
     assert isinstance(shape.geometry, Mesh)
     return shape.geometry
 
 
-def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
+def _report_uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
     uses: list[_Use] = []
     wrong: list[Finding] = []
     for link, shape in robot.shapes:
@@ -111,32 +113,32 @@ def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
             continue
         path = find_file(robot, mesh.filename)
         if path is None:
-            wrong.append(missing_mesh(robot, link, mesh))
+            wrong.append(create_missing_mesh(robot, link, mesh))
         elif not all(mesh.scale):
             text = f"scale of mesh '{mesh.filename}' of link '{link.name}' has a zero in it"
             place = mesh.element.attribute_place("scale")
-            wrong.append(defect("bad-scale", text, place, "link", link.name))
+            wrong.append(make_defect("bad-scale", text, place, "link", link.name))
         else:
             uses.append((path.resolve(), isinstance(shape, Collision), shape))
     return uses, wrong
 
 
-def _unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -> Iterator[Finding]:
+def _report_unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -> Iterator[Finding]:
     path, collides = job
     shape = next(shape for file, role, shape in uses if (file, role) == job)
     if collides and any((file, role) == (path, False) for file, role, _ in uses):
         return  # reported for the visual
-    place = _mesh(shape).element.attribute_place("filename")
+    place = _make_mesh(shape).element.attribute_place("filename")
     link = shape.element.parent
     name = (link.get("name") or "") if link is not None else ""
-    yield defect("corrupt-mesh", f"mesh {path}: {message}", place, "link", name)
+    yield make_defect("corrupt-mesh", f"mesh {path}: {message}", place, "link", name)
 
 
 def _cut(
     cutter: Cutter, uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
 ) -> None:
     """Replace collision meshes that are not convex by their convex decomposition."""
-    places = {path: _mesh(shape).element for path, collides, shape in uses if collides}
+    places = {path: _make_mesh(shape).element for path, collides, shape in uses if collides}
     wanted = [
         path
         for path in places
@@ -146,7 +148,7 @@ def _cut(
     for path, result in cutter(wanted).items() if wanted else ():
         old = made[path, True]
         if isinstance(result, Cut):
-            pieces = [Piece(obj_bytes(*piece)) for piece in result.pieces]
+            pieces = [Piece(write_obj_bytes(*piece)) for piece in result.pieces]
             made[path, True] = Converted(pieces, None, old.notes)
             count = "1 convex piece" if len(pieces) == 1 else f"{len(pieces)} convex pieces"
             text = f"is exported as {count}, whose surface is within {result.error:.2%} of its size"
@@ -173,7 +175,7 @@ def _report_notes(
         result = made.get((path, collides))
         if result is None:
             continue
-        place = _mesh(shape).element.attribute_place("filename")
+        place = _make_mesh(shape).element.attribute_place("filename")
         for note in result.notes:
             if (path, note) not in reported:
                 reported.add((path, note))
@@ -215,8 +217,8 @@ class _Files:
         """Return the name of a piece's file in the mesh folder, and add it to the export."""
         key = (path, piece.data)
         if key not in self._known:
-            stem = file_name(path.stem)
-            folder = file_name(path.parent.name)
+            stem = replace_file_name(path.stem)
+            folder = replace_file_name(path.parent.name)
             end = "" if index is None else f"_{index}"
             if collides and stem.casefold() in self._seen:
                 candidates = [f"{stem}_collision{end}", f"{stem}_{folder}_collision{end}"]
@@ -232,13 +234,13 @@ class _Files:
         return self._known[key]
 
 
-def _element(name: str, file: str, scale: Vector, piece: Piece) -> etree._Element:
+def _build_element(name: str, file: str, scale: Vector, piece: Piece) -> etree._Element:
     element = etree.Element("mesh")
     if name != file.rpartition(".")[0]:
         element.set("name", name)
     element.set("file", file)
     if scale != ONE:
-        element.set("scale", numbers_text(scale))
+        element.set("scale", format_numbers_text(scale))
     if piece.shell:
         element.set("inertia", "shell")
     return element

@@ -7,34 +7,34 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..written import Written
-from .actuator import actuator_section
+from .actuator import build_actuator_section
 from .base_sensors import add_base_sensors
-from .body import body_tree, fill_bodies
-from .colors import share_colors
-from .contact import contact_section
-from .defaults import default_section
+from .body import build_body_tree, fill_bodies
+from .colors import create_share_colors
+from .contact import build_contact_section
+from .defaults import build_default_section
 from .digits import number_text
-from .document import assemble, note_losses
-from .equality import equality_section
+from .document import assemble, report_losses
+from .equality import build_equality_section
 from .extension import apply_extension
 from .fuse import fuse_links
-from .gazebo import gazebo_losses
+from .gazebo import report_gazebo_losses
 from .home import Home
 from .home_contacts import exclude_overlapping
-from .joint_inertia import joint_inertias
-from .joint_settings import apply_settings, joint_settings
-from .keyframe import keyframe_section
+from .joint_inertia import compute_joint_inertias
+from .joint_settings import apply_settings, choose_joint_settings
+from .keyframe import build_keyframe_section
 from .light import put_lights
 from .link_inertia import LinkInertia
 from .material import Materials
 from .meshes import Assets
 from .options import Options
-from .sensor import sensor_section
+from .sensor import build_sensor_section
 from .srdf import Srdf
 from .structure import WORLD, Structure
 
 
-def model_text(
+def build_model_text(
     structure: Structure,
     home: Home,
     name: str,
@@ -59,42 +59,44 @@ def model_text(
     robot = structure.robot
     _rename_world(structure, written)
     materials = Materials(robot, written, options.mesh_dir)
-    world, bodies = body_tree(structure, home, name, written)
+    world, bodies = build_body_tree(structure, home, name, written)
     fill_bodies(structure, bodies, masses, assets, materials, written)
     put_lights(robot, bodies, written)
-    settings = joint_settings(structure, options)
-    inertias = joint_inertias(structure, masses, home.positions)
+    settings = choose_joint_settings(structure, options)
+    inertias = compute_joint_inertias(structure, masses, home.positions)
     for joint, armature in apply_settings(structure, bodies, settings, written).items():
         inertias[joint] = inertias.get(joint, 0.0) + armature
     sections: dict[str, etree._Element] = {
-        "compiler": _compiler(options, assets, materials),
-        "option": _option(structure),
+        "compiler": _build_compiler(options, assets, materials),
+        "option": _build_option(structure),
         "worldbody": world,
     }
-    actuators, drives = actuator_section(structure, options.actuators, inertias, settings, written)
+    actuators, drives = build_actuator_section(
+        structure, options.actuators, inertias, settings, written
+    )
     _summarize(structure, options, len(drives), written)
-    sensors = sensor_section(structure.robot, bodies, written)
+    sensors = build_sensor_section(structure.robot, bodies, written)
     if options.base_sensors:
         sensors = add_base_sensors(structure, bodies, sensors, written)
     _put(
         sections,
-        contact_section(structure, bodies, srdf, options.exclude),
-        equality_section(structure, written),
+        build_contact_section(structure, bodies, srdf, options.exclude),
+        build_equality_section(structure, written),
         actuators,
         sensors,
-        keyframe_section(structure, home, drives),
-        _custom(structure, name),
+        build_keyframe_section(structure, home, drives),
+        _build_custom(structure, name),
     )
     exclude_overlapping(structure, home.positions, sections, bodies, assets, options, written)
-    gazebo_losses(robot, written)
-    _controller_losses(robot, written)
+    report_gazebo_losses(robot, written)
+    _report_controller_losses(robot, written)
     apply_extension(robot, sections, written)
-    share_colors(world, materials.elements)
-    sections["default"] = default_section(name, world, actuators)
-    sections["asset"] = _asset(assets, materials)
+    create_share_colors(world, materials.elements)
+    sections["default"] = build_default_section(name, world, actuators)
+    sections["asset"] = _build_asset(assets, materials)
     if options.fuse:
         fuse_links(structure, bodies, sections, masses, written)
-    note_losses(written.losses, bodies)
+    report_losses(written.losses, bodies)
     return assemble(name, sections)
 
 
@@ -103,7 +105,7 @@ def _summarize(structure: Structure, options: Options, actuators: int, written: 
     held = "free" if structure.free else "fixed"
     written.summary.append(f"{held} base ({structure.reason})")
     written.summary.append("1 actuator" if actuators == 1 else f"{actuators} actuators")
-    moves = any(structure.kind(joint) in ("hinge", "slide") for joint in structure.moving)
+    moves = any(structure.get_kind(joint) in ("hinge", "slide") for joint in structure.moving)
     if moves and not actuators and options.actuators == "auto":
         written.advice.append(
             "the model has no actuators: no transmission, ros2_control or drive plugin names a "
@@ -112,7 +114,7 @@ def _summarize(structure: Structure, options: Options, actuators: int, written: 
 
 
 def _rename_world(structure: Structure, written: Written) -> None:
-    new = structure.body_name(WORLD)
+    new = structure.get_body_name(WORLD)
     if new == WORLD or WORLD not in structure.robot.link:
         return
     written.renamed["link", WORLD] = new
@@ -131,7 +133,7 @@ def _put(sections: dict[str, etree._Element], *made: etree._Element | None) -> N
             sections[section.tag] = section
 
 
-def _option(structure: Structure) -> etree._Element:
+def _build_option(structure: Structure) -> etree._Element:
     """Build ``<option>``, with elliptic friction cones if a body is free.
 
     With pyramidal cones, Newton's method may stop before the forces converge if a heavy base on the
@@ -140,12 +142,12 @@ def _option(structure: Structure) -> etree._Element:
     higher cost.
     """
     option = etree.Element("option", integrator="implicitfast")
-    if structure.free or any(structure.kind(joint) == "free" for joint in structure.moving):
+    if structure.free or any(structure.get_kind(joint) == "free" for joint in structure.moving):
         option.set("cone", "elliptic")
     return option
 
 
-def _compiler(options: Options, assets: Assets, materials: Materials) -> etree._Element:
+def _build_compiler(options: Options, assets: Assets, materials: Materials) -> etree._Element:
     compiler = etree.Element("compiler", angle="radian")
     if assets.elements and options.mesh_dir:
         compiler.set("meshdir", options.mesh_dir)
@@ -156,7 +158,7 @@ def _compiler(options: Options, assets: Assets, materials: Materials) -> etree._
     return compiler
 
 
-def _asset(assets: Assets, materials: Materials) -> etree._Element:
+def _build_asset(assets: Assets, materials: Materials) -> etree._Element:
     section = etree.Element("asset")
     textures = [element for element in materials.elements if element.tag == "texture"]
     section.extend(textures)
@@ -165,20 +167,20 @@ def _asset(assets: Assets, materials: Materials) -> etree._Element:
     return section
 
 
-def _custom(structure: Structure, name: str) -> etree._Element | None:
+def _build_custom(structure: Structure, name: str) -> etree._Element | None:
     """Build ``<custom>`` for data without an MJCF element: velocity limits, a changed name."""
     section = etree.Element("custom")
     if structure.robot.name and structure.robot.name != name:
         etree.SubElement(section, "text", name="robot_name", data=structure.robot.name)
     for joint in structure.moving:
         velocity = joint.limit.velocity if joint.limit is not None else None
-        if velocity is not None and structure.kind(joint) in ("hinge", "slide"):
+        if velocity is not None and structure.get_kind(joint) in ("hinge", "slide"):
             own = f"{joint.name}_velocity_limit"
             etree.SubElement(section, "numeric", name=own, data=number_text(abs(velocity)))
     return section if len(section) else None
 
 
-def _controller_losses(robot: Robot, written: Written) -> None:
+def _report_controller_losses(robot: Robot, written: Written) -> None:
     for joint in robot.joints:
         for part, what in (
             (joint.safety_controller, "safety_controller"),

@@ -7,7 +7,7 @@ import numpy as np
 from ...geometry.mesh import Faces, Points
 
 
-def obj_bytes(vertices: Points, faces: Faces, uv: Points | None = None) -> bytes:
+def write_obj_bytes(vertices: Points, faces: Faces, uv: Points | None = None) -> bytes:
     """Write one object with the used vertices, each once.
 
     Nine digits preserve the single precision that MuJoCo keeps.

@@ -13,7 +13,7 @@ from typing import Any
 
 from ...diagnostic import Severity
 from ...errors import ModelError
-from ...extras import is_installed, missing
+from ...extras import is_installed, make_missing_error
 from ...isolated import IsolatedProcess, ProcessDied, ProcessTimeout
 from ...model.elements import Robot
 from ...model.provenance import Written
@@ -53,7 +53,7 @@ def read(
         ModelError: MuJoCo does not compile the model.
     """
     if not is_installed("mujoco"):
-        raise missing("mujoco", "an MJCF file")
+        raise make_missing_error("mujoco", "an MJCF file")
     workspace = workspace or Workspace()
     file = file or read_file(path, workspace)
     expanded = expand(file, workspace)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...model.pose import IDENTITY, Pose, rotation_of_quaternion
+from ...model.pose import IDENTITY, Pose, rotation_from_quaternion
 from ...model.provenance import Written
 from ...model.world import WORLD
 from ...source.document import Element
@@ -57,7 +57,7 @@ class Context:
 def pose(row: Row, position: str = "pos", quaternion: str = "quat") -> Pose:
     """Return the pose in a row."""
     w, x, y, z = row[quaternion]
-    turned = rotation_of_quaternion((w, x, y, z))
+    turned = rotation_from_quaternion((w, x, y, z))
     return Pose(IDENTITY.rotation if w == 1.0 else turned, tuple(row[position]))
 
 

@@ -16,7 +16,7 @@ from ...model.mechanism import (
     JointActuator,
     MountedSensor,
 )
-from ...model.pose import IDENTITY, Pose, origin_at, rotation_of_quaternion
+from ...model.pose import IDENTITY, Pose, get_origin_at, rotation_from_quaternion
 from ...model.provenance import Written
 from .read_compile import Row
 from .read_context import Context
@@ -55,7 +55,7 @@ def _add_frames(context: Context, robot: Robot) -> None:
     for row in context.rows("site"):
         if context.has_link(row):
             written = context.written(row)
-            origin = origin_at(context.in_link(row), written)
+            origin = get_origin_at(context.in_link(row), written)
             link = context.links[row["bodyid"]]
             robot.frames.append(Frame(written, row["name"], link, "site", origin))
     for row in context.rows("camera"):
@@ -72,7 +72,7 @@ def _add_frames(context: Context, robot: Robot) -> None:
             written,
             row["name"],
             context.links[row["bodyid"]],
-            origin_at(context.in_link(row) @ _CAMERA, written),
+            get_origin_at(context.in_link(row) @ _CAMERA, written),
             math.radians(row["fovy"]),
             (width, height) if width > 1 and height > 1 else None,
         )
@@ -174,7 +174,7 @@ def _close(context: Context, robot: Robot, row: Row, written: Written) -> None:
     else:
         u, v, w = row["data"][3:6]
         q0, q1, q2, q3 = row["data"][6:10]
-        origin = context.shifts[one] @ Pose(rotation_of_quaternion((q0, q1, q2, q3)), (u, v, w))
+        origin = context.shifts[one] @ Pose(rotation_from_quaternion((q0, q1, q2, q3)), (u, v, w))
         child_origin = context.shifts[other]
     robot.closures.append(
         Closure(
@@ -183,8 +183,8 @@ def _close(context: Context, robot: Robot, row: Row, written: Written) -> None:
             row["type"],
             context.links[one],
             context.links[other],
-            origin_at(origin, written),
-            origin_at(child_origin, written),
+            get_origin_at(origin, written),
+            get_origin_at(child_origin, written),
             is_active=bool(row["active0"]),
         )
     )
@@ -207,7 +207,7 @@ def _add_sensor(context: Context, robot: Robot, row: Row) -> None:
         text = "sensors of other things than a link or joint are not read"
         context.losses.add("sensor", text, row["name"], written.place, Severity.INFO)
         return
-    origin = origin_at(at, written)
+    origin = get_origin_at(at, written)
     robot.mounted_sensors.append(replace(sensor, link=context.links[body], origin=origin))
 
 

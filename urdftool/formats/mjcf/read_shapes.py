@@ -18,7 +18,7 @@ from ...model.elements import (
     UnknownShape,
     Visual,
 )
-from ...model.pose import IDENTITY, Pose, origin_at, rotate, rotation_of_quaternion
+from ...model.pose import IDENTITY, Pose, get_origin_at, rotate, rotation_from_quaternion
 from ...model.provenance import Written
 from .read_compile import Row
 from .read_context import Context, pose
@@ -42,7 +42,7 @@ def add_shapes(context: Context, robot: Robot) -> None:
             continue
         link = robot.link[context.links[row["bodyid"]]]
         geometry, frame = _geometry(context, row, written)
-        origin = origin_at(context.shifts[row["bodyid"]] @ frame, written)
+        origin = get_origin_at(context.shifts[row["bodyid"]] @ frame, written)
         name = row["name"] or None
         collides = row["contype"] or row["conaffinity"] or row["paired"]
         material, alpha = _material(context, row, written)
@@ -106,7 +106,7 @@ def _mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]
     w, *ijk = mesh["refquat"]
     turned = IDENTITY
     if any(ijk):
-        turned = Pose(rotation_of_quaternion((w, ijk[0], ijk[1], ijk[2]))).inverse()
+        turned = Pose(rotation_from_quaternion((w, ijk[0], ijk[1], ijk[2]))).inverse()
         if not x == y == z:
             text = "meshes with refquat and unequal scales are not read"
             context.losses.add("mesh-scale", text, mesh["name"], context.written(mesh).place)

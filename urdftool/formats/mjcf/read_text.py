@@ -14,7 +14,7 @@ from xml.sax.saxutils import quoteattr
 from ...errors import ModelError, SourceError, XmlError
 from ...source.document import STDIN, Element, parse, read_file
 from ...source.location import SourceFile
-from ...source.well_formed import mend
+from ...source.well_formed import repair
 from ...workspace import Workspace
 
 MAX_ELEMENTS = 200_000
@@ -85,7 +85,7 @@ class _Reader:
         try:
             return parse(file).root
         except XmlError:
-            mended = mend(file)
+            mended = repair(file)
             if mended is None:
                 raise
         return parse(mended).root

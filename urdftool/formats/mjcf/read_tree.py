@@ -23,10 +23,10 @@ from ...model.elements import (
     Robot,
     Vector,
 )
-from ...model.kinematics import motion_of
+from ...model.kinematics import compute_motion
 from ...model.mechanism import Base, Frame
 from ...model.part import ZERO
-from ...model.pose import IDENTITY, Pose, origin_at
+from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
 from ...model.world import WORLD
 from .read_compile import Row
@@ -65,7 +65,7 @@ def add_tree(context: Context, robot: Robot) -> None:
                 Link(joint.provenance, joint.child, is_virtual=True) for joint in made[:-1]
             ]
         else:
-            base = origin_at(pose(row), context.written(row))
+            base = get_origin_at(pose(row), context.written(row))
             robot.base = Base(context.written(row), bool(own), base)
             for joint in (context.rows("joint")[number] for number in own):
                 if any(joint[name] for name in ("damping", "frictionloss", "armature")):
@@ -74,7 +74,7 @@ def add_tree(context: Context, robot: Robot) -> None:
                     context.losses.add("base-dynamics", text, joint["name"], place)
         robot.links.append(link)
         if any(anchor):
-            origin = origin_at(shift, context.written(row))
+            origin = get_origin_at(shift, context.written(row))
             robot.frames.append(Frame(context.written(row), link.name, link.name, "body", origin))
         if row["mocapid"] >= 0:
             text = "bodies that the program moves are fixed"
@@ -103,7 +103,7 @@ def _inertial(context: Context, row: Row, shift: Pose) -> Inertial | None:
     at = context.written(row) if written is None else Written(written.place)
     a, b, c = row["inertia"]
     tensor = Inertia(at, a, 0.0, 0.0, b, 0.0, c)
-    return Inertial(at, origin_at(shift @ pose(row, "ipos", "iquat"), at), row["mass"], tensor)
+    return Inertial(at, get_origin_at(shift @ pose(row, "ipos", "iquat"), at), row["mass"], tensor)
 
 
 def _anchor(row: Row) -> Vector:
@@ -126,7 +126,7 @@ def _joints(
     if not own:
         written = context.written(body)
         fixed = unique(f"{name}_fixed", taken)
-        origin = origin_at(at @ context.shifts[index].inverse(), written)
+        origin = get_origin_at(at @ context.shifts[index].inverse(), written)
         yield Joint(written, fixed, "fixed", parent, name, origin=origin)
         return
     before = ZERO
@@ -138,8 +138,8 @@ def _joints(
         step = Pose(translation=tuple(a - b for a, b in zip(anchor, before, strict=True)))  # type: ignore[arg-type]
         joint = _joint(context, row, number, parent, child)
         if row["ref"] and joint.type not in ("ball", "floating"):
-            step = step @ motion_of(replace(joint, limit=None), -row["ref"])
-        yield replace(joint, origin=origin_at(at @ step, joint.provenance))
+            step = step @ compute_motion(replace(joint, limit=None), -row["ref"])
+        yield replace(joint, origin=get_origin_at(at @ step, joint.provenance))
         at, before, parent = IDENTITY, anchor, child
 
 

@@ -11,17 +11,17 @@ from ...model.elements import Vector
 from ..common.naming import UniqueNames
 from ..written import Written
 from .digits import number_text
-from .document import serialise
+from .document import serialize
 from .home import Home
 from .shape_box import ShapeBoxes
-from .standing import Ground, ground_of
+from .standing import Ground, measure_ground
 from .structure import Structure
 
 FLUSH = 1e-3
 """Depth [m] to which a fixed robot may reach below a floor that stays at z = 0."""
 
 
-def scene_file(
+def create_scene_file(
     structure: Structure,
     home: Home,
     boxes: ShapeBoxes,
@@ -42,9 +42,9 @@ def scene_file(
         text: The model as XML, whose names the scene avoids.
         written: The export; receives a floor that is not at zero.
     """
-    ground = ground_of(structure, boxes, home.positions, home.pose)
-    low = 0.0 if structure.free else _lowest(structure, home, boxes, ground)
-    center, extent = _around(ground, home)
+    ground = measure_ground(structure, boxes, home.positions, home.pose)
+    low = 0.0 if structure.free else _get_lowest(structure, home, boxes, ground)
+    center, extent = _get_around(ground, home)
     main = written.main
     deep = etree.XMLParser(huge_tree=True)  # libxml2 limits nesting to 256 levels by default
     names = UniqueNames(
@@ -90,19 +90,21 @@ def scene_file(
             severity=Severity.INFO,
         )
     floor.set("material", pattern)
-    return serialise(root)
+    return serialize(root)
 
 
-def _lowest(structure: Structure, home: Home, boxes: ShapeBoxes, ground: Ground | None) -> float:
+def _get_lowest(
+    structure: Structure, home: Home, boxes: ShapeBoxes, ground: Ground | None
+) -> float:
     """Return the lowest point [m] of a fixed robot, at home and with every joint at zero."""
     if ground is None or not any(link.collisions for link in structure.robot.links):
         return 0.0
-    start = ground_of(structure, boxes, structure.locked, home.start)
+    start = measure_ground(structure, boxes, structure.locked, home.start)
     grounds = (ground, start) if not home.floating else (ground,)
     return min(low.low for low in grounds if low is not None)
 
 
-def _around(ground: Ground | None, home: Home) -> tuple[Vector, float]:
+def _get_around(ground: Ground | None, home: Home) -> tuple[Vector, float]:
     """Return the center and the size [m] of the view."""
     if ground is None:
         return home.pose.translation, 1.0

@@ -8,20 +8,20 @@ from collections.abc import Callable, Iterator
 from lxml import etree
 
 from ...model.elements import ControlComponent, Robot, Sensor
-from ...model.pose import Pose, rotation_of_quaternion, rotation_of_rpy
-from ...model.read import number, numbers
+from ...model.pose import Pose, rotation_from_quaternion, rotation_from_rpy
+from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..common.naming import UniqueNames
 from ..written import Written
 from .body import Bodies
-from .digits import number_text, numbers_text
+from .digits import format_numbers_text, number_text
 from .frame import set_pose
 from .joint import SITE
 
 MAX_RAYS = 36
 """Maximum number of rays of a scanner that becomes rangefinders."""
 
-CAMERA_TURN = Pose(rotation_of_quaternion((0.5, 0.5, -0.5, -0.5)))
+CAMERA_TURN = Pose(rotation_from_quaternion((0.5, 0.5, -0.5, -0.5)))
 """Rotation from Gazebo's camera (x forward, z up) to MuJoCo's (-z forward, y up)."""
 
 # type -> sensors at its site, with their name suffixes
@@ -38,7 +38,7 @@ CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "openni_kinect", "m
 SCANNERS = ("ray", "gpu_ray", "lidar", "gpu_lidar", "sonar")
 
 
-def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Element | None:
+def build_sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Element | None:
     """Build ``<sensor>``, or return None if it is empty; add sites and cameras to the bodies."""
     section = etree.Element("sensor")
     there = (site.get("name", "") for body in bodies.values() for site in body.iterchildren("site"))
@@ -52,16 +52,16 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
             body = bodies[link]
             if sensor.type in CAMERAS:
                 for camera in sensor.element.all("camera"):
-                    _camera(sensor, camera, body, cameras, written)
+                    _add_camera(sensor, camera, body, cameras, written)
             elif sensor.type in AT_SITE:
-                site = _site(
-                    sensor.name or f"{link}_{sensor.type}", _pose(sensor.element), body, sites
+                site = _format_site(
+                    sensor.name or f"{link}_{sensor.type}", _read_pose(sensor.element), body, sites
                 )
                 _measure(section, sensor.name or link, AT_SITE[sensor.type], site, taken)
             elif sensor.type == "contact":
-                _touch(sensor, link, body, section, sites, taken, written)
+                _add_touch(sensor, link, body, section, sites, taken, written)
             elif sensor.type in SCANNERS:
-                _scanner(sensor, link, body, section, sites, taken, written)
+                _add_scanner(sensor, link, body, section, sites, taken, written)
             else:
                 _report_sensor_loss(
                     sensor, f"MuJoCo has no sensor of type '{sensor.type}'", written
@@ -69,7 +69,7 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
     for control in robot.ros2_controls:
         for component in control.components:
             if component.kind == "sensor":
-                _control_sensor(component, robot, bodies, section, sites, taken, written)
+                _add_control_sensor(component, robot, bodies, section, sites, taken, written)
     return section if len(section) else None
 
 
@@ -83,18 +83,18 @@ def _link_of(robot: Robot, reference: str | None) -> str | None:
     return joint.child if joint is not None and joint.child in robot.link else None
 
 
-def _pose(element: Element) -> Pose:
+def _read_pose(element: Element) -> Pose:
     """Read Gazebo's ``<pose>``: x y z [m] and roll pitch yaw [rad]."""
     child = element.child("pose")
-    values = numbers(child.text, 6) if child is not None else None
+    values = parse_numbers(child.text, 6) if child is not None else None
     if values is None:
         return Pose()
     return Pose(
-        rotation_of_rpy((values[3], values[4], values[5])), (values[0], values[1], values[2])
+        rotation_from_rpy((values[3], values[4], values[5])), (values[0], values[1], values[2])
     )
 
 
-def _site(name: str, pose: Pose, body: etree._Element, sites: UniqueNames) -> str:
+def _format_site(name: str, pose: Pose, body: etree._Element, sites: UniqueNames) -> str:
     element = etree.Element("site", {"name": sites.take(name), **SITE})
     set_pose(element, pose)
     put_before_bodies(body, element)
@@ -115,10 +115,10 @@ def _measure(
     taken: UniqueNames,
 ) -> None:
     for kind, suffix in kinds:
-        section.append(site_sensor(kind, taken.take(name + suffix), site))
+        section.append(create_site_sensor(kind, taken.take(name + suffix), site))
 
 
-def site_sensor(kind: str, name: str, site: str) -> etree._Element:
+def create_site_sensor(kind: str, name: str, site: str) -> etree._Element:
     """Create a sensor at a site."""
     element = etree.Element(kind, name=name)
     if kind.startswith("frame"):
@@ -129,12 +129,14 @@ def site_sensor(kind: str, name: str, site: str) -> etree._Element:
     return element
 
 
-def _camera(
+def _add_camera(
     sensor: Sensor, camera: Element, body: etree._Element, cameras: UniqueNames, written: Written
 ) -> None:
     image, fov = camera.child("image"), camera.child("horizontal_fov")
     horizontal = (number(fov.text) if fov is not None else None) or 1.047
-    width, height = (_whole(image, name, size) for name, size in (("width", 320), ("height", 240)))
+    width, height = (
+        _get_whole(image, name, size) for name, size in (("width", 320), ("height", 240))
+    )
     if not 0 < horizontal < math.pi:
         written.report_loss(
             "camera",
@@ -149,17 +151,17 @@ def _camera(
     name = cameras.take(sensor.name or "camera", f"{sensor.name}_{camera.get('name') or ''}")
     element = etree.Element("camera", name=name, fovy=number_text(math.degrees(vertical)))
     element.set("resolution", f"{width} {height}")
-    set_pose(element, _pose(sensor.element) @ _pose(camera) @ CAMERA_TURN)
+    set_pose(element, _read_pose(sensor.element) @ _read_pose(camera) @ CAMERA_TURN)
     put_before_bodies(body, element)
 
 
-def _whole(image: Element | None, name: str, default: int) -> int:
+def _get_whole(image: Element | None, name: str, default: int) -> int:
     child = image.child(name) if image is not None else None
     value = number(child.text) if child is not None else None
     return int(value) if value is not None and value >= 1 else default
 
 
-def _touch(
+def _add_touch(
     sensor: Sensor,
     link: str,
     body: etree._Element,
@@ -180,7 +182,7 @@ def _touch(
     own = sites.take(name)
     size = (float(part) for part in sized[0].get("size", "").split())
     site = etree.Element("site", name=own, type=sized[0].get("type", ""), group="5")
-    site.set("size", numbers_text(1.01 * part for part in size))
+    site.set("size", format_numbers_text(1.01 * part for part in size))
     for attribute in ("pos", "quat"):
         if attribute in sized[0].attrib:
             site.set(attribute, sized[0].get(attribute, ""))
@@ -190,7 +192,7 @@ def _touch(
         _report_sensor_loss(sensor, "only the first collision of its link is covered", written)
 
 
-def _scanner(
+def _add_scanner(
     sensor: Sensor,
     link: str,
     body: etree._Element,
@@ -202,11 +204,11 @@ def _scanner(
     """Add one rangefinder for each ray, along the z axis of a site."""
     name = sensor.name or f"{link}_scan"
     scan = next((e for e in sensor.element.walk() if e.tag == "horizontal"), None)
-    read: Callable[[str, float], float] = lambda tag, default: _value(scan, tag, default)  # noqa: E731
+    read: Callable[[str, float], float] = lambda tag, default: _compute_value(scan, tag, default)  # noqa: E731
     count = int(read("samples", 0))
-    pose = _pose(sensor.element)
+    pose = _read_pose(sensor.element)
     if not 0 < count <= MAX_RAYS:
-        _site(name, pose, body, sites)
+        _format_site(name, pose, body, sites)
         _report_sensor_loss(
             sensor,
             f"its {count} rays are too many for rangefinders; only its site is exported",
@@ -218,20 +220,20 @@ def _scanner(
         angle = low + (high - low) * index / max(count - 1, 1)
         ray = (
             pose
-            @ Pose(rotation_of_rpy((0.0, 0.0, angle)))
-            @ Pose(rotation_of_rpy((0.0, math.pi / 2, 0.0)))
+            @ Pose(rotation_from_rpy((0.0, 0.0, angle)))
+            @ Pose(rotation_from_rpy((0.0, math.pi / 2, 0.0)))
         )
-        site = _site(f"{name}_{index}", ray, body, sites)
+        site = _format_site(f"{name}_{index}", ray, body, sites)
         etree.SubElement(section, "rangefinder", name=taken.take(f"{name}_{index}"), site=site)
 
 
-def _value(scan: Element | None, tag: str, default: float) -> float:
+def _compute_value(scan: Element | None, tag: str, default: float) -> float:
     child = scan.child(tag) if scan is not None else None
     value = number(child.text) if child is not None else None
     return default if value is None else value
 
 
-def _control_sensor(
+def _add_control_sensor(
     component: ControlComponent,
     robot: Robot,
     bodies: Bodies,
@@ -242,7 +244,7 @@ def _control_sensor(
 ) -> None:
     """Add a ros2_control sensor, by its state interfaces and its ``frame_id``."""
     names = {interface.name.partition(".")[0] for interface in component.state_interfaces}
-    kinds = list(_control_kinds(names))
+    kinds = list(_list_control_kinds(names))
     frame = component.params.get("frame_id", "")
     if frame not in robot.link or not kinds:
         why = "its frame_id names no link" if kinds else "MuJoCo has no sensors for its interfaces"
@@ -254,11 +256,11 @@ def _control_sensor(
             name=component.name,
         )
         return
-    site = _site(component.name, Pose(), bodies[frame], sites)
+    site = _format_site(component.name, Pose(), bodies[frame], sites)
     _measure(section, component.name, tuple(kinds), site, taken)
 
 
-def _control_kinds(interfaces: set[str]) -> Iterator[tuple[str, str]]:
+def _list_control_kinds(interfaces: set[str]) -> Iterator[tuple[str, str]]:
     for interface, kind, suffix in (
         ("force", "force", "_force"),
         ("torque", "torque", "_torque"),

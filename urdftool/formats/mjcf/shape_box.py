@@ -8,8 +8,8 @@ from math import hypot
 from ...errors import SourceError
 from ...geometry.convex_points import ConvexPoints, read_convex_points
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
-from ...model.pose import Pose, pose_of
-from .geom import shape_size
+from ...model.pose import Pose, make_pose
+from .geom import get_shape_size
 
 Box = tuple[Vector, Vector]
 """Minimum and maximum corner [m]."""
@@ -23,7 +23,7 @@ class ShapeBoxes:
         self._robot = robot
         self._outlines: dict[str, ConvexPoints | None] = {}
 
-    def box(self, shape: Visual | Collision, frame: Pose) -> Box | None:
+    def compute_box(self, shape: Visual | Collision, frame: Pose) -> Box | None:
         """Compute the bounding box of a shape.
 
         Args:
@@ -35,20 +35,20 @@ class ShapeBoxes:
             50,000 points; None if the shape has no size or its mesh cannot be read.
         """
         geometry = shape.geometry
-        pose = frame @ pose_of(shape.origin)
+        pose = frame @ make_pose(shape.origin)
         if isinstance(geometry, Mesh):
-            points = self._outline(geometry.filename)
+            points = self._make_outline(geometry.filename)
             if points is None:
                 return None
             return points.box(geometry.scale, pose.rotation, pose.translation)
-        size = None if geometry is None else shape_size(geometry)
+        size = None if geometry is None else get_shape_size(geometry)
         if size is None or not min(size[1]) >= 0:
             return None
-        a, b, c = (_reach(*size, row) for row in pose.rotation)
+        a, b, c = (_compute_reach(*size, row) for row in pose.rotation)
         x, y, z = pose.translation
         return (x - a, y - b, z - c), (x + a, y + b, z + c)
 
-    def _outline(self, name: str) -> ConvexPoints | None:
+    def _make_outline(self, name: str) -> ConvexPoints | None:
         if name not in self._outlines:
             self._outlines[name] = self._read(name)
         return self._outlines[name]
@@ -63,7 +63,7 @@ class ShapeBoxes:
             return None
 
 
-def _reach(kind: str, size: tuple[float, ...], way: Vector) -> float:
+def _compute_reach(kind: str, size: tuple[float, ...], way: Vector) -> float:
     """Compute the support function [m] of a primitive of MuJoCo's type and half sizes [m]."""
     x, y, z = way
     if kind == "box":

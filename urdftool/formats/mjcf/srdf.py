@@ -62,10 +62,10 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
             disabled.append((one, other))
     virtual = root.child("virtual_joint")
     kind = virtual.get("type") if virtual is not None else None
-    return Srdf(disabled, kind, path, _states(root, robot, written))
+    return Srdf(disabled, kind, path, _collect_states(root, robot, written))
 
 
-def _states(root: Element, robot: Robot, written: Written) -> dict[str, dict[str, float]]:
+def _collect_states(root: Element, robot: Robot, written: Written) -> dict[str, dict[str, float]]:
     states: dict[str, dict[str, float]] = {}
     for element in root.all("group_state"):
         state = states.setdefault(element.get("name") or "", {})

@@ -9,15 +9,15 @@ from ...diagnostic import Severity
 from ...errors import SourceError
 from ...model.elements import Robot
 from ...source.document import parse, read_file
-from ...source.packages import own_package, shown_path
+from ...source.packages import find_own_package, shorten_path
 from ..written import Written
 
 
 def offer_srdf(robot: Robot, written: Written) -> None:
     """Report the SRDF files of a robot next to it or in its MoveIt configuration."""
-    found = srdf_files(robot)
+    found = find_srdf_files(robot)
     if found:
-        names = " or ".join(shown_path(path) for path in found)
+        names = " or ".join(shorten_path(path) for path in found)
         written.report_loss(
             "srdf-not-used",
             f"robot '{robot.name}' has an SRDF, which is not used: --srdf {names} takes over its "
@@ -27,7 +27,7 @@ def offer_srdf(robot: Robot, written: Written) -> None:
         )
 
 
-def srdf_files(robot: Robot) -> list[Path]:
+def find_srdf_files(robot: Robot) -> list[Path]:
     """Find the SRDF files whose robot has the same name.
 
     The search covers the folder of the description, and ``config`` of a package ``…_moveit_config``
@@ -36,12 +36,12 @@ def srdf_files(robot: Robot) -> list[Path]:
     if robot.source is None or robot.source.path == "-":
         return []
     path = Path(robot.source.path).absolute()
-    return [file for file in dict.fromkeys(_candidates(path)) if _is_of(file, robot)]
+    return [file for file in dict.fromkeys(_list_candidates(path)) if _is_of(file, robot)]
 
 
-def _candidates(path: Path) -> Iterator[Path]:
+def _list_candidates(path: Path) -> Iterator[Path]:
     yield from sorted(path.parent.glob("*.srdf"))
-    own = own_package(path)
+    own = find_own_package(path)
     if own is None:
         return
     yield from sorted(own[1].glob("srdf/*.srdf"))
@@ -52,7 +52,7 @@ def _candidates(path: Path) -> Iterator[Path]:
 
 def _is_of(file: Path, robot: Robot) -> bool:
     try:
-        root = parse(read_file(shown_path(file))).root
+        root = parse(read_file(shorten_path(file))).root
     except SourceError:
         return False
     return root.tag == "robot" and root.get("name") == robot.name

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from ...model.elements import Joint
 from ...model.kinematics import link_poses
-from ...model.pose import Pose, pose_of, rotate
-from .drives import commanded_joints
-from .joint import axis_of
+from ...model.pose import Pose, make_pose, rotate
+from .drives import get_commanded_joints
+from .joint import get_axis
 from .shape_box import Box, ShapeBoxes
 from .structure import Structure
 
@@ -66,16 +66,18 @@ class Ground:
         """Return the longest edge of the box [m]."""
         return max(b - a for a, b in zip(*self.box, strict=True))
 
-    def lowest(self, body: str) -> float:
+    def get_lowest(self, body: str) -> float:
         """Return the lowest point of a rigid body [m]; infinity if it has no shapes."""
         return min((low[2] for low, _ in self.boxes.get(body, ())), default=math.inf)
 
-    def near(self, level: float) -> list[str]:
+    def get_near(self, level: float) -> list[str]:
         """Return the rigid bodies within ``level`` times the size above the lowest point."""
-        return [body for body in self.boxes if self.lowest(body) <= self.low + level * self.size]
+        return [
+            body for body in self.boxes if self.get_lowest(body) <= self.low + level * self.size
+        ]
 
 
-def ground_of(
+def measure_ground(
     structure: Structure,
     boxes: ShapeBoxes,
     positions: Mapping[str, float],
@@ -96,7 +98,7 @@ def ground_of(
     for link in structure.robot.links:
         pose = poses[link.name] if root is None else root @ poses[link.name]
         for shape in link.collisions if collides else link.visuals:
-            box = boxes.box(shape, pose)
+            box = boxes.compute_box(shape, pose)
             if box is not None:
                 body = structure.group[link.name]
                 found.setdefault(body, []).append(box)
@@ -104,10 +106,10 @@ def ground_of(
     if not found:
         return None
     feet = {body: name for body, (_, name) in lows.items()}
-    return Ground(_around(box for group in found.values() for box in group), found, feet)
+    return Ground(_get_around(box for group in found.values() for box in group), found, feet)
 
 
-def free_reason(
+def explain_free_base(
     structure: Structure, boxes: ShapeBoxes, positions: Mapping[str, float]
 ) -> str | None:
     """Describe the support of a robot with a floating base; None for a fixed base.
@@ -124,14 +126,14 @@ def free_reason(
     """
     if not any(link.collisions for link in structure.robot.links):
         return None  # it would fall through the floor
-    commanded = commanded_joints(structure.robot)
+    commanded = get_commanded_joints(structure.robot)
     branches = [j for j in structure.moving if structure.group[j.parent] == structure.root.name]
     if not commanded and len(branches) < 2:
         return None
-    ground = ground_of(structure, boxes, positions)
+    ground = measure_ground(structure, boxes, positions)
     if ground is None:
         return None
-    stands = ground.near(LEVEL)
+    stands = ground.get_near(LEVEL)
     wheels = [
         joint.name
         for joint in structure.moving
@@ -140,41 +142,43 @@ def free_reason(
     ]
     driven = [name for name in wheels if name in commanded]
     if driven:
-        return f"it has driven wheels {_listed(driven)}"
+        return f"it has driven wheels {_format_listed(driven)}"
     if len(wheels) > 1:
-        return f"it stands on wheels {_listed(wheels)}"
-    return _on_feet(structure, positions, ground, stands) or _with_legs(structure)
+        return f"it stands on wheels {_format_listed(wheels)}"
+    return _describe_feet(structure, positions, ground, stands) or _describe_legs(structure)
 
 
-def _on_feet(
+def _describe_feet(
     structure: Structure, positions: Mapping[str, float], ground: Ground, stands: list[str]
 ) -> str | None:
-    if structure.root.name in ground.near(CLEARANCE):
+    if structure.root.name in ground.get_near(CLEARANCE):
         return None
     stands = [body for body in stands if body != structure.root.name]
-    chains = {body: _chain(structure, body) for body in stands}
+    chains = {body: _get_chain(structure, body) for body in stands}
     stands = [body for body in stands if not _is_hand(chains[body])]
     if len({chains[body][0] for body in stands}) < 2:
         return None
-    feet = (box for body in stands for box in ground.boxes[body] if box[0][2] <= _top(ground))
-    if not _is_above(structure, positions, *_around(feet)):
+    feet = (
+        box for body in stands for box in ground.boxes[body] if box[0][2] <= _compute_top(ground)
+    )
+    if not _is_above(structure, positions, *_get_around(feet)):
         return None
     lasts = [b for b in stands if not any(b in chains[other][:-1] for other in stands)]
-    return f"it stands on {_listed([ground.feet[body] for body in lasts])}"
+    return f"it stands on {_format_listed([ground.feet[body] for body in lasts])}"
 
 
-def _with_legs(structure: Structure) -> str | None:
+def _describe_legs(structure: Structure) -> str | None:
     """Describe the legs of a robot, by the names of its links, independent of the pose."""
     inner = {structure.group[joint.parent] for joint in structure.moving}
     legs: dict[str, str] = {}
     for body, members in structure.members.items():
-        words = {word for link in members for word in _words(link.name)}
+        words = {word for link in members for word in _split_words(link.name)}
         if body not in inner and words & FEET:
-            legs.setdefault(_chain(structure, body)[0], body)
-    return f"it has legs: {_listed(list(legs.values()))}" if len(legs) > 1 else None
+            legs.setdefault(_get_chain(structure, body)[0], body)
+    return f"it has legs: {_format_listed(list(legs.values()))}" if len(legs) > 1 else None
 
 
-def _top(ground: Ground) -> float:
+def _compute_top(ground: Ground) -> float:
     return ground.low + LEVEL * ground.size
 
 
@@ -183,9 +187,9 @@ def _is_wheel(
 ) -> bool:
     """Tell whether a joint rotates a round body about a horizontal axis through its center."""
     pose = link_poses(structure.robot, positions)[joint.child]
-    x, y, z = rotate(pose.rotation, axis_of(joint))
+    x, y, z = rotate(pose.rotation, get_axis(joint))
     length = math.hypot(x, y, z)
-    low, high = _around(ground.boxes[joint.child])
+    low, high = _get_around(ground.boxes[joint.child])
     height = high[2] - low[2]
     centered = abs((low[2] + high[2]) / 2 - pose.translation[2]) <= CENTERED * height
     along = 0 if abs(y) > abs(x) else 1
@@ -194,7 +198,7 @@ def _is_wheel(
     return centered and abs(z) <= UPRIGHT * length and (is_round or not is_aligned)
 
 
-def _chain(structure: Structure, body: str) -> list[str]:
+def _get_chain(structure: Structure, body: str) -> list[str]:
     """Return the topmost links of the rigid bodies from the root (excluded) to a rigid body."""
     chain: list[str] = []
     while body != structure.root.name:
@@ -206,11 +210,11 @@ def _chain(structure: Structure, body: str) -> list[str]:
 
 
 def _is_hand(chain: Iterable[str]) -> bool:
-    words = {word for link in chain for word in _words(link)}
+    words = {word for link in chain for word in _split_words(link)}
     return not words & LEGS and bool(words & HANDS)
 
 
-def _words(name: str) -> list[str]:
+def _split_words(name: str) -> list[str]:
     """Split a name into words: ``leftHand_2`` into left and hand."""
     return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
 
@@ -224,7 +228,7 @@ def _is_above(
     """Tell whether the center of mass is above a box; true for a robot without mass."""
     poses = link_poses(structure.robot, positions)
     masses = [
-        (link.mass, (poses[link.name] @ pose_of(link.inertial.origin)).translation)
+        (link.mass, (poses[link.name] @ make_pose(link.inertial.origin)).translation)
         for link in structure.robot.links
         if link.inertial is not None and link.mass > 0
     ]
@@ -236,7 +240,7 @@ def _is_above(
     return a <= x <= c and b <= y <= d
 
 
-def _around(boxes: Iterable[Box]) -> Box:
+def _get_around(boxes: Iterable[Box]) -> Box:
     """Return the bounding box of boxes."""
     lows, highs = zip(*boxes, strict=True)
     low, high = ([pick(axis) for axis in zip(*corners, strict=True)]
@@ -244,6 +248,6 @@ def _around(boxes: Iterable[Box]) -> Box:
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
 
-def _listed(names: list[str], shown: int = 4) -> str:
+def _format_listed(names: list[str], shown: int = 4) -> str:
     more = f" and {len(names) - shown} more" if len(names) > shown else ""
     return ", ".join(names[:shown]) + more

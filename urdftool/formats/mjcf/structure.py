@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...model.elements import Joint, Link, Robot
-from ...model.kinematics import link_poses, motion_of
-from ...model.pose import Pose, norm, pose_of
+from ...model.kinematics import compute_motion, link_poses
+from ...model.pose import Pose, compute_norm, make_pose
 from ..common.lumping import LumpingPlan, plan_lumping
 
 WORLD = "world"
@@ -49,11 +49,11 @@ class Structure:
         """Tell whether the root link is the world instead of a body."""
         return self.root.name == WORLD
 
-    def kind(self, joint: Joint) -> str:
+    def get_kind(self, joint: Joint) -> str:
         """Return the kind of a joint: one of the values of ``KINDS``."""
         if joint.name in self.locked:
             return "weld"
-        if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < 1e-6:
+        if joint.has_axis and joint.axis is not None and compute_norm(joint.axis.xyz) < 1e-6:
             return "weld"
         return KINDS.get(joint.type, "weld")
 
@@ -62,12 +62,12 @@ class Structure:
         """Return the position [rad or m] of each joint that is welded for its equal limits."""
         if self.keep_locked:
             return {}
-        positions = ((joint.name, locked_at(joint)) for joint in self.robot.joints)
+        positions = ((joint.name, get_locked_at(joint)) for joint in self.robot.joints)
         return {name: position for name, position in positions if position is not None}
 
-    def joint_pose(self, joint: Joint) -> Pose:
+    def compute_joint_pose(self, joint: Joint) -> Pose:
         """Compute the pose of a joint's child in its parent, at the locked position or at zero."""
-        return pose_of(joint.origin) @ motion_of(joint, self.locked.get(joint.name, 0.0))
+        return make_pose(joint.origin) @ compute_motion(joint, self.locked.get(joint.name, 0.0))
 
     @cached_property
     def joints(self) -> list[Joint]:
@@ -78,13 +78,13 @@ class Structure:
     @cached_property
     def moving(self) -> list[Joint]:
         """Return the joints that are not welded, in MuJoCo's order."""
-        return [joint for joint in self.joints if self.kind(joint) != "weld"]
+        return [joint for joint in self.joints if self.get_kind(joint) != "weld"]
 
     @cached_property
     def _lumping(self) -> LumpingPlan:
         links = (self.root.name, *(joint.child for joint in self.joints))
         return plan_lumping(
-            self.robot, links, lambda joint: self.kind(joint) == "weld", self.joint_pose
+            self.robot, links, lambda joint: self.get_kind(joint) == "weld", self.compute_joint_pose
         )
 
     @property
@@ -102,7 +102,7 @@ class Structure:
         """Tell whether a link is rigidly attached to the world."""
         return not self.free and self.group[link] == self.root.name
 
-    def pose_in_group(self, link: str) -> Pose:
+    def get_pose_in_group(self, link: str) -> Pose:
         """Return the pose of a link in the frame of its rigid body's topmost link."""
         return self._lumping.pose[link]
 
@@ -110,11 +110,11 @@ class Structure:
     def _poses(self) -> dict[str, Pose]:
         return link_poses(self.robot, self.locked)
 
-    def pose_at_zero(self, link: str) -> Pose:
+    def get_pose_at_zero(self, link: str) -> Pose:
         """Return the pose of a link in the root's frame with every joint at zero or its lock."""
         return self._poses[link]
 
-    def body_name(self, link: str) -> str:
+    def get_body_name(self, link: str) -> str:
         """Return the name of a link's body; MuJoCo reserves the name ``world``."""
         return f"{WORLD}_link" if link == WORLD and link != self.root.name else link
 
@@ -127,7 +127,7 @@ class Structure:
         return found
 
 
-def bounds(joint: Joint) -> tuple[float, float] | None:
+def get_bounds(joint: Joint) -> tuple[float, float] | None:
     """Return lower and upper limit [rad or m]; None for an unlimited joint.
 
     A missing limit counts as zero, as the URDF specification defines.
@@ -137,13 +137,13 @@ def bounds(joint: Joint) -> tuple[float, float] | None:
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 
 
-def locked_at(joint: Joint) -> float | None:
+def get_locked_at(joint: Joint) -> float | None:
     """Return the position of a joint with equal limits [rad or m]; None if it can move."""
-    limits = bounds(joint)
+    limits = get_bounds(joint)
     return limits[0] if limits is not None and limits[0] == limits[1] else None
 
 
-def structure_of(robot: Robot, *, keep_locked: bool = False) -> Structure:
+def create_structure(robot: Robot, *, keep_locked: bool = False) -> Structure:
     """Create the structure of a robot with one root, with a fixed base.
 
     Args:

@@ -12,7 +12,7 @@ from io import BytesIO
 from pathlib import Path
 from zlib import crc32
 
-from ...extras import missing
+from ...extras import make_missing_error
 from ...storage import DiskCache, cache_folder, cache_key
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -26,7 +26,7 @@ _COLOR_TYPES = (0, 2, 3, 4, 6)
 """Gray, RGB, palette, gray with alpha, RGBA."""
 
 
-def png(image: Path | bytes) -> bytes | None:
+def get_png(image: Path | bytes) -> bytes | None:
     """Return an image as a PNG without unneeded chunks; convert other formats.
 
     Conversions are cached in the user's cache folder.
@@ -41,14 +41,14 @@ def png(image: Path | bytes) -> bytes | None:
         data = image if isinstance(image, bytes) else image.read_bytes()
     except OSError:
         return None
-    return _plain(data) or _converted(data)
+    return _get_plain(data) or _convert(data)
 
 
-def _plain(data: bytes) -> bytes | None:
+def _get_plain(data: bytes) -> bytes | None:
     """Return a valid PNG without unneeded chunks; None for other data."""
     if not data.startswith(SIGNATURE):
         return None
-    chunks = list(_chunks(data))
+    chunks = list(_list_chunks(data))
     if not chunks or chunks[0][0] != b"IHDR" or chunks[-1][0] != b"IEND":
         return None
     header = chunks[0][1]
@@ -75,10 +75,10 @@ def _plain(data: bytes) -> bytes | None:
     kept += [(b"tRNS", content) for content in clear]
     kept += [(b"IDAT", content) for content in parts.get(b"IDAT", [])]
     kept.append((b"IEND", b""))
-    return SIGNATURE + b"".join(_chunk(kind, content) for kind, content in kept)
+    return SIGNATURE + b"".join(_get_chunk(kind, content) for kind, content in kept)
 
 
-def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
+def _list_chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
     """Yield the chunks of a PNG up to ``IEND``, or up to the first with a wrong checksum."""
     start, kind = len(SIGNATURE), b""
     while kind != b"IEND":
@@ -92,12 +92,12 @@ def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
         start = end + 4
 
 
-def _chunk(kind: bytes, content: bytes) -> bytes:
+def _get_chunk(kind: bytes, content: bytes) -> bytes:
     checksum = crc32(kind + content).to_bytes(4, "big")
     return len(content).to_bytes(4, "big") + kind + content + checksum
 
 
-def _converted(data: bytes) -> bytes | None:
+def _convert(data: bytes) -> bytes | None:
     """Convert an image in any format that Pillow reads, or read the result from the cache.
 
     Raises:
@@ -108,14 +108,14 @@ def _converted(data: bytes) -> bytes | None:
     found = store.get(key)
     if found is not None:
         return found
-    made = _png_bytes(data)
+    made = _convert_png_bytes(data)
     if made is not None:
         store.put(key, made)
         store.trim()
     return made
 
 
-def _png_bytes(data: bytes) -> bytes | None:
+def _convert_png_bytes(data: bytes) -> bytes | None:
     """Convert an image in any format that Pillow reads to PNG; None if it is not an image.
 
     Raises:
@@ -124,7 +124,7 @@ def _png_bytes(data: bytes) -> bytes | None:
     try:
         from PIL import Image
     except ImportError as error:
-        raise missing("PIL", "converting a texture to PNG") from error
+        raise make_missing_error("PIL", "converting a texture to PNG") from error
     try:
         with Image.open(BytesIO(data)) as picture:
             target = BytesIO()
@@ -135,4 +135,4 @@ def _png_bytes(data: bytes) -> bytes | None:
     # Pillow raises arbitrary exceptions for damaged files
     except Exception:
         return None
-    return _plain(target.getvalue())
+    return _get_plain(target.getvalue())

@@ -13,7 +13,7 @@ from ..check import Check
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .declared_losses import CUT, SHAPES
-from .verify_shapes import loss_names
+from .verify_shapes import get_loss_names
 from .verify_source import Source
 
 GRIP = (1.0, 0.005, 0.0001)
@@ -32,7 +32,7 @@ MANY = 12
 """Maximum number of pairs reported individually."""
 
 
-def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def check_contact(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare which links can collide with each other and with a ground of default class."""
     check = Check("contact", "which links can make contact with each other and the ground", 0)
     model, flags = compiled.model, compiled.mujoco.mjtDisableBit
@@ -42,15 +42,17 @@ def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) 
     if model.npair:
         check.compare(math.inf, f"{model.npair} <pair> that the description does not require")
     touching = [link for link in source.robot.links if _count(link, compiled, check, declared)]
-    _foreign(source, compiled, check)
+    _report_foreign(source, compiled, check)
     apart, together = [], []
     excluded = {int(signature) for signature in model.exclude_signature}
-    overlapping = _overlapping(source, compiled)
+    overlapping = _find_overlapping(source, compiled)
     for one, other in combinations(touching, 2):
         expected = _may_touch(source, one.name, other.name)
-        if frozenset((compiled.body(one.name), compiled.body(other.name))) in overlapping:
+        if frozenset((compiled.get_body(one.name), compiled.get_body(other.name))) in overlapping:
             expected = False
-        if _can_touch(compiled, compiled.body(one.name), compiled.body(other.name), excluded):
+        if _can_touch(
+            compiled, compiled.get_body(one.name), compiled.get_body(other.name), excluded
+        ):
             if not expected:
                 together.append(f"links '{one.name}' and '{other.name}' can make contact")
         elif expected:
@@ -63,14 +65,14 @@ def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) 
     return check
 
 
-def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
+def _find_overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
     """Find the bodies that overlap at home without exclusions, if the options exclude these."""
     if source.options.exclude != "touching":
         return set()
     mujoco, model = compiled.mujoco, copy(compiled.model)
     model.exclude_signature[:] = 0
     data = mujoco.MjData(model)
-    key = compiled.id("KEY", "home")
+    key = compiled.get_id("KEY", "home")
     if key >= 0:
         mujoco.mj_resetDataKeyframe(model, data, key)
     mujoco.mj_forward(model, data)
@@ -83,9 +85,11 @@ def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
 
 def _count(link: Link, compiled: Compiled, check: Check, declared: DeclaredLosses) -> int:
     """Compare the number of colliding geoms of a link; return the number in the model."""
-    model, body = compiled.model, compiled.body(link.name)
-    solid = [g for g in compiled.geoms(body) if model.geom_contype[g] or model.geom_conaffinity[g]]
-    known = declared.of((*SHAPES, *CUT), *loss_names(link))
+    model, body = compiled.model, compiled.get_body(link.name)
+    solid = [
+        g for g in compiled.get_geoms(body) if model.geom_contype[g] or model.geom_conaffinity[g]
+    ]
+    known = declared.has_for((*SHAPES, *CUT), *get_loss_names(link))
     if len(solid) != len(link.collisions):
         text = (
             f"link '{link.name}': {len(solid)} geoms that make contact, of "
@@ -98,10 +102,10 @@ def _count(link: Link, compiled: Compiled, check: Check, declared: DeclaredLosse
     return len(solid)
 
 
-def _foreign(source: Source, compiled: Compiled, check: Check) -> None:
+def _report_foreign(source: Source, compiled: Compiled, check: Check) -> None:
     """Report colliding geoms on bodies that are not links."""
     model = compiled.model
-    links = {compiled.body(link.name) for link in source.robot.links}
+    links = {compiled.get_body(link.name) for link in source.robot.links}
     for geom in range(model.ngeom):
         solid = model.geom_contype[geom] or model.geom_conaffinity[geom]
         body = int(model.geom_bodyid[geom])
@@ -139,16 +143,16 @@ def _can_touch(compiled: Compiled, one: int, other: int, excluded: set[int]) -> 
     return True
 
 
-def surface_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def check_surface(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare friction and softness of collision geoms."""
     check = Check("surface", "friction of every collision; MuJoCo's softness, margin, condim", 1e-9)
-    plain = compiled.reference()
+    plain = compiled.get_reference()
     model = compiled.model
     for link in source.robot.links:
-        body = compiled.body(link.name)
+        body = compiled.get_body(link.name)
         sliding = source.number(link.name, "mu1", "mu")
         grip = GRIP if sliding is None or sliding < 0 else (sliding, *GRIP[1:])
-        for geom in compiled.geoms(body):
+        for geom in compiled.get_geoms(body):
             if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
                 continue
             off = float(abs(model.geom_friction[geom] - grip).max())

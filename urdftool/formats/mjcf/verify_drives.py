@@ -52,12 +52,12 @@ class Wanted:
     chosen: bool = False
 
 
-def actuator_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def check_actuator(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare the actuators with those that the description and the options require."""
     check = Check("actuators", "joint, kind, gear, gain, range of control and force", EXACT)
     model = compiled.model
-    wanted = dict(_wanted(source))
-    compiled.pose({})
+    wanted = dict(_list_required(source))
+    compiled.set_pose({})
     for number in range(model.nu):
         joint = compiled.name("JOINT", int(model.actuator_trnid[number][0]))
         if int(model.actuator_trntype[number]) != int(compiled.mujoco.mjtTrn.mjTRN_JOINT):
@@ -72,7 +72,7 @@ def actuator_check(source: Source, compiled: Compiled, declared: DeclaredLosses)
         else:
             _compare(number, joint, one, compiled, check)
     for joint in wanted:
-        known = declared.of((*TREE, *LIMITS), joint)
+        known = declared.has_for((*TREE, *LIMITS), joint)
         check.compare(math.inf, f"joint '{joint}' has no actuator", known=known)
     return check
 
@@ -82,7 +82,7 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
     model = compiled.model
     about = f"actuator of joint '{joint}'"
     gear = [wanted.gear, 0, 0, 0, 0, 0]
-    check.compare(_apart(model.actuator_gear[number], gear), f"gear of {about}")
+    check.compare(_compute_apart(model.actuator_gear[number], gear), f"gear of {about}")
     kinds = {"motor": (0, 0), "position": (0, 1), "velocity": (0, 1)}
     found = int(model.actuator_gaintype[number]), int(model.actuator_biastype[number])
     if found != kinds[wanted.kind] or int(model.actuator_dyntype[number]) != 0:
@@ -92,22 +92,22 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
         check.compare(math.inf, f"{about} has another name")
     gain, bias = model.actuator_gainprm[number], model.actuator_biasprm[number]
     if wanted.kind == "position" and not wanted.chosen:
-        compiled.pose(_at_home(compiled))
-        most = STIFFEST**2 * compiled.moved_by(joint)[0]
-        compiled.pose({})
+        compiled.set_pose(_get_at_home(compiled))
+        most = STIFFEST**2 * compiled.get_moved_by(joint)[0]
+        compiled.set_pose({})
         if wanted.gain > most > 0:  # the export rounds a bounded gain to three digits
             is_near = abs(gain[0] / most - 1) < THREE_DIGITS
             wanted = replace(wanted, gain=float(gain[0]) if is_near else most)
-    check.compare(_apart(gain[:3], [wanted.gain, 0, 0]), f"gain of {about}")
+    check.compare(_compute_apart(gain[:3], [wanted.gain, 0, 0]), f"gain of {about}")
     opposed = {"motor": (0.0, 0.0), "position": (-wanted.gain, None), "velocity": (0, -wanted.gain)}
     position, velocity = opposed[wanted.kind]
-    check.compare(_apart(bias[:2], [0, position]), f"feedback of {about}")
+    check.compare(_compute_apart(bias[:2], [0, position]), f"feedback of {about}")
     if wanted.damping is not None:
         velocity = -wanted.damping
     if velocity is not None:
-        check.compare(_apart(bias[2], velocity), f"damping of {about}")
+        check.compare(_compute_apart(bias[2], velocity), f"damping of {about}")
     else:
-        critical = [2 * math.sqrt(wanted.gain * mass) for mass in compiled.moved_by(joint)]
+        critical = [2 * math.sqrt(wanted.gain * mass) for mass in compiled.get_moved_by(joint)]
         off = min(abs(-bias[2] - each) / max(each, 1e-9) for each in critical)
         check.compare(off * EXACT / DAMPING, f"damping of {about}")
     bound = wanted.bound
@@ -115,19 +115,19 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
     if limited != (bound is not None):
         check.compare(math.inf, f"range of the control of {about}")
     elif bound is not None:
-        off = _apart(model.actuator_ctrlrange[number], bound)
+        off = _compute_apart(model.actuator_ctrlrange[number], bound)
         check.compare(off, f"range of the control of {about}")
     if bool(model.actuator_forcelimited[number]) != (wanted.force is not None):
         check.compare(math.inf, f"{about} has a different force limit")
     elif wanted.force is not None:
-        off = _apart(model.actuator_forcerange[number], wanted.force)
+        off = _compute_apart(model.actuator_forcerange[number], wanted.force)
         check.compare(off, f"range of the force of {about}")
 
 
-def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
+def _list_required(source: Source) -> Iterator[tuple[str, Wanted]]:
     """Yield the required actuator of each joint, by joint name."""
     choice = source.options.actuators
-    said = dict(_said(source)) if choice == "auto" else {}
+    said = dict(_list_described(source)) if choice == "auto" else {}
     for joint in source.robot.joints:
         if joint.type not in ("revolute", "continuous", "prismatic") or not source.moves(joint):
             continue
@@ -145,10 +145,10 @@ def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
         if kind is not None and (drive is None or drive[0] != kind):
             drive = kind, 1.0
         if drive is not None:
-            yield joint.name, _configured(_drive(joint, *drive, settings.force_range), settings)
+            yield joint.name, _get_configured(_drive(joint, *drive, settings.force_range), settings)
 
 
-def _configured(wanted: Wanted, settings: JointSettings) -> Wanted:
+def _get_configured(wanted: Wanted, settings: JointSettings) -> Wanted:
     """Return an actuator with the gains that the user set."""
     wanted = replace(wanted, force=settings.force_range)
     if wanted.kind == "position":
@@ -160,9 +160,9 @@ def _configured(wanted: Wanted, settings: JointSettings) -> Wanted:
     return wanted
 
 
-def _at_home(compiled: Compiled) -> dict[str, float]:
+def _get_at_home(compiled: Compiled) -> dict[str, float]:
     """Return the positions of hinges and slides in the key ``home``, by joint."""
-    model, key = compiled.model, compiled.id("KEY", "home")
+    model, key = compiled.model, compiled.get_id("KEY", "home")
     return {
         compiled.name("JOINT", number): float(model.key_qpos[key][model.jnt_qposadr[number]])
         for number in range(model.njnt)
@@ -170,7 +170,7 @@ def _at_home(compiled: Compiled) -> dict[str, float]:
     }
 
 
-def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
+def _list_described(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
     """Yield kind and gear by joint: from drive plugins, then transmissions, then ros2_control."""
     for plugin in source.drive_plugins:
         for element in plugin.walk():
@@ -184,22 +184,22 @@ def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
             words = [*joint.hardware_interfaces]
             for actuator in transmission.actuators:
                 words += actuator.hardware_interfaces
-            kind = _kind(words)
+            kind = _format_kind(words)
             yield joint.name, (kind, gears[0] if gears and kind == "motor" else 1.0)
     for control in source.robot.ros2_controls:
         for component in control.joints:
             names = [interface.name for interface in component.command_interfaces]
             if names:
-                yield component.name, (_kind(names), 1.0)
+                yield component.name, (_format_kind(names), 1.0)
 
 
 def _turns(joint: Joint) -> bool:
     """Tell whether a joint can rotate like a wheel, instead of steering."""
-    limits = _limits(joint)
+    limits = _collect_limits(joint)
     return limits is None or not -7.0 < limits[0] < limits[1] < 7.0
 
 
-def _kind(interfaces: list[str]) -> str:
+def _format_kind(interfaces: list[str]) -> str:
     for text in interfaces:
         last = text.lower().split("/")[-1]
         found = [word for word in WORDS if word in last]
@@ -214,7 +214,7 @@ def _follows(source: Source, joint: Joint) -> bool:
     return joint.mimic.joint != joint.name and joint.mimic.joint in source.robot.joint
 
 
-def _limits(joint: Joint) -> tuple[float, float] | None:
+def _collect_limits(joint: Joint) -> tuple[float, float] | None:
     if joint.type == "continuous" or joint.limit is None:
         return None
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
@@ -233,12 +233,12 @@ def _drive(
         return Wanted(kind, gear, 1.0, (-bound, bound) if effort else None)
     if kind == "position":
         gain = (100.0 if slides else 10.0) * (effort or 10.0)
-        limits = _limits(joint)
+        limits = _collect_limits(joint)
         return Wanted(kind, 1.0, gain, limits if limits and limits[0] < limits[1] else None)
     gain = 10.0 * effort / velocity if effort and velocity else (100.0 if slides else 10.0)
     return Wanted(kind, 1.0, gain, (-velocity, velocity) if velocity else None)
 
 
-def _apart(found: object, expected: object) -> float:
+def _compute_apart(found: object, expected: object) -> float:
     one, other = np.asarray(found, dtype=float), np.asarray(expected, dtype=float)
     return float(np.max(abs(one - other) / np.maximum(1.0, abs(other))))

@@ -53,31 +53,33 @@ def fuse_check(
         return check
     for positions in configurations:
         for compiled in (plain, fused):
-            compiled.pose(positions)
+            compiled.set_pose(positions)
         for link in links:
-            expected, found = plain.frame(link), _frame(fused, link)
+            expected, found = plain.get_frame(link), _get_frame(fused, link)
             off = math.inf
             if expected is not None and found is not None:
                 off = float(abs(found - expected).max())
             check.compare(off, f"frame of link '{link}'")
         for site in range(plain.model.nsite):
             name = plain.name("SITE", site)
-            number = fused.id("SITE", name)
+            number = fused.get_id("SITE", name)
             off = math.inf
             if number >= 0:
-                off = float(abs(plain.site_frame(site) - fused.site_frame(number)).max())
+                off = float(abs(plain.get_site_frame(site) - fused.get_site_frame(number)).max())
             check.compare(off, f"site '{name}'")
         everything = list(range(plain.model.nv))
-        one, other = plain.mass_matrix(everything), fused.mass_matrix(everything)
-        check.compare(_relative(one, other) * FRAME / plain.tensor_rounding, "the mass matrix")
-        check.compare(_relative(plain.data.qfrc_bias, fused.data.qfrc_bias), "gravity")
-        check.compare(_unlike(*(_shapes(c) for c in (plain, fused))), "a shape")
+        one, other = plain.compute_mass_matrix(everything), fused.compute_mass_matrix(everything)
+        check.compare(
+            _compute_relative(one, other) * FRAME / plain.tensor_rounding, "the mass matrix"
+        )
+        check.compare(_compute_relative(plain.data.qfrc_bias, fused.data.qfrc_bias), "gravity")
+        check.compare(_get_unlike(*(_get_shapes(c) for c in (plain, fused))), "a shape")
         for compiled in (plain, fused):
             compiled.mujoco.mj_passive(compiled.model, compiled.data)
         force = plain.data.qfrc_passive, fused.data.qfrc_passive
-        check.compare(_relative(*force), "springs or gravity flags")
+        check.compare(_compute_relative(*force), "springs or gravity flags")
     compare_fields(plain, fused, check)
-    for pair in _touching(plain) ^ _touching(fused):
+    for pair in _get_touching(plain) ^ _get_touching(fused):
         check.compare(math.inf, f"contact of shapes {sorted(pair)}")
     return check
 
@@ -110,31 +112,31 @@ def compare_fields(
         names = [c.name("SITE", int(c.model.sensor_objid[number])) for c in (plain, fused)]
         check.compare(0 if names[0] == names[1] else math.inf, f"site of sensor {number}")
     for number in range(plain.model.ncam):
-        other = fused.id("CAMERA", plain.name("CAMERA", number))
+        other = fused.get_id("CAMERA", plain.name("CAMERA", number))
         off = math.inf
         if other >= 0:
-            off = float(abs(plain.camera_frame(number) - fused.camera_frame(other)).max())
+            off = float(abs(plain.get_camera_frame(number) - fused.get_camera_frame(other)).max())
         check.compare(off, f"camera '{plain.name('CAMERA', number)}'")
 
 
-def _frame(compiled: Compiled, link: str) -> Array | None:
+def _get_frame(compiled: Compiled, link: str) -> Array | None:
     """Return the pose of a link in the root's frame, of its body or of the site of its name."""
-    if compiled.body(link) >= 0:
-        return compiled.frame(link)
+    if compiled.get_body(link) >= 0:
+        return compiled.get_frame(link)
     for name in (link, f"{link}_frame"):
-        site = compiled.id("SITE", name)
+        site = compiled.get_id("SITE", name)
         if site >= 0:
-            return compiled.site_frame(site)
+            return compiled.get_site_frame(site)
     return None
 
 
-def _shapes(compiled: Compiled) -> Array:
+def _get_shapes(compiled: Compiled) -> Array:
     """Return kind, group, size, pose, contact and appearance of every geom, one row each."""
     model = compiled.model
     rows = [
         [
             float(model.geom_type[geom]), float(model.geom_group[geom]), *model.geom_size[geom],
-            *compiled.geom_frame(geom)[:3].ravel(),
+            *compiled.get_geom_frame(geom)[:3].ravel(),
             *(
                 float(value)
                 for field in OF_GEOMS
@@ -147,7 +149,7 @@ def _shapes(compiled: Compiled) -> Array:
     return table
 
 
-def _unlike(one: Array, other: Array) -> float:
+def _get_unlike(one: Array, other: Array) -> float:
     """Return the largest difference between the rows of two tables, matched to the nearest row."""
     if one.shape != other.shape:
         return math.inf
@@ -160,7 +162,7 @@ def _unlike(one: Array, other: Array) -> float:
     return worst
 
 
-def _touching(compiled: Compiled) -> set[tuple[str, str]]:
+def _get_touching(compiled: Compiled) -> set[tuple[str, str]]:
     """Return the pairs of geoms, by name, that rigid bodies and exclusions let collide."""
     model = compiled.model
     excluded = {int(signature) for signature in model.exclude_signature}
@@ -180,7 +182,7 @@ def _touching(compiled: Compiled) -> set[tuple[str, str]]:
     return {(min(pair), max(pair)) for pair in pairs}
 
 
-def _relative(one: Array, other: Array) -> float:
+def _compute_relative(one: Array, other: Array) -> float:
     if one.shape != other.shape:
         return math.inf
     size = max(float(abs(one).max(initial=0.0)), 1e-12)

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...model.elements import Joint
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..check import Check
 from ..common.losses import DeclaredLosses
@@ -26,13 +26,13 @@ STATES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")
 """Names of group states, in order of preference for the home configuration."""
 
 
-def base_check(source: Source, compiled: Compiled) -> Check:
+def check_base(source: Source, compiled: Compiled) -> Check:
     """Compare whether the root is fixed, and its pose."""
     free = source.is_free
     what = f"root {'free, on the floor' if free else 'held'}, its pose; no other bodies"
     check = Check("base", what, EXACT)
     model = compiled.model
-    root = 0 if source.root == "world" else compiled.body(source.root)
+    root = 0 if source.root == "world" else compiled.get_body(source.root)
     if root < 0:
         check.compare(math.inf, f"root link '{source.root}' is missing")
         return check
@@ -42,32 +42,32 @@ def base_check(source: Source, compiled: Compiled) -> Check:
         check.compare(math.inf, f"root link '{source.root}' is {'free' if kinds else 'held'}")
     if root > 0 and model.body_parentid[root] != 0:
         check.compare(math.inf, f"root link '{source.root}' is not a body of the world")
-    compiled.pose({})
+    compiled.set_pose({})
     if root > 0:
         _compare_place(source, compiled, free, "the root", check)
-    links = {compiled.body(link.name) for link in source.robot.links}
+    links = {compiled.get_body(link.name) for link in source.robot.links}
     for body in range(1, model.nbody):
         if body not in links:
             check.compare(math.inf, f"body '{compiled.name('BODY', body)}' is not a link")
     return check
 
 
-def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def check_home(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare the key ``home``: limits, mimics, required positions, controls, floor."""
     check = Check("home", "limits, mimics, required positions, controls, floor", EXACT)
     model = compiled.model
-    key = compiled.id("KEY", "home")
+    key = compiled.get_id("KEY", "home")
     if key < 0:
         check.compare(math.inf, "there is no key 'home'")
         return check
-    positions = compiled.positions_of_key(key)
-    asked = _asked(source)
+    positions = compiled.get_positions_of_key(key)
+    asked = _get_required(source)
     for joint in source.robot.joints:
         if joint.name not in positions:
             continue
         found = positions[joint.name]
-        known = declared.of(("lossy-home", "lossy-limit-inverted", "lossy-mimic"), joint.name)
-        lower, upper = _limits(joint)
+        known = declared.has_for(("lossy-home", "lossy-limit-inverted", "lossy-mimic"), joint.name)
+        lower, upper = _collect_limits(joint)
         if lower <= upper:
             beyond = max(lower - found, found - upper, 0.0)
             check.compare(beyond, f"joint '{joint.name}' is beyond its limits", known=known)
@@ -77,7 +77,7 @@ def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> 
             off = abs(found - min(max(wanted, lower), upper) if lower < upper else found - wanted)
             check.compare(off, f"joint '{joint.name}' does not follow '{joint.mimic.joint}'")
         elif joint.mimic is None:
-            low, high = _allowed(source, joint)
+            low, high = _get_allowed(source, joint)
             wanted = asked.get(joint.name, 0.0)
             wanted = min(max(wanted, low), high) if low <= high else wanted
             check.compare(abs(found - wanted), f"joint '{joint.name}' is at {found:g}", known=known)
@@ -89,7 +89,7 @@ def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> 
         check.compare(off, f"control of joint '{driven}'")
     if np.any(model.key_qvel[key]) or np.any(model.key_act[key]):
         check.compare(math.inf, "the robot moves")
-    compiled.pose_at_key(key)
+    compiled.set_pose_at_key(key)
     if source.is_free:
         _compare_place(source, compiled, True, "the root", check)
     return check
@@ -97,10 +97,10 @@ def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> 
 
 def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, check: Check) -> None:
     """Compare the pose of the root; a free root stands on the floor."""
-    root = max(compiled.body(source.root), 0)
-    place, rotation = _origin(source)
+    root = max(compiled.get_body(source.root), 0)
+    place, rotation = _get_origin(source)
     found = np.array(compiled.data.xpos[root])
-    low, size = lowest_point(compiled)
+    low, size = get_lowest_point(compiled)
     count = 2 if free and math.isfinite(low) else 3
     check.compare(float(abs(found[:count] - place[:count]).max()), f"{what} is at another pose")
     if count == 2:
@@ -109,18 +109,22 @@ def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, ch
     check.compare(off, f"{what} is turned")
 
 
-def _origin(source: Source) -> tuple[Array, Array]:
+def _get_origin(source: Source) -> tuple[Array, Array]:
     """Return position and rotation of the whole robot in the description."""
     origin = source.robot.element.child("origin")
-    place = (numbers(origin.get("xyz"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
-    angles = (numbers(origin.get("rpy"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
+    place = (parse_numbers(origin.get("xyz"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
+    angles = (parse_numbers(origin.get("rpy"), 3) if origin is not None else None) or (
+        0.0,
+        0.0,
+        0.0,
+    )
     rotation = np.eye(3)
     for axis, angle in zip(np.eye(3), angles, strict=True):
         rotation = turn(axis, angle) @ rotation
     return np.array(place), rotation
 
 
-def lowest_point(compiled: Compiled) -> tuple[float, float]:
+def get_lowest_point(compiled: Compiled) -> tuple[float, float]:
     """Return the lowest point of the collision geometry, and its height [m]; inf without geometry.
 
     Without collision geometry, visual geometry is measured.
@@ -133,12 +137,12 @@ def lowest_point(compiled: Compiled) -> tuple[float, float]:
             continue
         way = data.geom_xmat[geom].reshape(3, 3)[2]
         middle = float(data.geom_xpos[geom][2])
-        a, b = (middle + reach for reach in _reaches(compiled, geom, way))
+        a, b = (middle + reach for reach in _get_reaches(compiled, geom, way))
         low, high = min(low, a), max(high, b)
     return low, high - low
 
 
-def _reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
+def _get_reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
     """Return the lower and upper extent of a geom [m], from the third row of its rotation."""
     model, kinds = compiled.model, compiled.mujoco.mjtGeom
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
@@ -160,17 +164,17 @@ def _reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
     return -half, half
 
 
-def _limits(joint: Joint) -> tuple[float, float]:
+def _collect_limits(joint: Joint) -> tuple[float, float]:
     if joint.type not in ("revolute", "prismatic") or joint.limit is None:
         return -math.inf, math.inf
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 
 
-def _allowed(source: Source, joint: Joint) -> tuple[float, float]:
+def _get_allowed(source: Source, joint: Joint) -> tuple[float, float]:
     """Return the range of a joint for which its mimic joints are within their limits, too."""
-    low, high = _limits(joint)
+    low, high = _collect_limits(joint)
     for other in source.robot.joints:
-        mimic, bounds = other.mimic, _limits(other)
+        mimic, bounds = other.mimic, _collect_limits(other)
         if mimic is None or mimic.joint != joint.name or not mimic.multiplier:
             continue
         if bounds[0] < bounds[1] and math.isfinite(bounds[0]):
@@ -180,7 +184,7 @@ def _allowed(source: Source, joint: Joint) -> tuple[float, float]:
     return low, high
 
 
-def _asked(source: Source) -> dict[str, float]:
+def _get_required(source: Source) -> dict[str, float]:
     """Return the positions that ros2_control, a group state of the SRDF, and the user require."""
     found: dict[str, float] = {}
     for control in source.robot.ros2_controls:
@@ -193,7 +197,7 @@ def _asked(source: Source) -> dict[str, float]:
                 if interface.name == "position" and value is not None:
                     found[component.name] = value
     found.update(_state(source))
-    found.update(_given(source.options.pose))
+    found.update(_get_user_positions(source.options.pose))
     return {
         name: value
         for name, value in found.items()
@@ -201,7 +205,7 @@ def _asked(source: Source) -> dict[str, float]:
     }
 
 
-def _given(pose: Mapping[str, float]) -> dict[str, float]:
+def _get_user_positions(pose: Mapping[str, float]) -> dict[str, float]:
     return {name: float(value) for name, value in pose.items()}
 
 

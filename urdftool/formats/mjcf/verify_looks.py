@@ -21,7 +21,7 @@ from ..sdf.colors import COLORS
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
 from .verify_meshes import SourceMeshes
-from .verify_shapes import has_size, link_geoms, loss_names
+from .verify_shapes import get_loss_names, has_size, link_geoms
 from .verify_source import Source
 
 Rgba = tuple[float, ...]
@@ -45,16 +45,16 @@ class Look:
     image: Image | None = None
 
 
-def material_check(
+def check_material(
     source: Source, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
 ) -> Check:
     """Compare the color and the image of every visual geom."""
     check = Check("materials", "color, image and gloss of visual geometry", SINGLE)
     model, pictures = compiled.model, Pictures(compiled)
-    plain = compiled.reference()
+    plain = compiled.get_reference()
     for link in source.robot.links:
-        known = declared.of((*LOOKS, *SHAPES), *loss_names(link))
-        looks = list(_looks(source, meshes, link))
+        known = declared.has_for((*LOOKS, *SHAPES), *get_loss_names(link))
+        looks = list(_list_looks(source, meshes, link))
         geoms = list(link_geoms(compiled, link, VISUAL_GROUP))
         if len(looks) != len(geoms):
             text = f"link '{link.name}': {len(geoms)} visual geoms, of {len(looks)}"
@@ -65,11 +65,11 @@ def material_check(
             rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
             off = float(abs(np.array(rgba) - look.rgba).max())
             check.compare(off, f"color of link '{link.name}'", known=known)
-            texture = pictures.texture(material)
+            texture = pictures.get_texture(material)
             if (texture >= 0) != (look.image is not None):
                 text = "is missing" if look.image is not None else "is not in the description"
                 check.compare(math.inf, f"image of link '{link.name}' {text}", known=known)
-            elif look.image is not None and not pictures.same(texture, look.image):
+            elif look.image is not None and not pictures.is_same(texture, look.image):
                 check.compare(math.inf, f"image of link '{link.name}' differs", known=known)
             for field in ("emission", "specular", "shininess", "reflectance", "texrepeat"):
                 if material >= 0:
@@ -79,19 +79,19 @@ def material_check(
     return check
 
 
-def _looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
+def _list_looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
     """Yield the expected appearance of each geom of a link's visuals, in file order."""
     for visual in link.visuals:
         if not has_size(meshes, visual):
             continue
-        own = _own(source, link, visual)
+        own = _get_own(source, link, visual)
         if not isinstance(visual.geometry, Mesh):
             yield own
             continue
         mesh = meshes.read(visual.geometry.filename, visual.geometry.scale)
         if mesh is None:
             continue
-        parts = dict.fromkeys((part.rgba, _part_image(part)) for part in mesh.parts)
+        parts = dict.fromkeys((part.rgba, _get_part_image(part)) for part in mesh.parts)
         for rgba, image in parts:
             there = image is not None and (isinstance(image, bytes) or os.path.isfile(image))
             if there:
@@ -102,11 +102,11 @@ def _looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
                 yield own
 
 
-def _own(source: Source, link: Link, visual: Visual) -> Look:
+def _get_own(source: Source, link: Link, visual: Visual) -> Look:
     """Return the appearance of a visual by its material, or by Gazebo's if it has none."""
-    material = _defined(source.robot, visual.material)
+    material = _get_defined(source.robot, visual.material)
     if material is None:
-        said = (source.value(link.name, "material") or "").split("/")[-1]
+        said = (source.get_value(link.name, "material") or "").split("/")[-1]
         color = COLORS.get(f"Gazebo/{said}")
         return Look((*color.diffuse, color.alpha) if color and visual.material is None else GREY)
     if material.texture and source.robot.source is not None:
@@ -119,7 +119,7 @@ def _own(source: Source, link: Link, visual: Visual) -> Look:
     return Look(material.color or GREY)
 
 
-def _defined(robot: Robot, material: Material | None) -> Material | None:
+def _get_defined(robot: Robot, material: Material | None) -> Material | None:
     """Return a material with a color or an image: itself, or the first of its name that has one."""
     if material is None:
         return None
@@ -130,7 +130,7 @@ def _defined(robot: Robot, material: Material | None) -> Material | None:
     return None
 
 
-def _part_image(part: Part) -> Image | None:
+def _get_part_image(part: Part) -> Image | None:
     """Return the image of a part of a mesh with complete texture coordinates."""
     if part.uv is None or not np.all(np.isfinite(part.uv)):
         return None
@@ -147,20 +147,20 @@ class Pictures:
         kinds = compiled.mujoco.mjtTextureRole
         self._role = int(kinds.mjTEXROLE_RGB)
 
-    def texture(self, material: int) -> int:
+    def get_texture(self, material: int) -> int:
         """Return the index of a material's image; -1 for none."""
         model = self._compiled.model
         return int(model.mat_texid[material][self._role]) if material >= 0 else -1
 
-    def same(self, texture: int, image: Image) -> bool:
+    def is_same(self, texture: int, image: Image) -> bool:
         """Tell whether an image of the model has the same pixels as one of the description."""
         if image not in self._read:
-            self._read[image] = self._pixels(image)
+            self._read[image] = self._get_pixels(image)
         expected = self._read[image]
-        found = _colors_of(self._compiled.model, texture)
+        found = _make_colors(self._compiled.model, texture)
         return expected is not None and np.array_equal(found, expected)
 
-    def _pixels(self, image: Image) -> Any:
+    def _get_pixels(self, image: Image) -> Any:
         """Return red, green and blue of an image, read by MuJoCo if possible, else by Pillow."""
         data = image if isinstance(image, bytes) else image.read_bytes()
         text = "<texture type='2d' name='a' file='a.png'/>"
@@ -169,11 +169,11 @@ class Pictures:
                 f"<mujoco><asset>{text}</asset></mujoco>", {"a.png": data}
             )
         except ValueError:
-            return _by_pillow(data)
-        return _colors_of(model, 0)
+            return _get_by_pillow(data)
+        return _make_colors(model, 0)
 
 
-def _by_pillow(data: bytes) -> Any:
+def _get_by_pillow(data: bytes) -> Any:
     """Return red, green and blue of an image that is not a PNG; None if it cannot be read."""
     try:
         from PIL import Image as Pillow
@@ -184,7 +184,7 @@ def _by_pillow(data: bytes) -> Any:
         return None
 
 
-def _colors_of(model: Any, texture: int) -> Any:
+def _make_colors(model: Any, texture: int) -> Any:
     height, width = int(model.tex_height[texture]), int(model.tex_width[texture])
     channels, first = int(model.tex_nchannel[texture]), int(model.tex_adr[texture])
     data = model.tex_data[first : first + height * width * channels]

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...model.elements import Robot
-from ...model.read import numbers
+from ...model.read import parse_numbers
 from ...source.document import Element
 from ..check import Check
 from ..common.losses import DeclaredLosses
@@ -24,21 +24,21 @@ def compare_loops(robot: Robot, compiled: Compiled, declared: DeclaredLosses, ch
         for joint in block.element.all("joint"):
             held = _holds(joint, compiled)
             name = joint.get("name") or ""
-            known = declared.of(LOOPS, block.reference or "", name)
+            known = declared.has_for(LOOPS, block.reference or "", name)
             check.compare(0 if held else math.inf, f"joint '{name}' of a loop", known=known)
 
 
-def loop_ends(robot: Robot, compiled: Compiled) -> Iterator[tuple[int, int]]:
+def list_loop_ends(robot: Robot, compiled: Compiled) -> Iterator[tuple[int, int]]:
     """Yield the bodies that each loop-closing joint connects."""
     for block in robot.extensions.get(None, ()):
         for joint in block.element.all("joint"):
-            yield _body(joint, "child", compiled), _body(joint, "parent", compiled)
+            yield _get_body(joint, "child", compiled), _get_body(joint, "parent", compiled)
 
 
 def _holds(joint: Element, compiled: Compiled) -> bool:
     model, kinds = compiled.model, compiled.mujoco.mjtEq
     kind = HELD.get(joint.get("type") or "")
-    ends = [_body(joint, end, compiled) for end in ("child", "parent")]
+    ends = [_get_body(joint, end, compiled) for end in ("child", "parent")]
     pose = joint.child("pose")
     plain = pose is None or not pose.attributes
     for number in range(model.neq if kind else 0):
@@ -46,15 +46,15 @@ def _holds(joint: Element, compiled: Compiled) -> bool:
             continue
         if [model.eq_obj1id[number], model.eq_obj2id[number]] != ends:
             continue
-        place = numbers(pose.text, 6) if pose is not None else None
+        place = parse_numbers(pose.text, 6) if pose is not None else None
         anchor = np.array(place or [0.0] * 6)[:3]
         if kind == "WELD" or not plain or abs(model.eq_data[number][:3] - anchor).max() < 1e-12:
             return True
     return False
 
 
-def _body(joint: Element, end: str, compiled: Compiled) -> int:
+def _get_body(joint: Element, end: str, compiled: Compiled) -> int:
     element = joint.child(end)
     name = element.text.strip().rpartition("::")[2] if element is not None else ""
-    found = compiled.body(name)
+    found = compiled.get_body(name)
     return 0 if found < 0 and name == "world" else found

@@ -22,14 +22,14 @@ LEAF_ARMATURE = 1e-4
 """Armature [kg·m² or kg] of the joint of a massless leaf link."""
 
 
-def gravity_flag_check(source: Source, compiled: Compiled) -> Check:
+def check_gravity_flag(source: Source, compiled: Compiled) -> Check:
     """Compare which links gravity acts on."""
     check = Check("gravity flags", "on which links gravity acts", EXACT)
     for link in source.robot.links:
-        body = compiled.body(link.name)
+        body = compiled.get_body(link.name)
         off = 0.0
         for tag, means_off in (("turnGravityOff", True), ("gravity", False)):
-            said = (source.value(link.name, tag) or "").lower()
+            said = (source.get_value(link.name, tag) or "").lower()
             if said:
                 off = float((said in ("true", "1", "yes")) == means_off)
         if body > 0:
@@ -38,28 +38,31 @@ def gravity_flag_check(source: Source, compiled: Compiled) -> Check:
     return check
 
 
-def joint_physics_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def check_joint_physics(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare springs, armature, limit softness, and the dynamics of each degree of freedom."""
     check = Check("joint physics", "springs, armature, stiffness of limits, lower effort", EXACT)
-    model, plain = compiled.model, compiled.reference()
+    model, plain = compiled.model, compiled.get_reference()
     for joint in source.robot.joints:
         light = _is_weightless(source, joint)
-        for number in _numbers(joint, compiled):
+        for number in _get_numbers(joint, compiled):
             name = f"joint '{joint.name}'"
             single = joint.type in ("revolute", "continuous", "prismatic", "planar")
-            stiffness = 0.0 if joint.type == "floating" else _stiffness(source, joint.name)
+            stiffness = 0.0 if joint.type == "floating" else _compute_stiffness(source, joint.name)
             reference = source.number(joint.name, "springReference") or 0.0
             found = float(np.ravel(model.jnt_stiffness[number])[0])
-            check.compare(_apart(found, stiffness), f"spring of {name}")
+            check.compare(_compute_apart(found, stiffness), f"spring of {name}")
             if single:
                 rest = float(model.qpos_spring[model.jnt_qposadr[number]])
                 check.compare(
-                    _apart(rest, reference if stiffness else 0.0), f"spring reference of {name}"
+                    _compute_apart(rest, reference if stiffness else 0.0),
+                    f"spring reference of {name}",
                 )
             _compare_dofs(source, joint, number, light, compiled, check)
             for field in STOPS:
-                _same_default(model, plain, f"jnt_{field}", number, f"{field} of {name}", check)
-    root = compiled.id("JOINT", f"{source.root}_freejoint")
+                _compare_same_default(
+                    model, plain, f"jnt_{field}", number, f"{field} of {name}", check
+                )
+    root = compiled.get_id("JOINT", f"{source.root}_freejoint")
     for dof in range(6 if root >= 0 else 0):
         found = float(model.dof_armature[model.jnt_dofadr[root] + dof])
         found += float(np.ravel(model.dof_damping[model.jnt_dofadr[root] + dof])[0])
@@ -67,14 +70,14 @@ def joint_physics_check(source: Source, compiled: Compiled, declared: DeclaredLo
     return check
 
 
-def _numbers(joint: Joint, compiled: Compiled) -> list[int]:
+def _get_numbers(joint: Joint, compiled: Compiled) -> list[int]:
     """Return the indices of the MuJoCo joints of a joint."""
     names = [joint.name + end for end in ("_TX", "_TY", "_RZ")]
     names = names if joint.type == "planar" else [joint.name]
-    return [number for name in names if (number := compiled.id("JOINT", name)) >= 0]
+    return [number for name in names if (number := compiled.get_id("JOINT", name)) >= 0]
 
 
-def _stiffness(source: Source, name: str) -> float:
+def _compute_stiffness(source: Source, name: str) -> float:
     return source.number(name, "springStiffness") or 0.0
 
 
@@ -82,7 +85,7 @@ def _compare_dofs(
     source: Source, joint: Joint, number: int, light: bool, compiled: Compiled, check: Check
 ) -> None:
     """Compare armature, damping and friction of each degree of freedom of a joint."""
-    model, plain = compiled.model, compiled.reference()
+    model, plain = compiled.model, compiled.get_reference()
     first = int(model.jnt_dofadr[number])
     count = {0: 6, 1: 3}.get(int(model.jnt_type[number]), 1)
     dynamics = joint.dynamics if joint.type != "floating" else None
@@ -99,13 +102,13 @@ def _compare_dofs(
     for dof in range(first, first + count):
         for field, value in wanted.items():
             found = float(np.ravel(getattr(model, f"dof_{field}")[dof])[0])
-            check.compare(_apart(found, value), f"{field} of joint '{joint.name}'")
+            check.compare(_compute_apart(found, value), f"{field} of joint '{joint.name}'")
         for field in LOSSES:
             text = f"{field} of joint '{joint.name}'"
-            _same_default(model, plain, f"dof_{field}", dof, text, check)
+            _compare_same_default(model, plain, f"dof_{field}", dof, text, check)
 
 
-def _same_default(
+def _compare_same_default(
     model: object, plain: object, field: str, number: int, text: str, check: Check
 ) -> None:
     """Compare a field with MuJoCo's default, if this version of MuJoCo has it."""
@@ -121,23 +124,23 @@ def _is_weightless(source: Source, joint: Joint) -> bool:
     return sum(max(source.robot.link[name].mass, 0.0) for name in below) <= 1e-14
 
 
-def _apart(found: float, expected: float) -> float:
+def _compute_apart(found: float, expected: float) -> float:
     return abs(found - expected) / max(1.0, abs(expected))
 
 
-def option_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def check_option(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare gravity and the other physics options with those that ``<mujoco>`` requires."""
     check = Check("options", "gravity, medium, solver, flags, as <mujoco> says", EXACT)
     written = dict(compiled.written_options)
-    asked = compiled.options_of(_asked(source))
-    known = declared.any("lossy-mujoco", "bad-extension-number")
+    asked = compiled.get_options(_get_required_option(source))
+    known = declared.has_any("lossy-mujoco", "bad-extension-number")
     for name, value in asked.items():
         off = float(np.max(abs(np.subtract(written[name], value))))
         check.compare(off, f"{name} is {written[name]}, not {value}", known=known)
     return check
 
 
-def _asked(source: Source) -> str:
+def _get_required_option(source: Source) -> str:
     """Return the ``<option>`` element that the description requires."""
     values = {"integrator": "implicitfast"}
     if source.is_free or any(joint.type == "floating" for joint in source.robot.joints):
@@ -148,8 +151,8 @@ def _asked(source: Source) -> str:
             values.update(option.attributes)
             for flag in option.all("flag"):
                 flags.update(flag.attributes)
-    return f"<option {_text(values)}><flag {_text(flags)}/></option>"
+    return f"<option {_format_text(values)}><flag {_format_text(flags)}/></option>"
 
 
-def _text(values: dict[str, str]) -> str:
+def _format_text(values: dict[str, str]) -> str:
     return " ".join(f"{name}={quoteattr(value)}" for name, value in values.items())

@@ -16,7 +16,7 @@ import numpy as np
 from ..check import Check
 from ..common.losses import DeclaredLosses
 from ..mechanics import Array
-from .compiled import mujoco_module
+from .compiled import import_mujoco_module
 
 TIMESTEPS = (0.002, 0.005)
 """Physics time steps [s] at which a model must run: MuJoCo's default, and a usual longer one."""
@@ -57,16 +57,16 @@ class Trial:
     speed: float = 0.0
     is_free: bool = False
 
-    def faults(self) -> list[str]:
+    def list_faults(self) -> list[str]:
         """List all faults as text; empty for a model that runs."""
-        return [*self.instabilities(), *self.excesses(), *self.drifts()]
+        return [*self.list_instabilities(), *self.list_excesses(), *self.describe_drifts()]
 
-    def drifts(self) -> Iterator[str]:
+    def describe_drifts(self) -> Iterator[str]:
         """Describe the drift of a free base, if it is too large."""
         if math.isfinite(self.drift) and self.drift > DRIFT:
             yield f"the base drifts by {self.drift:.2g} m (at {self.timestep * 1000:g} ms)"
 
-    def instabilities(self) -> list[str]:
+    def list_instabilities(self) -> list[str]:
         """List warnings and divergence."""
         at = f"at {self.timestep * 1000:g} ms"
         found = [
@@ -77,7 +77,7 @@ class Trial:
             found.append(f"the state is not finite ({at})")
         return found
 
-    def excesses(self) -> list[str]:
+    def list_excesses(self) -> list[str]:
         """List joints outside their limits."""
         at = f"at {self.timestep * 1000:g} ms"
         return [
@@ -86,7 +86,7 @@ class Trial:
         ]
 
 
-def runs_check(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check:
+def check_runs(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check:
     """Simulate a model at each time step.
 
     Args:
@@ -103,14 +103,16 @@ def runs_check(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check
     )
     for timestep in TIMESTEPS:
         trial = run_at_home(path, timestep)
-        known = declared.any("lossy-massless") or (not excluded and declared.any("lossy-overlap"))
-        check.compare(0.0 if trial.faults() else trial.drift, "")
-        for fault in trial.instabilities():
+        known = declared.has_any("lossy-massless") or (
+            not excluded and declared.has_any("lossy-overlap")
+        )
+        check.compare(0.0 if trial.list_faults() else trial.drift, "")
+        for fault in trial.list_instabilities():
             check.compare(math.inf, fault, known=known)
         # the export does not determine whether a free robot stands or sags
-        for fault in trial.excesses():
+        for fault in trial.list_excesses():
             check.compare(math.inf, fault, known=known or trial.is_free)
-        for fault in trial.drifts():
+        for fault in trial.describe_drifts():
             check.compare(trial.drift, fault, known=True)
     return check
 
@@ -126,18 +128,18 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
         timestep: Physics time step [s].
         seconds: Simulated time [s].
     """
-    mujoco = mujoco_module()
+    mujoco = import_mujoco_module()
     warned: list[str] = []
     mujoco.set_mju_user_warning(lambda text: warned.append(" ".join(text.split())))
-    model = _on_floor(mujoco, path)
+    model = _compile_on_floor(mujoco, path)
     model.opt.timestep = timestep
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     data = mujoco.MjData(model)
     _start(mujoco, model, data)
     trial = Trial(timestep)
-    bases = [int(body) for body in np.flatnonzero(_free_bodies(mujoco, model))]
+    bases = [int(body) for body in np.flatnonzero(_compute_free_bodies(mujoco, model))]
     trial.is_free = bool(bases)
-    held = _held_joints(mujoco, model)
+    held = _list_held_joints(mujoco, model)
     settled: Array | None = None
     while data.time < seconds:
         mujoco.mj_step(model, data)
@@ -161,7 +163,7 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
     return trial
 
 
-def home_positions(mujoco: Any, model: Any) -> Array:
+def read_home_positions(mujoco: Any, model: Any) -> Array:
     """Read the configuration of the key ``home``; without one, return zero within the limits."""
     key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, "home")
     if key >= 0:
@@ -187,7 +189,7 @@ def _start(mujoco: Any, model: Any, data: Any) -> None:
     if key >= 0:
         mujoco.mj_resetDataKeyframe(model, data, key)
     else:
-        data.qpos[:] = home_positions(mujoco, model)
+        data.qpos[:] = read_home_positions(mujoco, model)
         for actuator in range(model.nu):
             joint = int(model.actuator_trnid[actuator][0])
             is_servo = model.actuator_biasprm[actuator][1] != 0
@@ -197,13 +199,13 @@ def _start(mujoco: Any, model: Any, data: Any) -> None:
     mujoco.mj_forward(model, data)
 
 
-def _free_bodies(mujoco: Any, model: Any) -> Array:
+def _compute_free_bodies(mujoco: Any, model: Any) -> Array:
     free = np.zeros(model.nbody, dtype=bool)
     free[model.jnt_bodyid[model.jnt_type == mujoco.mjtJoint.mjJNT_FREE]] = True
     return free
 
 
-def _held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
+def _list_held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
     """List the joints that a servo holds, directly or by a mimic, with their limits."""
     driven = {
         int(model.actuator_trnid[number][0])
@@ -224,12 +226,12 @@ def _held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
     ]
 
 
-def _on_floor(mujoco: Any, path: Path) -> Any:
+def _compile_on_floor(mujoco: Any, path: Path) -> Any:
     """Compile a file; add a floor if it has a free body and no plane."""
     model = mujoco.MjModel.from_xml_path(str(path))
     if (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any():
         return model
-    if not _free_bodies(mujoco, model).any():
+    if not _compute_free_bodies(mujoco, model).any():
         return model
     data = mujoco.MjData(model)
     _start(mujoco, model, data)
@@ -237,18 +239,18 @@ def _on_floor(mujoco: Any, path: Path) -> Any:
     spec.worldbody.add_geom(
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[0, 0, 1],
-        pos=[0, 0, lowest_point(mujoco, model, data)],
+        pos=[0, 0, compute_lowest_point(mujoco, model, data)],
     )
     return spec.compile()
 
 
-def lowest_point(mujoco: Any, model: Any, data: Any) -> float:
+def compute_lowest_point(mujoco: Any, model: Any, data: Any) -> float:
     """Compute the height [m] of the lowest point of the collision geoms, in the world."""
-    lows = list(_low_points(mujoco, model, data))
+    lows = list(_list_low_points(mujoco, model, data))
     return min(lows, default=0.0)
 
 
-def _low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
+def _list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
     for geom in range(model.ngeom):
         if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
             continue

@@ -11,7 +11,7 @@ from ...errors import OutputError
 from ..check import Check
 from .compiled import Compiled
 from .verify_fuse import compare_fields
-from .verify_home import lowest_point
+from .verify_home import get_lowest_point
 from .verify_source import Source
 
 FLOOR = 1e-4
@@ -29,7 +29,7 @@ ROBOT = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "eq_sol", "eq_active", 
 """Prefixes of the fields of MuJoCo's model that a scene does not change."""
 
 
-def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
+def check_scene(source: Source, compiled: Compiled, path: Path) -> Check:
     """Compare a scene with the model it includes.
 
     Args:
@@ -47,7 +47,7 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
         check.differing.append(error.message)
         return check
     for posed in (compiled, scene):
-        posed.pose({})
+        posed.set_pose({})
     compare_fields(compiled, scene, check, ROBOT)
     model, kinds = scene.model, scene.mujoco.mjtGeom
     planes = [g for g in range(model.ngeom) if int(model.geom_type[g]) == int(kinds.mjGEOM_PLANE)]
@@ -58,7 +58,7 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
     floor = planes[-1] if planes else 0
     if not model.geom_contype[floor] == model.geom_conaffinity[floor] == 1:
         check.compare(math.inf, "no contact with the floor")
-    height, size = _floor_height(source, compiled)
+    height, size = _get_floor_height(source, compiled)
     found = float(scene.data.geom_xpos[floor][2])
     off = max(abs(found - height) - ROUNDED, 0.0)
     check.compare(off / max(size, 0.1), f"the floor is at z = {found:g}")
@@ -67,13 +67,13 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
     return check
 
 
-def _floor_height(source: Source, compiled: Compiled) -> tuple[float, float]:
+def _get_floor_height(source: Source, compiled: Compiled) -> tuple[float, float]:
     """Return the expected height of the floor, and the height of the robot [m]."""
-    compiled.pose({})
-    low, size = lowest_point(compiled)
-    key = compiled.id("KEY", "home")
+    compiled.set_pose({})
+    low, size = get_lowest_point(compiled)
+    key = compiled.get_id("KEY", "home")
     if key >= 0:
-        compiled.pose_at_key(key)
-        low = min(low, lowest_point(compiled)[0])
+        compiled.set_pose_at_key(key)
+        low = min(low, get_lowest_point(compiled)[0])
     held = not source.is_free and math.isfinite(low)
     return low if held and low < -FLUSH else 0.0, size if math.isfinite(size) else 0.0

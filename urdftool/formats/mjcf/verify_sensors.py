@@ -10,11 +10,11 @@ import numpy as np
 
 from ...model.elements import Robot
 from ...model.read import number as read_number
-from ...model.read import numbers
+from ...model.read import parse_numbers
 from ...source.document import Element
 from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array, Mechanics, origin_matrix
+from ..mechanics import Array, Mechanics, get_origin_matrix
 from .compiled import Compiled
 from .verify_source import Source, read_pose
 
@@ -67,7 +67,7 @@ class Measured:
     whole: bool = True
 
 
-def sensor_check(
+def check_sensor(
     source: Source,
     mechanics: Mechanics,
     compiled: Compiled,
@@ -85,13 +85,13 @@ def sensor_check(
     """
     what = "sensors, cameras, lights: link, pose, type, view"
     check = Check("sensors", what, EXACT)
-    compiled.pose(positions)
-    frames = mechanics.frames(positions)
+    compiled.set_pose(positions)
+    frames = mechanics.compute_frames(positions)
     model = compiled.model
     left = list(range(model.nsensor))
-    asked = list(_wanted(source))
-    for wanted in (*asked, *_of_base(source, asked)):
-        known = declared.of(("lossy-sensor",), wanted.name)
+    asked = list(_list_required(source))
+    for wanted in (*asked, *_list_of_base(source, asked)):
+        known = declared.has_for(("lossy-sensor",), wanted.name)
         place = frames.get(wanted.link, np.eye(4)) @ wanted.pose
         number = _find(wanted, place, left, compiled)
         text = f"sensor '{wanted.name}' ({wanted.kind.lower()})"
@@ -103,23 +103,23 @@ def sensor_check(
     for number in left:
         name = compiled.name("SENSOR", number)
         check.compare(math.inf, f"sensor '{name}' is not in the description")
-    _cameras(source, frames, compiled, declared, check)
-    _lights(source, frames, compiled, declared, check)
+    _add_cameras(source, frames, compiled, declared, check)
+    _add_lights(source, frames, compiled, declared, check)
     return check
 
 
-def _wanted(source: Source) -> Iterator[Measured]:
+def _list_required(source: Source) -> Iterator[Measured]:
     """Yield the sensors of Gazebo, then those of ros2_control."""
     robot = source.robot
-    for element, link in sensors_of(robot):
+    for element, link in list_sensors(robot):
         kind = (element.get("type") or "").strip()
         name, pose = element.get("name") or "", read_pose(element)
         for measured in SITES.get(kind, ()):
             yield Measured(name, measured, link, pose)
         if kind in RAYS:
-            yield from _rays(element, name, link, pose)
+            yield from _list_rays(element, name, link, pose)
         if kind == "contact" and any(_is_sized(c.geometry) for c in robot.link[link].collisions):
-            yield Measured(name or f"{link}_contact", "TOUCH", link, _middle(robot, link))
+            yield Measured(name or f"{link}_contact", "TOUCH", link, _compute_middle(robot, link))
     for control in robot.ros2_controls:
         for component in control.components:
             frame = component.params.get("frame_id", "")
@@ -129,7 +129,7 @@ def _wanted(source: Source) -> Iterator[Measured]:
                     yield Measured(component.name, INTERFACES[word], frame)
 
 
-def _of_base(source: Source, others: list[Measured]) -> Iterator[Measured]:
+def _list_of_base(source: Source, others: list[Measured]) -> Iterator[Measured]:
     """Yield the base sensors that the options require and that the base does not have."""
     if not source.options.base_sensors:
         return
@@ -142,7 +142,7 @@ def _of_base(source: Source, others: list[Measured]) -> Iterator[Measured]:
             yield Measured(base, kind, base)
 
 
-def sensors_of(robot: Robot) -> Iterator[tuple[Element, str]]:
+def list_sensors(robot: Robot) -> Iterator[tuple[Element, str]]:
     """Yield each Gazebo ``<sensor>`` with its link; for a joint reference, the child link."""
     for block in robot.gazebo:
         name = block.element.get("reference") or ""
@@ -153,7 +153,7 @@ def sensors_of(robot: Robot) -> Iterator[tuple[Element, str]]:
                 yield element, link
 
 
-def _rays(element: Element, name: str, link: str, pose: Array) -> Iterator[Measured]:
+def _list_rays(element: Element, name: str, link: str, pose: Array) -> Iterator[Measured]:
     """Yield one ray for each sample: z of its site is the rotated x axis of the scanner."""
     scan = next((e for e in element.walk() if e.tag == "horizontal"), None)
 
@@ -174,9 +174,9 @@ def _is_sized(geometry: object) -> bool:
     return type(geometry).__name__ in ("Box", "Cylinder", "Sphere", "Capsule", "UnknownShape")
 
 
-def _middle(robot: Robot, link: str) -> Array:
+def _compute_middle(robot: Robot, link: str) -> Array:
     sized = [c for c in robot.link[link].collisions if _is_sized(c.geometry)]
-    return origin_matrix(sized[0].origin)
+    return get_origin_matrix(sized[0].origin)
 
 
 def _find(wanted: Measured, place: Array, left: list[int], compiled: Compiled) -> int | None:
@@ -184,16 +184,16 @@ def _find(wanted: Measured, place: Array, left: list[int], compiled: Compiled) -
     kind = int(getattr(compiled.mujoco.mjtSensor, f"mjSENS_{wanted.kind}"))
     alike = [n for n in left if int(compiled.model.sensor_type[n]) == kind]
     named = [n for n in alike if compiled.name("SENSOR", n).startswith(wanted.name)]
-    return min(named, key=lambda n: _off(n, wanted, place, compiled), default=None)
+    return min(named, key=lambda n: _get_off(n, wanted, place, compiled), default=None)
 
 
-def _off(number: int, wanted: Measured, place: Array, compiled: Compiled) -> float:
+def _get_off(number: int, wanted: Measured, place: Array, compiled: Compiled) -> float:
     """Return the difference between the pose of a sensor's site and a pose in the root's frame."""
     model = compiled.model
     site = int(model.sensor_objid[number])
     if int(model.sensor_objtype[number]) != int(compiled.mujoco.mjtObj.mjOBJ_SITE):
         return math.inf
-    found = compiled.site_frame(site)
+    found = compiled.get_site_frame(site)
     if not wanted.whole:
         return float(abs(found[:3, 2:] - place[:3, 2:]).max())
     return float(abs(found - place).max())
@@ -203,10 +203,10 @@ def _compare_sensor(
     number: int, wanted: Measured, place: Array, text: str, compiled: Compiled, check: Check
 ) -> None:
     model = compiled.model
-    check.compare(_off(number, wanted, place, compiled), f"{text} is at another pose")
+    check.compare(_get_off(number, wanted, place, compiled), f"{text} is at another pose")
     if int(model.sensor_objtype[number]) == int(compiled.mujoco.mjtObj.mjOBJ_SITE):
         body = int(model.site_bodyid[int(model.sensor_objid[number])])
-        if model.body_weldid[body] != model.body_weldid[max(compiled.body(wanted.link), 0)]:
+        if model.body_weldid[body] != model.body_weldid[max(compiled.get_body(wanted.link), 0)]:
             check.compare(math.inf, f"{text} is on another body than link '{wanted.link}'")
     for name in ("noise", "cutoff", "delay", "interval"):
         values = getattr(model, f"sensor_{name}", None)
@@ -214,7 +214,7 @@ def _compare_sensor(
             check.compare(math.inf, f"{text} has a {name} that the description does not require")
 
 
-def _cameras(
+def _add_cameras(
     source: Source,
     frames: dict[str, Array],
     compiled: Compiled,
@@ -223,7 +223,7 @@ def _cameras(
 ) -> None:
     model = compiled.model
     left = list(range(model.ncam))
-    for element, link in sensors_of(source.robot):
+    for element, link in list_sensors(source.robot):
         if (element.get("type") or "").strip() not in PICTURES:
             continue
         for camera in element.all("camera"):
@@ -231,12 +231,12 @@ def _cameras(
             place = frames[link] @ read_pose(element) @ read_pose(camera)
             place[:3, :3] = place[:3, :3] @ LOOK
             named = [n for n in left if compiled.name("CAMERA", n).startswith(name)]
-            named.sort(key=lambda n: float(abs(compiled.camera_frame(n) - place).max()))
+            named.sort(key=lambda n: float(abs(compiled.get_camera_frame(n) - place).max()))
             if not named:
                 check.compare(math.inf, f"camera '{name}' is missing")
                 continue
             left.remove(named[0])
-            known = declared.of(("lossy-camera",), element.get("name") or "")
+            known = declared.has_for(("lossy-camera",), element.get("name") or "")
             _compare_camera(named[0], camera, place, link, compiled, check, known)
     for number in left:
         name = compiled.name("CAMERA", number)
@@ -253,12 +253,14 @@ def _compare_camera(
     known: bool,
 ) -> None:
     model, name = compiled.model, compiled.name("CAMERA", number)
-    off = float(abs(compiled.camera_frame(number) - place).max())
+    off = float(abs(compiled.get_camera_frame(number) - place).max())
     check.compare(off, f"camera '{name}' is at another pose")
     body = int(model.cam_bodyid[number])
-    if model.body_weldid[body] != model.body_weldid[max(compiled.body(link), 0)]:
+    if model.body_weldid[body] != model.body_weldid[max(compiled.get_body(link), 0)]:
         check.compare(math.inf, f"camera '{name}' is on another body than link '{link}'")
-    width, height = (_pixels(camera, tag, size) for tag, size in (("width", 320), ("height", 240)))
+    width, height = (
+        _get_pixels(camera, tag, size) for tag, size in (("width", 320), ("height", 240))
+    )
     fov = camera.child("horizontal_fov")
     across = (read_number(fov.text) if fov is not None else None) or 1.047
     half = math.tan(across / 2) * height / width
@@ -270,14 +272,14 @@ def _compare_camera(
         check.compare(math.inf, f"camera '{name}' does not move with its body")
 
 
-def _pixels(camera: Element, tag: str, usual: int) -> int:
+def _get_pixels(camera: Element, tag: str, usual: int) -> int:
     image = camera.child("image")
     child = image.child(tag) if image is not None else None
     value = read_number(child.text) if child is not None else None
     return int(value) if value is not None and value >= 1 else usual
 
 
-def _lights(
+def _add_lights(
     source: Source,
     frames: dict[str, Array],
     compiled: Compiled,
@@ -285,7 +287,7 @@ def _lights(
     check: Check,
 ) -> None:
     model, data = compiled.model, compiled.data
-    root = compiled.body(source.root)
+    root = compiled.get_body(source.root)
     up = data.xmat[max(root, 0)].reshape(3, 3)
     start = data.xpos[max(root, 0)]
     left = list(range(model.nlight))
@@ -303,16 +305,16 @@ def _lights(
             at = up.T @ (data.light_xpos[number] - start)
             check.compare(float(abs(at - place[:3, 3]).max()), f"light '{name}' is at another pose")
             body = int(model.light_bodyid[number])
-            if model.body_weldid[body] != model.body_weldid[max(compiled.body(link), 0)]:
+            if model.body_weldid[body] != model.body_weldid[max(compiled.get_body(link), 0)]:
                 check.compare(math.inf, f"light '{name}' is on another body than link '{link}'")
             if (light.get("type") or "point") != "point":
-                aim = np.array(_three(light, "direction") or (0.0, 0.0, -1.0))
+                aim = np.array(_collect_three(light, "direction") or (0.0, 0.0, -1.0))
                 aim = aim if aim.any() else np.array((0.0, 0.0, -1.0))
                 aim = place[:3, :3] @ aim / np.linalg.norm(aim)
                 found = up.T @ data.light_xdir[number]
                 check.compare(float(abs(found - aim).max()), f"direction of light '{name}'")
             for tag in ("diffuse", "specular"):
-                color = _three(light, tag)
+                color = _collect_three(light, tag)
                 if color is not None:
                     found = getattr(model, f"light_{tag}")[number]
                     off = float(abs(found - np.array(color)).max())
@@ -324,9 +326,9 @@ def _lights(
         check.compare(math.inf, f"light '{name}' is not in the description")
 
 
-def _three(element: Element, tag: str) -> tuple[float, ...] | None:
+def _collect_three(element: Element, tag: str) -> tuple[float, ...] | None:
     child = element.child(tag)
     if child is None:
         return None
-    four = numbers(child.text, 4) or numbers(child.text, 3)
+    four = parse_numbers(child.text, 4) or parse_numbers(child.text, 3)
     return four[:3] if four is not None else None

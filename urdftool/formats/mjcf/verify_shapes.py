@@ -23,7 +23,7 @@ from ...model.elements import (
 )
 from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array, Mechanics, origin_matrix
+from ..mechanics import Array, Mechanics, get_origin_matrix
 from .compiled import Compiled
 from .declared_losses import CUT, SHAPES, TORN
 from .verify_meshes import SourceMeshes
@@ -40,7 +40,7 @@ of a polygon that is not planar or not convex.
 Bounds = tuple[Array, Array]
 
 
-def collision_check(
+def check_collision(
     robot: Robot,
     meshes: SourceMeshes,
     mechanics: Mechanics,
@@ -51,33 +51,37 @@ def collision_check(
     """Compare each collision's box in the root's frame, at zero and at one other configuration."""
     check = Check("collision", "number, kind, box and surface of every shape", MESH)
     for positions in configurations[:2]:
-        frames = mechanics.frames(positions)
-        compiled.pose(positions)
+        frames = mechanics.compute_frames(positions)
+        compiled.set_pose(positions)
         for link in robot.links:
             geoms = list(link_geoms(compiled, link, 3))
-            known = declared.of((*SHAPES, *CUT), *loss_names(link)) or declared.any(*TORN)
+            known = declared.has_for((*SHAPES, *CUT), *get_loss_names(link)) or declared.has_any(
+                *TORN
+            )
             if len(geoms) != len(link.collisions):
                 text = f"link '{link.name}': {len(geoms)} collisions of {len(link.collisions)}"
                 check.compare(math.inf, text, known=known)
                 continue
             for shape, geom in zip(link.collisions, geoms, strict=True):
-                expected = _bounds(meshes, shape, frames.get(link.name, np.eye(4)))
+                expected = _compute_bounds(meshes, shape, frames.get(link.name, np.eye(4)))
                 if expected is None:
                     continue
                 simple = not isinstance(shape.geometry, Mesh)
-                factor = MESH / SIMPLE if simple else _rounded(expected)  # for the row's tolerance
-                difference = _apart(expected, _geom_bounds(compiled, geom)) * factor
+                factor = (
+                    MESH / SIMPLE if simple else _get_rounded(expected)
+                )  # for the row's tolerance
+                difference = _compute_apart(expected, _compute_geom_bounds(compiled, geom)) * factor
                 check.compare(difference, f"a collision of link '{link.name}'", known=known)
-                apart = _surface_apart(meshes, [shape], compiled, [geom], frames[link.name])
+                apart = _compute_surface_apart(meshes, [shape], compiled, [geom], frames[link.name])
                 check.compare(apart, f"surface of a collision of link '{link.name}'", known=known)
-                kind, found = _kind(shape), _kind_of(compiled, geom)
+                kind, found = _get_kind(shape), _format_kind(compiled, geom)
                 if kind != found:
                     text = f"a collision of link '{link.name}' is a {found}, not a {kind}"
                     check.compare(math.inf, text, known=known)
     return check
 
 
-def visual_check(
+def check_visual(
     robot: Robot,
     meshes: SourceMeshes,
     mechanics: Mechanics,
@@ -87,54 +91,58 @@ def visual_check(
 ) -> Check:
     """Compare the bounding box and surface of all visuals of a link."""
     check = Check("visual", "box and surface of the visuals of every link", MESH)
-    frames = mechanics.frames(configurations[0])
-    compiled.pose(configurations[0])
+    frames = mechanics.compute_frames(configurations[0])
+    compiled.set_pose(configurations[0])
     for link in robot.links:
-        known = declared.of(SHAPES, *loss_names(link)) or declared.any(*TORN)
+        known = declared.has_for(SHAPES, *get_loss_names(link)) or declared.has_any(*TORN)
         geoms = list(link_geoms(compiled, link, 2))
         frame = frames.get(link.name, np.eye(4))
-        boxes = [box for v in link.visuals if (box := _bounds(meshes, v, frame)) is not None]
+        boxes = [
+            box for v in link.visuals if (box := _compute_bounds(meshes, v, frame)) is not None
+        ]
         if bool(boxes) != bool(geoms):
             text = f"link '{link.name}': {len(geoms)} visuals of {len(boxes)}"
             check.compare(math.inf, text, known=known)
         elif boxes:
-            found = _union([_geom_bounds(compiled, geom) for geom in geoms])
-            difference = _apart(_union(boxes), found) * _rounded(_union(boxes))
+            found = _make_union([_compute_geom_bounds(compiled, geom) for geom in geoms])
+            difference = _compute_apart(_make_union(boxes), found) * _get_rounded(
+                _make_union(boxes)
+            )
             check.compare(difference, f"visuals of link '{link.name}'", known=known)
-            apart = _surface_apart(meshes, link.visuals, compiled, geoms, frame)
+            apart = _compute_surface_apart(meshes, link.visuals, compiled, geoms, frame)
             check.compare(apart, f"surface of the visuals of link '{link.name}'", known=known)
     return check
 
 
 def link_geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
     """Yield the geoms of a link in a group, in file order."""
-    body = compiled.body(link.name)
-    for geom in compiled.geoms(body):
+    body = compiled.get_body(link.name)
+    for geom in compiled.get_geoms(body):
         if compiled.model.geom_group[geom] == group:
             yield geom
 
 
 def has_size(meshes: SourceMeshes, shape: Visual | Collision) -> bool:
     """Tell whether a shape has a size, and a mesh that can be read."""
-    return _bounds(meshes, shape, np.eye(4)) is not None
+    return _compute_bounds(meshes, shape, np.eye(4)) is not None
 
 
-def _apart(one: Bounds, other: Bounds) -> float:
+def _compute_apart(one: Bounds, other: Bounds) -> float:
     return float(max(abs(one[0] - other[0]).max(), abs(one[1] - other[1]).max()))
 
 
-def _rounded(box: Bounds) -> float:
+def _get_rounded(box: Bounds) -> float:
     """Return the weight of a difference for meshes too large for single precision; else 1."""
     return min(1.0, MESH / (SINGLE * float(np.max(box[1] - box[0])) or MESH))
 
 
-def _union(boxes: list[Bounds]) -> Bounds:
+def _make_union(boxes: list[Bounds]) -> Bounds:
     return np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)
 
 
-def _bounds(meshes: SourceMeshes, shape: Visual | Collision, frame: Array) -> Bounds | None:
+def _compute_bounds(meshes: SourceMeshes, shape: Visual | Collision, frame: Array) -> Bounds | None:
     """Compute the box of a shape of the description; None if it has no size or cannot be read."""
-    pose = frame @ origin_matrix(shape.origin)
+    pose = frame @ get_origin_matrix(shape.origin)
     geometry = shape.geometry
     if isinstance(geometry, Mesh):
         points = meshes.read(geometry.filename, geometry.scale)
@@ -145,11 +153,11 @@ def _bounds(meshes: SourceMeshes, shape: Visual | Collision, frame: Array) -> Bo
         used = points.vertices[is_used]
         placed = used @ pose[:3, :3].T + pose[:3, 3]
         return placed.min(axis=0), placed.max(axis=0)
-    half = _half(geometry, pose[:3, :3]) if geometry is not None else None
+    half = _compute_half(geometry, pose[:3, :3]) if geometry is not None else None
     return None if half is None else (pose[:3, 3] - half, pose[:3, 3] + half)
 
 
-def _surface_apart(
+def _compute_surface_apart(
     meshes: SourceMeshes,
     shapes: Sequence[Visual | Collision],
     compiled: Compiled,
@@ -166,17 +174,19 @@ def _surface_apart(
             mesh = meshes.read(shape.geometry.filename, shape.geometry.scale)
             if mesh is None:
                 return 0.0
-            pose = frame @ origin_matrix(shape.origin)
-            expected += _area_moments(mesh.vertices @ pose[:3, :3].T + pose[:3, 3], mesh.faces)
+            pose = frame @ get_origin_matrix(shape.origin)
+            expected += _compute_area_moments(
+                mesh.vertices @ pose[:3, :3].T + pose[:3, 3], mesh.faces
+            )
     model = compiled.model
     for geom in geoms:
-        if _kind_of(compiled, geom) == "mesh":
-            number, pose = model.geom_dataid[geom], compiled.geom_frame(geom)
+        if _format_kind(compiled, geom) == "mesh":
+            number, pose = model.geom_dataid[geom], compiled.get_geom_frame(geom)
             first, count = model.mesh_vertadr[number], model.mesh_vertnum[number]
             points = model.mesh_vert[first : first + count].astype(float)
             begin, many = model.mesh_faceadr[number], model.mesh_facenum[number]
             faces = model.mesh_face[begin : begin + many]
-            found += _area_moments(points @ pose[:3, :3].T + pose[:3, 3], faces)
+            found += _compute_area_moments(points @ pose[:3, :3].T + pose[:3, 3], faces)
     if expected[0] == found[0] == 0:
         return 0.0
     size = math.sqrt(max(expected[0], found[0]))
@@ -185,7 +195,7 @@ def _surface_apart(
     return max(area, float(abs(centers[0] - centers[1]).max()) / size) * MESH / SURFACE
 
 
-def _area_moments(points: Array, faces: Faces) -> Array:
+def _compute_area_moments(points: Array, faces: Faces) -> Array:
     """Compute the area [m²] of triangles, and its first moment [m³]."""
     a, b, c = (points[faces[:, k]] for k in range(3))
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
@@ -193,7 +203,7 @@ def _area_moments(points: Array, faces: Faces) -> Array:
     return np.concatenate([[areas.sum()], areas @ middles])
 
 
-def _kind(shape: Visual | Collision) -> str:
+def _get_kind(shape: Visual | Collision) -> str:
     """Return MuJoCo's name for the kind of a shape; a capsule without length is a sphere."""
     geometry = shape.geometry
     if isinstance(geometry, Capsule) and geometry.length == 0:
@@ -201,12 +211,12 @@ def _kind(shape: Visual | Collision) -> str:
     return type(geometry).__name__.lower()
 
 
-def _kind_of(compiled: Compiled, geom: int) -> str:
+def _format_kind(compiled: Compiled, geom: int) -> str:
     kind = compiled.mujoco.mjtGeom(compiled.model.geom_type[geom])
     return str(kind.name).removeprefix("mjGEOM_").lower()
 
 
-def _half(geometry: Geometry, turn: Array) -> Array | None:
+def _compute_half(geometry: Geometry, turn: Array) -> Array | None:
     """Compute half the edges of the box around a rotated primitive; None without a size."""
     if isinstance(geometry, Box):
         return abs(turn) @ np.array(geometry.size) / 2 if min(geometry.size) > 0 else None
@@ -229,10 +239,10 @@ def _round_half(capsule: bool, radius: float, half: float, turn: Array) -> Array
     return reach
 
 
-def _geom_bounds(compiled: Compiled, geom: int) -> Bounds:
+def _compute_geom_bounds(compiled: Compiled, geom: int) -> Bounds:
     """Compute the box of a geom in the root's frame."""
-    model, frame = compiled.model, compiled.geom_frame(geom)
-    kind = _kind_of(compiled, geom)
+    model, frame = compiled.model, compiled.get_geom_frame(geom)
+    kind = _format_kind(compiled, geom)
     size, turn, middle = model.geom_size[geom], frame[:3, :3], frame[:3, 3]
     if kind == "mesh":
         mesh = model.geom_dataid[geom]
@@ -251,7 +261,7 @@ def _geom_bounds(compiled: Compiled, geom: int) -> Bounds:
     return middle - half, middle + half
 
 
-def loss_names(link: Link) -> set[str]:
+def get_loss_names(link: Link) -> set[str]:
     """Return the names by which losses refer to a link: its own, its materials', its meshes'."""
     names = {link.name}
     names |= {visual.material.name for visual in link.visuals if visual.material is not None}

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from ...model.elements import Joint, Robot
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...source.description import read_description
 from ...source.document import Element
 from ..common.actuator_config import JointSettings, read_actuator_config
@@ -49,7 +49,7 @@ class Source:
         """Return the name of the root link."""
         return self.robot.tree.roots[0].name
 
-    def value(self, name: str, *tags: str) -> str | None:
+    def get_value(self, name: str, *tags: str) -> str | None:
         """Return the last ``<gazebo>`` value for a link or joint under one of some tags."""
         found = None
         for block in self.robot.gazebo:
@@ -61,9 +61,9 @@ class Source:
 
     def number(self, name: str, *tags: str) -> float | None:
         """Return the last ``<gazebo>`` number for a link or joint; None if it is not a number."""
-        return number(self.value(name, *tags))
+        return number(self.get_value(name, *tags))
 
-    def whole(self, tag: str) -> Iterator[Element]:
+    def list_whole(self, tag: str) -> Iterator[Element]:
         """Yield the elements of a tag in ``<gazebo>`` blocks without reference."""
         for block in self.robot.gazebo:
             if not block.element.get("reference"):
@@ -101,7 +101,7 @@ class Source:
     def separated(self) -> set[frozenset[str]]:
         """Return pairs of links that must not collide: of closed loops, and disabled by an SRDF."""
         pairs = set()
-        for joint in self.whole("joint"):
+        for joint in self.list_whole("joint"):
             ends = [joint.child(end) for end in ("parent", "child")]
             pairs.add(frozenset(e.text.strip().rpartition("::")[2] for e in ends if e is not None))
         return pairs | self.disabled
@@ -126,7 +126,7 @@ class Source:
         ]
         if self.options.actuator_config is None:
             return dict.fromkeys(names, JointSettings())
-        return read_actuator_config(self.options.actuator_config).for_joints(names)
+        return read_actuator_config(self.options.actuator_config).match_joints(names)
 
     @cached_property
     def srdf(self) -> Element | None:
@@ -145,7 +145,7 @@ class Source:
         """Tell whether the root is free: by the options, or by the description."""
         if self.root == "world" or self.options.base != "auto":
             return self.root != "world" and self.options.base == "free"
-        for element in self.whole("static"):
+        for element in self.list_whole("static"):
             if (element.get("value") or element.text).strip().lower() in ("true", "1", "yes"):
                 return False
         virtual = self.srdf.child("virtual_joint") if self.srdf is not None else None
@@ -173,7 +173,7 @@ def is_locked(joint: Joint) -> bool:
 def read_pose(element: Element) -> Array:
     """Read the ``<pose>`` of a Gazebo element as a 4 × 4 matrix [m]."""
     child = element.child("pose")
-    six = numbers(child.text, 6) if child is not None else None
+    six = parse_numbers(child.text, 6) if child is not None else None
     pose = np.eye(4)
     if six is not None:
         for axis, angle in zip(np.eye(3), six[3:], strict=True):

@@ -9,21 +9,21 @@ from ...finding import Finding
 from ...lint.validate import validate
 from ...model.elements import Robot
 from ..common.directory import mark
-from ..common.naming import file_name
+from ..common.naming import replace_file_name
 from ..common.unexpressed import report_unexpressed
-from ..defects import FATAL, defect, defects, refuse, taken_world
+from ..defects import FATAL, make_defect, refuse, report_defects, report_taken_world
 from ..written import Written
-from .base import with_base
-from .home import home_of, home_positions
-from .inertials import inertials
-from .meshes import mesh_assets
-from .model import model_text
+from .base import decide_base
+from .home import choose_home_positions, place_home
+from .inertials import compute_inertials
+from .meshes import create_mesh_assets
+from .model import build_model_text
 from .options import Options
-from .scene import scene_file
+from .scene import create_scene_file
 from .shape_box import ShapeBoxes
 from .srdf import read_srdf
 from .srdf_near import offer_srdf
-from .structure import Structure, structure_of
+from .structure import Structure, create_structure
 
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
 
@@ -48,14 +48,14 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         ModelError: The robot has no such joint, or it mimics another.
     """
     options = options or Options()
-    robot, world = taken_world(robot)
-    model = model_name(robot)
+    robot, world = report_taken_world(robot)
+    model = get_model_name(robot)
     written = Written(options.file or f"{model}.xml")
     report_unexpressed(robot, written)
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),
-        *defects(robot),
+        *report_defects(robot),
         *validate(robot, "export:mjcf"),
     ]
     if any(finding.code in FATAL for finding in found):
@@ -64,31 +64,31 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
     if srdf is None:
         offer_srdf(robot, written)
-    structure = structure_of(robot, keep_locked=options.keep_locked_joints)
+    structure = create_structure(robot, keep_locked=options.keep_locked_joints)
     boxes = ShapeBoxes(robot)
-    positions = home_positions(structure, options.pose, options.state, srdf, written)
+    positions = choose_home_positions(structure, options.pose, options.state, srdf, written)
     virtual_joint = srdf.virtual_joint if srdf else None
-    structure = with_base(structure, options.base, virtual_joint, boxes, positions, written)
-    home = home_of(structure, boxes, positions)
-    found += _too_deep(structure)
-    masses, wrong = inertials(structure, options.fix_inertia, written, force=options.force)
-    assets, missing = mesh_assets(robot, written, options)
+    structure = decide_base(structure, options.base, virtual_joint, boxes, positions, written)
+    home = place_home(structure, boxes, positions)
+    found += _find_too_deep(structure)
+    masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
+    assets, missing = create_mesh_assets(robot, written, options)
     refuse([*found, *wrong, *missing], force=options.force)
     for finding in (*found, *wrong, *missing):
         written.losses.append(finding)
 
-    text = model_text(structure, home, model, options, masses, assets, srdf, written)
+    text = build_model_text(structure, home, model, options, masses, assets, srdf, written)
     source = Path(robot.source.path).name if robot.source is not None else "a robot"
     files: dict[str, bytes | Path] = {written.main: mark(text, source)}
     if options.scene:
         name = f"{Path(options.file).stem}_scene.xml" if options.file else "scene.xml"
-        files[name] = mark(scene_file(structure, home, boxes, model, text, written), source)
+        files[name] = mark(create_scene_file(structure, home, boxes, model, text, written), source)
     files.update(sorted(written.files.items()))
     written.files = files
     return written
 
 
-def model_name(robot: Robot) -> str:
+def get_model_name(robot: Robot) -> str:
     """Return the name of the model and its file: the robot's, or that of the description's file.
 
     Blanks, and suffixes for a version or file type, are removed.
@@ -96,11 +96,11 @@ def model_name(robot: Robot) -> str:
     name = _NOISE.sub("", robot.name)
     if not name and robot.source is not None:
         name = Path(robot.source.path).name.partition(".")[0]
-    name = file_name(name)
+    name = replace_file_name(name)
     return f"{name}_robot" if name in ("main", "visual", "collision", "world", "scene") else name
 
 
-def _too_deep(structure: Structure) -> list[Finding]:
+def _find_too_deep(structure: Structure) -> list[Finding]:
     """Find the first link that is nested too deeply for MuJoCo's XML reader.
 
     No rule reports it: other readers have no such limit, and it counts the bodies of this export.
@@ -108,5 +108,5 @@ def _too_deep(structure: Structure) -> list[Finding]:
     for link, depth in structure.depth.items():
         if depth > MAX_DEPTH:
             text = f"link '{link}' is below {depth} others; MuJoCo reads at most {MAX_DEPTH}"
-            return [defect("too-deep", text, structure.robot.link[link].place, "link", link)]
+            return [make_defect("too-deep", text, structure.robot.link[link].place, "link", link)]
     return []

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ...model.elements import Joint, Link
-from ...model.gazebo_plugins import SENSOR_PLUGINS, library
-from ...model.read import number, numbers
+from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library
+from ...model.read import number, parse_numbers
 from ...source.document import Element
-from ..common.naming import free_name
-from ..common.numbers import number_text, numbers_text
+from ..common.naming import get_free_name
+from ..common.numbers import format_numbers_text, number_text
 from .raw_sdf import move_to_owner
-from .sensor_plugins import sensor_plugin
+from .sensor_plugins import convert_sensor_plugin
 from .translation import Translation
-from .xml import Node, add, at
+from .xml import Node, add, get_or_create
 
 
 class BodySensor(NamedTuple):
@@ -69,18 +69,18 @@ def is_body_sensor(t: Translation, element: Element) -> bool:
     return not t.options.classic and _place(t, element) is not None
 
 
-def body_sensors(model: Node, t: Translation) -> None:
+def add_body_sensors(model: Node, t: Translation) -> None:
     """Add the sensors for plugins of the model, its links and its joints."""
     known = {None, "", *t.robot.link, *t.robot.joint}
     for block in t.robot.gazebo:
         for element in block.element.all("plugin") if block.reference in known else ():
             if is_body_sensor(t, element):
-                _sensor(model, t, element)
+                _add_sensor(model, t, element)
 
 
 def _place(t: Translation, element: Element) -> Link | Joint | None:
     """Return the link or joint that a plugin measures: by its parameters, else by its block."""
-    kind = BODY_SENSORS.get(library(element))
+    kind = BODY_SENSORS.get(get_library(element))
     if kind is None:
         return None
     named = (child.text.strip() for tag in kind.names for child in element.all(tag))
@@ -91,65 +91,65 @@ def _place(t: Translation, element: Element) -> Link | Joint | None:
     return t.robot.link.get(name) if name in t.plan.owner else None
 
 
-def _sensor(model: Node, t: Translation, element: Element) -> None:
+def _add_sensor(model: Node, t: Translation, element: Element) -> None:
     part = _place(t, element)
     assert part is not None
-    kind = BODY_SENSORS[library(element)]
+    kind = BODY_SENSORS[get_library(element)]
     if isinstance(part, Link):
         tag, name = "link", t.names.link(t.plan.owner[part.name])
     else:
-        tag, name = "joint", t.names.joint(part.name)
+        tag, name = "joint", t.names.get_joint(part.name)
     node = next((e for e in model.findall(tag) if e.get("name") == name), None)
     if node is None:  # a joint that SDF does not have, such as a floating one
         t.report_loss(
             "plugin",
-            f"plugin '{library(element)}' measures '{part.name}', which is no {tag} in "
+            f"plugin '{get_library(element)}' measures '{part.name}', which is no {tag} in "
             "SDF; it is not exported",
             element,
             part,
         )
         return
-    made = add(node, "sensor", name=_free_name(node, element), type=kind.type)
-    _pose(made, element)
+    made = add(node, "sensor", name=_format_free_name(node, element), type=kind.type)
+    _add_pose(made, element)
     add(made, "always_on", "true")
     said = {child.tag: child.text.strip() for child in element.children}
     for table, word in ((kind.noises, "stddev"), (kind.offsets, "mean")):
         for parameter, places in table.items():
-            _noise(made, places, word, said.get(parameter, ""))
-    if library(element) in SENSOR_PLUGINS:
-        sensor_plugin(made, t, part, element)
+            _set_noise(made, places, word, said.get(parameter, ""))
+    if get_library(element) in SENSOR_PLUGINS:
+        convert_sensor_plugin(made, t, part, element)
     if isinstance(part, Link):
         move_to_owner(made, t, part)
     left = [tag for tag in said if tag not in _CARRIED | {*kind.noises, *kind.offsets}]
     if left:
-        text = f"plugin '{library(element)}' is sensor '{made.get('name')}' in gz; it has no "
+        text = f"plugin '{get_library(element)}' is sensor '{made.get('name')}' in gz; it has no "
         t.report_loss("plugin", text + ", ".join(dict.fromkeys(left)), element, part)
 
 
-def _free_name(node: Node, element: Element) -> str:
-    name = element.get("name") or library(element)
+def _format_free_name(node: Node, element: Element) -> str:
+    name = element.get("name") or get_library(element)
     taken = {other.get("name") for other in node}
-    return free_name(name, taken)
+    return get_free_name(name, taken)
 
 
-def _pose(made: Node, element: Element) -> None:
+def _add_pose(made: Node, element: Element) -> None:
     six: list[float] = []
     for word in ("xyz", "rpy"):
         found = element.child(f"{word}Offset") or element.child(f"{word}_offset")
-        six += (numbers(found.text, 3) if found is not None else None) or (0.0, 0.0, 0.0)
+        six += (parse_numbers(found.text, 3) if found is not None else None) or (0.0, 0.0, 0.0)
     if any(six):
-        add(made, "pose", numbers_text(six))
+        add(made, "pose", format_numbers_text(six))
 
 
-def _noise(made: Node, places: tuple[str, ...], word: str, text: str) -> None:
+def _set_noise(made: Node, places: tuple[str, ...], word: str, text: str) -> None:
     """Set a noise parameter at each place; a vector of three sets one component per axis."""
     single = number(text)
-    values = numbers(text, 3) if single is None else (single, single, single)
+    values = parse_numbers(text, 3) if single is None else (single, single, single)
     if values is None or not any(values):
         return
     for index, place in enumerate(places):
-        noise = at(made, f"{place}/noise")
+        noise = get_or_create(made, f"{place}/noise")
         noise.set("type", "gaussian")
         for tag in ("mean", "stddev"):
-            at(noise, tag).text = noise.findtext(tag) or "0"
-        at(noise, word).text = number_text(values[index % 3])
+            get_or_create(noise, tag).text = noise.findtext(tag) or "0"
+        get_or_create(noise, word).text = number_text(values[index % 3])

@@ -3,54 +3,54 @@
 from __future__ import annotations
 
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere
-from ...model.pose import Pose, pose_of, rpy_of_rotation
+from ...model.pose import Pose, make_pose, rpy_from_rotation
 from ...source.document import Element
-from .extensions import merged, values
-from .gltf import in_file_axes
+from .extensions import merge_elements, values
+from .gltf import undo_axis_conversion
 from .keywords import COLLISION_KEYWORDS
-from .shapes import geometry, set_place, writable
+from .shapes import add_geometry, is_writable, set_place
 from .translation import Translation
-from .xml import Node, add, at
+from .xml import Node, add, get_or_create
 
 
-def collision(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
+def add_collision(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
     """Add a collision; before SDF 1.8 a capsule becomes three shapes."""
-    if not writable(t, link, part):
+    if not is_writable(t, link, part):
         return
-    if isinstance(part.geometry, Capsule) and not t.options.since("1.8"):
+    if isinstance(part.geometry, Capsule) and not t.options.is_at_least("1.8"):
         t.report_note(
             "capsule",
             f"SDF {t.options.sdf_version} has no capsule; exported as a cylinder and two spheres",
             part.geometry,
             link,
         )
-        for suffix, piece in _pieces(part, part.geometry):
-            _one(node, t, link, piece, name + suffix)
+        for suffix, piece in _collect_pieces(part, part.geometry):
+            _add_one(node, t, link, piece, name + suffix)
         return
-    _one(node, t, link, part, name)
+    _add_one(node, t, link, part, name)
 
 
-def _one(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
-    part = in_file_axes(t, link, part)
+def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
+    part = undo_axis_conversion(t, link, part)
     made = add(node, "collision", name=name)
     set_place(made, t, link, part.origin)
     assert part.geometry is not None
-    geometry(made, t, part.geometry)
+    add_geometry(made, t, part.geometry)
     for tag, text in values(t, link, COLLISION_KEYWORDS).items():
-        at(made, COLLISION_KEYWORDS[tag].path).text = text
-    merged(made, t, link, "collision")
+        get_or_create(made, COLLISION_KEYWORDS[tag].path).text = text
+    merge_elements(made, t, link, "collision")
 
 
-def _pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
-    pose = pose_of(part.origin)
+def _collect_pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
+    pose = make_pose(part.origin)
     element = part.element
 
     def placed(z: float) -> Origin:
         moved = pose @ Pose(translation=(0.0, 0.0, z))
-        return Origin(element, moved.translation, rpy_of_rotation(moved.rotation))
+        return Origin(element, moved.translation, rpy_from_rotation(moved.rotation))
 
-    tube = Cylinder(_tagged(capsule, "cylinder"), capsule.radius, capsule.length)
-    ball = Sphere(_tagged(capsule, "sphere"), capsule.radius)
+    tube = Cylinder(_build_tagged(capsule, "cylinder"), capsule.radius, capsule.length)
+    ball = Sphere(_build_tagged(capsule, "sphere"), capsule.radius)
     half = capsule.length / 2
     return [
         ("", Collision(element, None, part.origin, tube)),
@@ -59,6 +59,6 @@ def _pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
     ]
 
 
-def _tagged(capsule: Capsule, tag: str) -> Element:
+def _build_tagged(capsule: Capsule, tag: str) -> Element:
     e = capsule.element
     return Element(tag, {}, e.parent, e.file, e.start, e.calls)

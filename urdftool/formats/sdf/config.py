@@ -5,10 +5,10 @@ from __future__ import annotations
 from lxml import etree
 
 from .options import MODEL, Options
-from .xml import add, document
+from .xml import add, serialize_document
 
 
-def config(name: str, options: Options) -> bytes:
+def write_config(name: str, options: Options) -> bytes:
     """Write the file.
 
     Args:
@@ -22,4 +22,4 @@ def config(name: str, options: Options) -> bytes:
     author = add(root, "author")
     add(author, "name", "urdftool")
     add(root, "description", f"{name}, exported from its URDF")
-    return document(root)
+    return serialize_document(root)

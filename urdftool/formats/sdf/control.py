@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.elements import Ros2Control, Transmission
 from .translation import Translation
-from .xml import Node, comment
+from .xml import Node, append_comment
 
 HARDWARE = {
     "gz": ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem"),
@@ -13,10 +13,10 @@ HARDWARE = {
 """Hardware plugins that work in each target."""
 
 
-def control(model: Node, t: Translation) -> None:
+def keep_control(model: Node, t: Translation) -> None:
     """Keep transmissions and ros2_control as comments, and report them."""
     for transmission in t.robot.transmissions:
-        comment(model, _spoken(transmission))
+        append_comment(model, _format_comment(transmission))
         joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"
         t.report_loss(
             "transmission",
@@ -30,10 +30,10 @@ def control(model: Node, t: Translation) -> None:
             transmission,
         )
     for system in t.robot.ros2_controls:
-        _ros2_control(model, t, system)
+        _add_ros2_control(model, t, system)
 
 
-def _spoken(transmission: Transmission) -> str:
+def _format_comment(transmission: Transmission) -> str:
     parts = [f"transmission {transmission.name}: {transmission.type}"]
     parts += [
         f"joint {joint.name} {' '.join(joint.hardware_interfaces)}".rstrip()
@@ -46,9 +46,11 @@ def _spoken(transmission: Transmission) -> str:
     return "; ".join(parts)
 
 
-def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
+def _add_ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
     joints = ", ".join(joint.name for joint in system.joints)
-    comment(model, f"ros2_control {system.name}: {system.plugin or 'no plugin'}; joints {joints}")
+    append_comment(
+        model, f"ros2_control {system.name}: {system.plugin or 'no plugin'}; joints {joints}"
+    )
     right = HARDWARE[t.options.target]
     at = system.element.child("hardware") or system.element
     if system.plugin and system.plugin not in right and "azebo" in system.plugin:

@@ -12,38 +12,38 @@ from collections.abc import Iterator
 from ...finding import Finding
 from ...mechanics.spatial_inertia import link_inertia
 from ...model.elements import Link, Mesh, Robot
-from ..common.missing_files import missing_mesh
-from ..defects import defect
+from ..common.missing_files import create_missing_mesh
+from ..defects import make_defect
 from .mesh_files import MeshFiles
-from .plan import ROUNDING, Plan, excess_of
+from .plan import ROUNDING, Plan, get_excess
 
 
-def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
+def report_mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
     """Report meshes that are missing or cannot be read, each once."""
     seen = set()
     for link, shape in robot.shapes:
         mesh = shape.geometry
-        if isinstance(mesh, Mesh) and not meshes.known(mesh) and mesh.filename not in seen:
+        if isinstance(mesh, Mesh) and not meshes.is_known(mesh) and mesh.filename not in seen:
             seen.add(mesh.filename)
             refused = meshes.refused.get(mesh.filename)
             if not refused:
-                yield missing_mesh(robot, link, mesh)
+                yield create_missing_mesh(robot, link, mesh)
                 continue
             text = f"mesh '{mesh.filename}' of link '{link.name}' cannot be used: {refused}"
             place = mesh.element.attribute_place("filename")
-            yield defect("corrupt-mesh", text, place, "link", link.name)
+            yield make_defect("corrupt-mesh", text, place, "link", link.name)
 
 
-def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
+def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
     """Report bodies whose inertia is physically inconsistent, with all that is lumped into them."""
     for owner, mass in plan.mass.items():
-        short = excess_of(mass)
+        short = get_excess(mass)
         if mass.mass <= 0 or short <= ROUNDING:
             continue
         members = [robot.link[name] for name in plan.members[owner]]
-        worst = max(members, key=_own_shortfall)
+        worst = max(members, key=_compute_own_shortfall)
         inertia = worst.inertial and (worst.inertial.inertia or worst.inertial)
-        yield defect(
+        yield make_defect(
             "inertia-triangle-inequality",
             f"no rigid body has the inertia of link '{worst.name}': its largest principal moment "
             f"exceeds the sum of the others by {short:.0%} of itself",
@@ -54,5 +54,5 @@ def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
         )
 
 
-def _own_shortfall(link: Link) -> float:
-    return excess_of(link_inertia(link))
+def _compute_own_shortfall(link: Link) -> float:
+    return get_excess(link_inertia(link))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
-from ...rules.gazebo.block_values import kind_of_value, required_keyword_value, value_of
+from ...rules.gazebo.block_values import describe_required_keyword_value, get_kind, get_value
 from ...source.document import Element
 from ..common.gazebo_blocks import read_value
 from .body_sensors import is_body_sensor
@@ -18,10 +18,10 @@ from .keywords import (
     LUMPING_KEYWORDS,
     Keyword,
 )
-from .plugins import plugin
+from .plugins import add_plugin
 from .raw_sdf import copy_raw_element, remove_invalid
 from .translation import Translation
-from .xml import Node, add, at, copied, merge
+from .xml import Node, add, append_copy, get_or_create, merge
 
 ELSEWHERE = frozenset(("sensor", "visual", "collision", "material"))
 """Elements of a link's block that other modules handle."""
@@ -51,17 +51,17 @@ def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dic
     found: dict[str, str] = {}
     for element in block_elements(t.robot, part):
         if element.tag in table:
-            text = read_value(kind_of_value(element.tag), value_of(element))
+            text = read_value(get_kind(element.tag), get_value(element))
             if text is not None:
                 found[element.tag] = text
     return found
 
 
-def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
+def merge_elements(node: Node, t: Translation, link: Link, tag: str) -> None:
     """Merge the ``<visual>`` or ``<collision>`` elements of a link's blocks into a node."""
     for element in block_elements(t.robot, link):
         if element.tag == tag:
-            made = copied(node, element)
+            made = append_copy(node, element)
             remove_invalid(made, t, element, link)
             node.remove(made)
             merge(node, made)
@@ -69,8 +69,8 @@ def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
 
 def link_extensions(node: Node, t: Translation, link: Link) -> None:
     """Convert the settings of a link, except shapes, materials and sensors."""
-    _note_repeated(t, link, {**COLLISION_KEYWORDS, **LINK_KEYWORDS})
-    _note_untouchable(t, link)
+    _report_repeated(t, link, {**COLLISION_KEYWORDS, **LINK_KEYWORDS})
+    _report_untouchable(t, link)
     own = t.plan.stays(link.name)
     flags = values(t, link, LINK_KEYWORDS)
     if own:
@@ -95,7 +95,7 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
                 )
         elif tag == "plugin":
             if not is_body_sensor(t, element):
-                plugin(node, t, element)
+                add_plugin(node, t, element)
         elif tag in JOINT_KEYWORDS or tag in LUMPING_KEYWORDS:
             if link.name not in t.robot.joint:
                 text = f"<{tag}> is set for link '{link.name}', but applies to joints only"
@@ -115,23 +115,23 @@ def _set_flag(node: Node, tag: str, text: str) -> None:
         add(node, LINK_KEYWORDS[tag].path, text)
 
 
-def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
+def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     """Convert the settings of a joint, except sensors."""
-    _note_repeated(t, joint, JOINT_KEYWORDS)
+    _report_repeated(t, joint, JOINT_KEYWORDS)
     for tag, text in values(t, joint, JOINT_KEYWORDS).items():
         path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
         if path.startswith("axis/") and node.find("axis") is None:
             text = f"<{tag}> is set for joint '{joint.name}', which has no axis; it is not exported"
             t.report_loss("extension", text, t.robot.extensions[joint.name][0], joint)
             continue
-        at(node, path).text = text
+        get_or_create(node, path).text = text
         if also:
-            at(node, also).text = text
+            get_or_create(node, also).text = text
     for element in block_elements(t.robot, joint):
         tag = element.tag
         if tag == "plugin":
             if not is_body_sensor(t, element):
-                plugin(node, t, element)
+                add_plugin(node, t, element)
         elif tag not in JOINT_KEYWORDS and tag not in (*LUMPING_KEYWORDS, *IGNORED, "sensor"):
             if joint.name in t.robot.link:
                 continue  # it belongs to the link of the same name
@@ -145,7 +145,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
                 copy_raw_element(node, t, element, joint)
 
 
-def note_dissolved_joint(t: Translation, joint: Joint) -> None:
+def report_dissolved_joint(t: Translation, joint: Joint) -> None:
     """Report the settings that are lost with a dissolved joint."""
     lost = [e for e in block_elements(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
     if lost and joint.name not in t.robot.link:
@@ -159,17 +159,17 @@ def note_dissolved_joint(t: Translation, joint: Joint) -> None:
         )
 
 
-def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> None:
+def _report_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> None:
     seen: dict[str, str] = {}
     for element in block_elements(t.robot, part):
         if element.tag not in table:
             continue
-        text = read_value(kind_of_value(element.tag), value_of(element))
+        text = read_value(get_kind(element.tag), get_value(element))
         if text is None:
             t.report_loss(
                 "extension",
-                f"<{element.tag}> of '{part.name}' is '{value_of(element)}', not "
-                f"{required_keyword_value(element)}; it is not exported",
+                f"<{element.tag}> of '{part.name}' is '{get_value(element)}', not "
+                f"{describe_required_keyword_value(element)}; it is not exported",
                 element,
                 part,
             )
@@ -184,7 +184,7 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
         seen[element.tag] = text
 
 
-def _note_untouchable(t: Translation, link: Link) -> None:
+def _report_untouchable(t: Translation, link: Link) -> None:
     """Report contact values of a link without collisions, which have no effect."""
     given = values(t, link, COLLISION_KEYWORDS)
     given.pop("laserRetro", None)

@@ -13,23 +13,23 @@ from .xml import Node, add
 MODEL_FRAME = "__model__"
 
 
-def frames(model: Node, t: Translation) -> None:
+def add_frames(model: Node, t: Translation) -> None:
     """Add the frames of a model, parents first."""
     for name in t.plan.in_model:
         joint = t.robot.tree.parent_joint(name)
         link = t.robot.link[name]
         if joint is not None and joint.name in t.plan.dissolved:
-            _joint_frame(model, t, joint)
+            _add_joint_frame(model, t, joint)
         if not t.plan.stays(name):
             _link_frame(model, t, link, joint)
 
 
-def _joint_frame(model: Node, t: Translation, joint: Joint) -> None:
+def _add_joint_frame(model: Node, t: Translation, joint: Joint) -> None:
     owner, parent = t.plan.owner[joint.parent], t.names.link(joint.parent)
     below = owner == joint.child or owner in t.robot.tree.descendants(joint.child)
     held = t.names.link(owner) if below else parent
-    frame = add(model, "frame", name=t.names.joint(joint.name), attached_to=held)
-    set_origin(frame, joint.origin, parent if below else "", t.options.since("1.9"))
+    frame = add(model, "frame", name=t.names.get_joint(joint.name), attached_to=held)
+    set_origin(frame, joint.origin, parent if below else "", t.options.is_at_least("1.9"))
 
 
 def _link_frame(model: Node, t: Translation, link: Link, joint: Joint | None) -> None:
@@ -38,9 +38,9 @@ def _link_frame(model: Node, t: Translation, link: Link, joint: Joint | None) ->
     if joint is not None and joint.name in plan.dissolved:
         if plan.owner[link.name] in t.robot.tree.descendants(link.name):
             frame.set("attached_to", names.link(plan.owner[link.name]))
-            add(frame, "pose", "0 0 0 0 0 0", relative_to=names.joint(joint.name))
+            add(frame, "pose", "0 0 0 0 0 0", relative_to=names.get_joint(joint.name))
         else:
-            frame.set("attached_to", names.joint(joint.name))
+            frame.set("attached_to", names.get_joint(joint.name))
         return
     # the topmost link of a body that another of its links owns: the model's root, or below a joint
     frame.set("attached_to", names.link(plan.owner[link.name]))
@@ -54,17 +54,17 @@ def place(node: Node, t: Translation, joint: Joint | None) -> None:
         if is_frame:
             add(node, "pose", "0 0 0 0 0 0", relative_to=MODEL_FRAME)
         return
-    if not t.options.since("1.7"):
+    if not t.options.is_at_least("1.7"):
         set_pose(node, t.plan.in_model[joint.child])
         return
     if joint.type == "floating":  # SDF has no joint here, so the link has the pose of the joint
-        parent = above(t, joint)
-        set_origin(node, joint.origin, parent, t.options.since("1.9"))
+        parent = get_parent_frame(t, joint)
+        set_origin(node, joint.origin, parent, t.options.is_at_least("1.9"))
         return
-    add(node, "pose", "0 0 0 0 0 0", relative_to=t.names.joint(joint.name))
+    add(node, "pose", "0 0 0 0 0 0", relative_to=t.names.get_joint(joint.name))
 
 
-def above(t: Translation, joint: Joint) -> str:
+def get_parent_frame(t: Translation, joint: Joint) -> str:
     """Return the frame in which a joint's origin is expressed."""
     if t.plan.anchored and joint.parent == "world":
         return MODEL_FRAME

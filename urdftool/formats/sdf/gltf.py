@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from ...model.elements import Collision, Link, Mesh, Origin, Visual
 from ...model.gltf_axes import is_gltf
-from ...model.pose import Pose, pose_of, rpy_of_rotation
+from ...model.pose import Pose, make_pose, rpy_from_rotation
 from .translation import Translation
 
 S = TypeVar("S", Visual, Collision)
@@ -20,7 +20,7 @@ S = TypeVar("S", Visual, Collision)
 TURN = Pose(((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)))
 
 
-def in_file_axes(t: Translation, link: Link, shape: S) -> S:
+def undo_axis_conversion(t: Translation, link: Link, shape: S) -> S:
     """Return a shape for a reader that keeps the axes of a glTF file; others unchanged."""
     mesh = shape.geometry
     source = t.robot.source
@@ -33,10 +33,10 @@ def in_file_axes(t: Translation, link: Link, shape: S) -> S:
         mesh,
         link,
     )
-    pose = pose_of(shape.origin) @ TURN
+    pose = make_pose(shape.origin) @ TURN
     x, y, z = mesh.scale
     return replace(
         shape,
-        origin=Origin(shape.element, pose.translation, rpy_of_rotation(pose.rotation)),
+        origin=Origin(shape.element, pose.translation, rpy_from_rotation(pose.rotation)),
         geometry=replace(mesh, scale=(x, z, y)),
     )

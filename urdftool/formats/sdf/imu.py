@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from ...model.read import number
 from ...source.document import Element
-from .xml import Node, add, at
+from .xml import Node, add, get_or_create
 
 KINDS = {"rate": "angular_velocity", "accel": "linear_acceleration"}
 _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
 
 
-def imu_noise(made: Node, sensor: Element) -> None:
+def write_imu_noise(made: Node, sensor: Element) -> None:
     """Write the values of ``imu/noise`` for each axis.
 
     Args:
@@ -26,7 +26,7 @@ def imu_noise(made: Node, sensor: Element) -> None:
     for old, new in KINDS.items():
         said = noise.child(old)
         for axis in "xyz" if said is not None else "":
-            node = at(holder, f"{new}/{axis}")
+            node = get_or_create(holder, f"{new}/{axis}")
             if said is None or node.find("noise") is not None:
                 continue
             one = add(node, "noise", type=kind.text.strip() if kind is not None else "gaussian")

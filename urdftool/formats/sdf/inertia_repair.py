@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from ...mechanics.repair import nearest_consistent
+from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import SymmetricTensor
 from ...model.elements import Vector
 from ..common.inertia_repair import repair_tensor
@@ -28,13 +28,13 @@ def repair_inertia(t: Translation, name: str) -> tuple[SymmetricTensor, str]:
     members = t.plan.members[name]
 
     def measure_box() -> Vector | None:
-        from ..common.extent import box_size  # numpy, only for bodies that need it
+        from ..common.extent import compute_box_size  # numpy, only for bodies that need it
 
-        return box_size(t.robot, ((t.robot.link[m], t.plan.in_owner[m]) for m in members))
+        return compute_box_size(t.robot, ((t.robot.link[m], t.plan.in_owner[m]) for m in members))
 
     return repair_tensor(
         t.options.fix_inertia,
         t.plan.mass[name],
         measure_box,
-        lift=partial(nearest_consistent, margin=CLEAR),
+        lift=partial(find_nearest_consistent, margin=CLEAR),
     )

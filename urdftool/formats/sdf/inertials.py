@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from ...diagnostic import Severity
-from ...mechanics.repair import nearest_consistent
+from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import (
     COMPONENTS,
     SymmetricTensor,
-    consistency,
-    diagonal_tensor,
-    moments_text,
-    written_tensor,
+    format_moments_text,
+    get_written_tensor,
+    make_diagonal_tensor,
+    measure_consistency,
 )
 from ...model.elements import Link, Part
 from ...model.pose import Pose
 from ..common.numbers import number_text
 from .inertia_repair import CLEAR, repair_inertia
-from .plan import EXACT, ROUNDING, excess_of
+from .plan import EXACT, ROUNDING, get_excess
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
@@ -28,21 +28,21 @@ WEIGHTLESS = 1e-12
 """Mass [kg] of a moving link without mass; its radius of gyration is one millimeter."""
 
 
-def inertial(node: Node, t: Translation, link: Link) -> None:
+def add_inertial(node: Node, t: Translation, link: Link) -> None:
     """Add the combined inertial of a link and of the links it owns."""
     mass = t.plan.mass[link.name]
-    _note_dissolved(t, link)
+    _report_dissolved(t, link)
     if mass.mass <= 0:
-        _weightless(node, t, link, mass.tensor)
+        _add_weightless(node, t, link, mass.tensor)
         return
     alone = link.name in t.plan.alone
     own = link.inertial
     about: Part = own or link
-    short = excess_of(mass)
+    short = get_excess(mass)
     node = add(node, "inertial")
     if alone and own is not None and short <= ROUNDING:
-        set_origin(node, own.origin, exact=t.options.since("1.9"))
-        tensor = written_tensor(own.inertia)
+        set_origin(node, own.origin, exact=t.options.is_at_least("1.9"))
+        tensor = get_written_tensor(own.inertia)
     else:
         set_pose(node, Pose(translation=mass.com))
         tensor = mass.tensor
@@ -52,7 +52,8 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
         t.report_loss(
             "inertia",
             f"inertia of link '{link.name}' is physically inconsistent (principal moments "
-            f"{moments_text(mass.tensor)} kg·m²): {how} to {moments_text(tensor)} kg·m²",
+            f"{format_moments_text(mass.tensor)} kg·m²): {how} to {format_moments_text(tensor)} "
+            "kg·m²",
             about,
             link,
         )
@@ -65,31 +66,31 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
             about,
             link,
         )
-        tensor = nearest_consistent(tensor, CLEAR)
-    _tensor(node, tensor if _is_safe(tensor) else nearest_consistent(tensor, _MARGIN))
+        tensor = find_nearest_consistent(tensor, CLEAR)
+    _add_tensor(node, tensor if _is_safe(tensor) else find_nearest_consistent(tensor, _MARGIN))
 
 
 def _is_safe(tensor: SymmetricTensor) -> bool:
     """Tell whether readers accept a tensor, with a margin for rounding of the principal moments."""
-    short = consistency(tensor).excess
+    short = measure_consistency(tensor).excess
     products = tensor[1], tensor[2], tensor[4]
     return short < -_MARGIN or (not any(products) and short <= _EPSILON)
 
 
-def _tensor(node: Node, tensor: SymmetricTensor) -> None:
+def _add_tensor(node: Node, tensor: SymmetricTensor) -> None:
     inertia = add(node, "inertia")
     for name, value in zip(COMPONENTS, tensor, strict=True):
         add(inertia, name, number_text(value))
 
 
-def _weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor) -> None:
+def _add_weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor) -> None:
     """Add the inertial of a massless link that moves or is the only link."""
     node = add(node, "inertial")
     add(node, "mass", number_text(WEIGHTLESS))
     tiny = WEIGHTLESS * 1e-6
-    if not any(tensor) or consistency(tensor).excess > EXACT:
-        tensor = diagonal_tensor(tiny, tiny, tiny)
-    _tensor(node, tensor)
+    if not any(tensor) or measure_consistency(tensor).excess > EXACT:
+        tensor = make_diagonal_tensor(tiny, tiny, tiny)
+    _add_tensor(node, tensor)
     below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.descendants(link.name))
     t.report_loss(
         "mass",
@@ -103,7 +104,7 @@ def _weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor)
     )
 
 
-def _note_dissolved(t: Translation, link: Link) -> None:
+def _report_dissolved(t: Translation, link: Link) -> None:
     """Report why each member keeps only its frame, unless all links are lumped."""
     if t.options.lump:
         return

@@ -13,7 +13,9 @@ _TYPES = ("revolute", "continuous", "prismatic")
 _OF_CONTROLLERS = ("kp", "kd", "armature", "type")
 
 
-def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str, JointSettings]:
+def choose_joint_settings(
+    robot: Robot, options: Options, written: Written
+) -> dict[str, JointSettings]:
     """Choose the settings of each movable joint, by name.
 
     In Gazebo, gains and the kind of actuator belong to a controller, and SDF has no armature: such
@@ -25,7 +27,7 @@ def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str
     if options.actuator_config is None:
         return {}
     names = [joint.name for joint in robot.joints if joint.type in _TYPES]
-    found = read_actuator_config(options.actuator_config).for_joints(names)
+    found = read_actuator_config(options.actuator_config).match_joints(names)
     for name, settings in found.items():
         texts = []
         left = [word for word in _OF_CONTROLLERS if getattr(settings, word) is not None]
@@ -33,7 +35,7 @@ def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str
             texts.append(f"{', '.join(left)} of joint '{name}' cannot be expressed in SDF")
         low, high = settings.force_range or (0.0, 0.0)
         if abs(low) != abs(high):
-            most = number_text(effort_of(settings.force_range))
+            most = number_text(get_effort(settings.force_range))
             texts.append(
                 f"force range of joint '{name}' is {low:g} to {high:g}; SDF gets {most} both ways"
             )
@@ -42,7 +44,7 @@ def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str
     return found
 
 
-def effort_of(force_range: tuple[float, float] | None) -> float:
+def get_effort(force_range: tuple[float, float] | None) -> float:
     """Return the effort limit of a force range [N·m or N]."""
     return max(map(abs, force_range or (0.0,)))
 

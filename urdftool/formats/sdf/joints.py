@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint
-from ...model.pose import norm
+from ...model.pose import compute_norm
 from ..common.actuator_config import JointSettings
-from ..common.numbers import number_text, numbers_text
-from .extensions import joint_extensions, note_dissolved_joint
-from .joint_base import axis_of, start
-from .joint_settings import effort_of
-from .planar import planar
-from .sensors import joint_sensors
+from ..common.numbers import format_numbers_text, number_text
+from .extensions import convert_joint_extensions, report_dissolved_joint
+from .joint_base import get_axis, start
+from .joint_settings import get_effort
+from .planar import add_planar
+from .sensors import add_joint_sensors
 from .translation import Translation
-from .xml import Node, add, comment
+from .xml import Node, add, append_comment
 
 SDF_TYPES = {
     "revolute": "revolute",
@@ -25,10 +25,10 @@ SDF_TYPES = {
 """SDF type of each URDF joint type; ``floating`` is dropped, ``planar`` becomes three joints."""
 
 
-def joint(model: Node, t: Translation, part: Joint) -> None:
+def add_joint(model: Node, t: Translation, part: Joint) -> None:
     """Add a joint, unless it became a frame or SDF has no such joint."""
     if part.name in t.plan.dissolved:
-        note_dissolved_joint(t, part)
+        report_dissolved_joint(t, part)
         return
     if part.type == "floating":
         text = (
@@ -38,22 +38,22 @@ def joint(model: Node, t: Translation, part: Joint) -> None:
         _report_mimic_loss(t, part)
         return
     if part.type == "planar":
-        planar(model, t, part)
+        add_planar(model, t, part)
         _report_mimic_loss(t, part)
         return
-    kind = _type(t, part)
-    node = start(model, t, part, t.names.joint(part.name), kind)
+    kind = _format_type(t, part)
+    node = start(model, t, part, t.names.get_joint(part.name), kind)
     if kind in ("revolute", "prismatic"):
-        _axis(node, t, part)
+        _add_axis(node, t, part)
     elif kind == "ball":
         _report_mimic_loss(t, part)
-    _note_unspoken(node, t, part)
-    joint_sensors(node, t, part)
-    joint_extensions(node, t, part)
+    _report_unspoken(node, t, part)
+    add_joint_sensors(node, t, part)
+    convert_joint_extensions(node, t, part)
 
 
-def _type(t: Translation, part: Joint) -> str:
-    if part.has_axis and part.axis is not None and norm(part.axis.xyz) < 1e-6:
+def _format_type(t: Translation, part: Joint) -> str:
+    if part.has_axis and part.axis is not None and compute_norm(part.axis.xyz) < 1e-6:
         text = (
             f"axis of joint '{part.name}' is zero, so its motion is undefined; it is exported "
             "as fixed"
@@ -66,12 +66,12 @@ def _type(t: Translation, part: Joint) -> str:
     return SDF_TYPES.get(part.type, "fixed")
 
 
-def _axis(node: Node, t: Translation, part: Joint) -> None:
+def _add_axis(node: Node, t: Translation, part: Joint) -> None:
     axis = add(node, "axis")
-    add(axis, "xyz", numbers_text(axis_of(part)))
+    add(axis, "xyz", format_numbers_text(get_axis(part)))
     limit = add(axis, "limit")
-    _bounds(limit, t, part)
-    _most(limit, t, part)
+    _add_bounds(limit, t, part)
+    _set_most(limit, t, part)
     settings = t.settings.get(part.name, JointSettings())
     found = {
         name: getattr(part.dynamics, name, None) if chosen is None else chosen
@@ -82,10 +82,10 @@ def _axis(node: Node, t: Translation, part: Joint) -> None:
         for name, value in found.items():
             if value is not None:
                 add(made, name, number_text(value))
-    _mimic(axis, t, part)
+    _add_mimic(axis, t, part)
 
 
-def _bounds(node: Node, t: Translation, part: Joint) -> None:
+def _add_bounds(node: Node, t: Translation, part: Joint) -> None:
     limit = part.limit
     if part.type == "continuous":
         if limit is not None and (limit.lower is not None or limit.upper is not None):
@@ -111,12 +111,12 @@ def _bounds(node: Node, t: Translation, part: Joint) -> None:
     add(node, "upper", number_text(upper))
 
 
-def _most(node: Node, t: Translation, part: Joint) -> None:
+def _set_most(node: Node, t: Translation, part: Joint) -> None:
     """Set effort and velocity limits; SDF ignores negative ones, URDF uses the absolute value."""
     limit = part.limit
     chosen = t.settings.get(part.name, JointSettings()).force_range
     if chosen is not None:
-        add(node, "effort", number_text(effort_of(chosen)))
+        add(node, "effort", number_text(get_effort(chosen)))
     if limit is None:
         return
     for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
@@ -140,7 +140,7 @@ def _report_mimic_loss(t: Translation, part: Joint) -> None:
         t.report_loss("mimic", text, part.mimic, part)
 
 
-def _mimic(axis: Node, t: Translation, part: Joint) -> None:
+def _add_mimic(axis: Node, t: Translation, part: Joint) -> None:
     mimic = part.mimic
     if mimic is None:
         return
@@ -150,7 +150,7 @@ def _mimic(axis: Node, t: Translation, part: Joint) -> None:
         text = f"joint '{part.name}' mimics '{mimic.joint}', which does not move; it moves freely"
         t.report_loss("mimic", text, mimic, part)
         return
-    if not t.options.since("1.11"):
+    if not t.options.is_at_least("1.11"):
         t.report_loss(
             "mimic",
             f"joint '{part.name}' mimics '{mimic.joint}', which SDF {t.options.sdf_version} cannot "
@@ -160,20 +160,20 @@ def _mimic(axis: Node, t: Translation, part: Joint) -> None:
             hint="" if t.options.classic else "--sdf-version 1.11 can",
         )
         return
-    made = add(axis, "mimic", joint=t.names.joint(mimic.joint))
+    made = add(axis, "mimic", joint=t.names.get_joint(mimic.joint))
     add(made, "multiplier", number_text(mimic.multiplier))
     add(made, "offset", number_text(mimic.offset))
     add(made, "reference", "0")
 
 
-def _note_unspoken(node: Node, t: Translation, part: Joint) -> None:
+def _report_unspoken(node: Node, t: Translation, part: Joint) -> None:
     """Keep safety controller and calibration as comments, and report them."""
     for what, said in (("safety", part.safety_controller), ("calibration", part.calibration)):
         if said is None:
             continue
         element = said.element
         text = " ".join(f'{k}="{v}"' for k, v in element.attributes.items())
-        comment(node, f"{element.tag} {text}")
+        append_comment(node, f"{element.tag} {text}")
         t.report_loss(
             what,
             (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...model.gazebo_plugins import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
-from ...rules.gazebo.block_values import kind_of_value
+from ...rules.gazebo.block_values import get_kind
 from .body_sensors import BODY_SENSORS
 from .colors import COLORS
 from .joints import SDF_TYPES
@@ -57,13 +57,13 @@ ELEMENTS = (
 """URDF elements, their SDF counterparts, and notes."""
 
 
-def mapping() -> str:
+def format_mapping() -> str:
     """Format the tables of the page as Markdown."""
-    return "\n\n".join(_sections())
+    return "\n\n".join(_list_sections())
 
 
-def _sections() -> Iterator[str]:
-    yield "### Versions\n\n" + _table(
+def _list_sections() -> Iterator[str]:
+    yield "### Versions\n\n" + _format_table(
         ("target", "SDF", "what reads it"),
         (
             (target, version + (" (default)" if DEFAULT_VERSION[target] == version else ""),
@@ -72,8 +72,8 @@ def _sections() -> Iterator[str]:
             for version in versions
         ),
     )  # fmt: skip
-    yield "### Elements\n\n" + _table(("URDF", "SDF", ""), ELEMENTS)
-    yield "### Types of joints\n\n" + _table(
+    yield "### Elements\n\n" + _format_table(("URDF", "SDF", ""), ELEMENTS)
+    yield "### Types of joints\n\n" + _format_table(
         ("URDF", "SDF"),
         (
             *((urdf, sdf) for urdf, sdf in SDF_TYPES.items()),
@@ -81,59 +81,61 @@ def _sections() -> Iterator[str]:
             ("planar", "two prismatic and a revolute"),
         ),
     )
-    yield '### `<gazebo reference="LINK">`\n\n' + _keywords(
-        {**_below("collision", COLLISION_KEYWORDS), **_below("link", LINK_KEYWORDS)}
+    yield '### `<gazebo reference="LINK">`\n\n' + _format_keywords(
+        {**_collect_below("collision", COLLISION_KEYWORDS), **_collect_below("link", LINK_KEYWORDS)}
     )
     yield (
         '### `<gazebo reference="JOINT">`\n\n'
-        + _keywords(_below("joint", JOINT_KEYWORDS))
+        + _format_keywords(_collect_below("joint", JOINT_KEYWORDS))
         + f"\n\n{' and '.join(f'`{tag}`' for tag in LUMPING_KEYWORDS)} keep a fixed joint when "
         "lumping; so does a force_torque sensor on it."
     )
-    yield "### Sensors\n\n" + _table(
+    yield "### Sensors\n\n" + _format_table(
         ("for", "type", "becomes", ""),
-        (*_types("gz", TO_GZ), *_types("gazebo-classic", TO_CLASSIC)),
+        (*_list_types("gz", TO_GZ), *_list_types("gazebo-classic", TO_CLASSIC)),
     )
-    yield "Systems that a world for gz has then (`--world` writes them):\n\n" + _table(
+    yield "Systems that a world for gz has then (`--world` writes them):\n\n" + _format_table(
         ("sensor", "system"),
         ((kind, f"gz-sim-{word}-system") for kind, (word, _) in SYSTEMS.items()),
     )
-    yield "### Plugins of Gazebo Classic in gz\n\n" + _table(("library", "becomes"), _plugins())
+    yield "### Plugins of Gazebo Classic in gz\n\n" + _format_table(
+        ("library", "becomes"), _list_plugins()
+    )
     yield (
         f"### Materials\n\n{len(COLORS)} materials of Gazebo Classic are colors for gz: "
         + ", ".join(name.removeprefix("Gazebo/") for name in COLORS)
         + "."
     )
-    yield "### Losses\n\n" + _table(
+    yield "### Losses\n\n" + _format_table(
         ("name", "what it means"), ((f"`lossy-{name}`", text) for name, text in LOSSES.items())
     )
 
 
-def _table(head: tuple[str, ...], rows: Iterable[Iterable[str]]) -> str:
+def _format_table(head: tuple[str, ...], rows: Iterable[Iterable[str]]) -> str:
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join(f"| {' | '.join(row)} |".replace("|  |", "| |") for row in lines)
 
 
-def _below(where: str, keywords: dict[str, Keyword]) -> dict[str, Keyword]:
+def _collect_below(where: str, keywords: dict[str, Keyword]) -> dict[str, Keyword]:
     return {tag: word._replace(path=f"{where}/{word.path}") for tag, word in keywords.items()}
 
 
-def _keywords(keywords: dict[str, Keyword]) -> str:
-    return _table(
+def _format_keywords(keywords: dict[str, Keyword]) -> str:
+    return _format_table(
         ("tag", "holds", "SDF", ""),
         (
-            (f"`{tag}`", kind_of_value(tag), f"`{word.path}`", word.note)
+            (f"`{tag}`", get_kind(tag), f"`{word.path}`", word.note)
             for tag, word in keywords.items()
         ),
     )
 
 
-def _types(target: str, types: dict[str, SensorType]) -> Iterator[tuple[str, str, str, str]]:
+def _list_types(target: str, types: dict[str, SensorType]) -> Iterator[tuple[str, str, str, str]]:
     for kind, other in types.items():
         yield target, kind, other.type or "stays as it is", other.note if other.type else "lossy"
 
 
-def _plugins() -> Iterator[tuple[str, str]]:
+def _list_plugins() -> Iterator[tuple[str, str]]:
     for name, systems in SYSTEM_PLUGINS.items():
         yield f"`lib{name}.so`", ", ".join(f"gz-sim-{system.word}-system" for system in systems)
     for name in sorted(CONTROL_PLUGINS):

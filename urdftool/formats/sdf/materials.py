@@ -5,9 +5,9 @@ from __future__ import annotations
 from decimal import Decimal
 
 from ...model.elements import Link, Material, Robot, Visual
-from ...rules.gazebo.block_values import value_of
+from ...rules.gazebo.block_values import get_value
 from ...source.document import Element
-from ..common.numbers import number_text, numbers_text
+from ..common.numbers import format_numbers_text, number_text
 from .colors import COLORS, PICTURED, Color
 from .extensions import block_elements
 from .raw_sdf import copy_raw_element
@@ -17,12 +17,12 @@ from .xml import Node, add
 SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
 
-def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
+def add_material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     """Add the material of a visual."""
     said = [e for e in block_elements(t.robot, link) if e.tag == "material"]
     if said and _from_gazebo(node, t, link, part, said[-1]):
         return
-    own = resolved(t.robot, part.material)
+    own = resolve_material(t.robot, part.material)
     if own is None:
         return
     color = own.color
@@ -35,15 +35,15 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
         return
     rgba = color or (1.0, 1.0, 1.0, 1.0)
     made = add(node, "material")
-    add(made, "ambient", numbers_text(rgba))
-    add(made, "diffuse", numbers_text(rgba))
+    add(made, "ambient", format_numbers_text(rgba))
+    add(made, "diffuse", format_numbers_text(rgba))
     if rgba[3] < 1.0:
-        _transparency(node, rgba[3])
+        _set_transparency(node, rgba[3])
     if own.texture and there:
-        _texture(made, t, link, own, own.texture)
+        _add_texture(made, t, link, own, own.texture)
 
 
-def resolved(robot: Robot, own: Material | None) -> Material | None:
+def resolve_material(robot: Robot, own: Material | None) -> Material | None:
     """Return the material of a visual: its own if it has a color or texture, else by name."""
     if own is None or own.color is not None or own.texture is not None:
         return own
@@ -53,13 +53,13 @@ def resolved(robot: Robot, own: Material | None) -> Material | None:
     return None
 
 
-def _texture(made: Node, t: Translation, link: Link, own: Material, filename: str) -> None:
+def _add_texture(made: Node, t: Translation, link: Link, own: Material, filename: str) -> None:
     if not t.options.classic:
         metal = add(add(made, "pbr"), "metal")
-        add(metal, "albedo_map", t.meshes.texture(filename))
+        add(metal, "albedo_map", t.meshes.get_texture(filename))
         add(metal, "metalness", "0")
         return
-    found = t.meshes.script(filename)
+    found = t.meshes.get_script(filename)
     if found is None:
         text = f"texture '{filename}' requires an Ogre script next to the model; it is not exported"
         hint = "write a folder, or give --uri model"
@@ -79,7 +79,7 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
         for child in said.children:
             copy_raw_element(made, t, child, link)
         return True
-    name = value_of(said)
+    name = get_value(said)
     if not name:
         return False
     if t.options.classic:
@@ -100,20 +100,20 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if first and name in PICTURED:
         text = f"material '{name}' of link '{link.name}' has an image; only its color is exported"
         t.report_loss("material", text, said, link)
-    _colored(node, color)
+    _add_colored(node, color)
     return True
 
 
-def _colored(node: Node, color: Color) -> None:
+def _add_colored(node: Node, color: Color) -> None:
     made = add(node, "material")
     for tag in ("ambient", "diffuse", "specular"):
-        add(made, tag, numbers_text((*getattr(color, tag), color.alpha)))
+        add(made, tag, format_numbers_text((*getattr(color, tag), color.alpha)))
     if any(color.emissive):
-        add(made, "emissive", numbers_text((*color.emissive, 1.0)))
+        add(made, "emissive", format_numbers_text((*color.emissive, 1.0)))
     if color.alpha < 1.0:
-        _transparency(node, color.alpha)
+        _set_transparency(node, color.alpha)
 
 
-def _transparency(node: Node, alpha: float) -> None:
+def _set_transparency(node: Node, alpha: float) -> None:
     """Set the complement of alpha, in decimal to avoid binary rounding digits."""
     add(node, "transparency", number_text(float(Decimal(1) - Decimal(repr(alpha)))))

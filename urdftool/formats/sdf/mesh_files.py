@@ -8,13 +8,20 @@ from itertools import chain
 from pathlib import Path, PurePosixPath
 
 from ...model.elements import Mesh, Robot
-from ...source.packages import own_package
+from ...source.packages import find_own_package
 from ..common.asset_filter import explain_invalid_mesh, is_image
-from ..common.assets import find_companions, find_file, package_path
-from ..common.naming import first_free, numbered
-from .names import model_name
+from ..common.assets import find_companions, find_file, get_package_path
+from ..common.naming import get_first_free, list_numbered_names
+from .names import get_model_name
 from .options import Options
-from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, script
+from .scripts import (
+    SCRIPTS,
+    TEXTURES,
+    choose_picture_names,
+    create_script,
+    get_material_name,
+    replace_quoted,
+)
 
 
 @dataclass
@@ -37,38 +44,38 @@ class MeshFiles:
     places: dict[Path, str] = field(default_factory=dict)
     pictures: dict[Path, str] = field(default_factory=dict)
 
-    def known(self, mesh: Mesh) -> bool:
+    def is_known(self, mesh: Mesh) -> bool:
         """Tell whether the file of a mesh exists."""
         return self.found.get(mesh.filename) is not None
 
-    def uri(self, mesh: Mesh) -> str:
+    def get_uri(self, mesh: Mesh) -> str:
         """Return the URI of a mesh in the model."""
-        return self._named(mesh.filename) or mesh.filename
+        return self._get_named(mesh.filename) or mesh.filename
 
-    def texture(self, filename: str) -> str | None:
+    def get_texture(self, filename: str) -> str | None:
         """Return the URI of a texture in a model for gz; None if it is missing."""
-        return self._named(filename)
+        return self._get_named(filename)
 
-    def script(self, filename: str) -> tuple[str, list[str]] | None:
+    def get_script(self, filename: str) -> tuple[str, list[str]] | None:
         """Return the Ogre material of a texture, and the folders it needs; None for none."""
         picture = self.pictures.get(self.found.get(filename) or Path())
         if picture is None:
             return None
-        folders = [self._placed(place) for place in (SCRIPTS, TEXTURES)]
-        return material_name(self.robot, picture), folders
+        folders = [self._format_placed(place) for place in (SCRIPTS, TEXTURES)]
+        return get_material_name(self.robot, picture), folders
 
-    def _named(self, filename: str) -> str | None:
+    def _get_named(self, filename: str) -> str | None:
         path = self.found.get(filename)
         if path is None:
             return None
         style = self.options.uri_style
         if style == "package":
-            return _package_uri(filename, path)
+            return _format_package_uri(filename, path)
         if style == "file":
             return path.resolve().as_uri()
-        return self._placed(self.places[path])
+        return self._format_placed(self.places[path])
 
-    def _placed(self, place: str) -> str:
+    def _format_placed(self, place: str) -> str:
         relative = self.options.uri_style != "model"
         return place if relative else f"model://{self.options.folder}/{place}"
 
@@ -86,7 +93,11 @@ class MeshFiles:
         """Return the Ogre script of the materials with a texture, by its path in the export."""
         if not self.pictures:
             return {}
-        return {f"{SCRIPTS}/{plain(self.robot)}.material": script(self.robot, self.pictures)}
+        return {
+            f"{SCRIPTS}/{replace_quoted(self.robot)}.material": create_script(
+                self.robot, self.pictures
+            )
+        }
 
 
 def find_meshes(robot: Robot, options: Options) -> MeshFiles:
@@ -95,38 +106,38 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
     textures = [m.texture for m in robot.materials if m.texture]
     for link in robot.links:
         textures += [v.material.texture for v in link.visuals if v.material and v.material.texture]
-    meshes = MeshFiles(options, model_name(robot))
+    meshes = MeshFiles(options, get_model_name(robot))
     for name in dict.fromkeys([*names, *textures]):
         meshes.found[name] = path = find_file(robot, name)
-        why = _refusal(path, mesh=name in names) if path is not None else ""
+        why = _explain_refusal(path, mesh=name in names) if path is not None else ""
         if why:
             meshes.found[name], meshes.refused[name] = None, why
     if options.classic:
         if options.uri_style in ("model", "relative"):
-            meshes.pictures = picture_names(meshes.robot, _there(meshes, textures))
+            meshes.pictures = choose_picture_names(meshes.robot, _get_there(meshes, textures))
     else:
         names += textures
-    _give_places(meshes, _there(meshes, names))
+    _give_places(meshes, _get_there(meshes, names))
     return meshes
 
 
-def _there(meshes: MeshFiles, names: list[str]) -> list[Path]:
+def _get_there(meshes: MeshFiles, names: list[str]) -> list[Path]:
     """Return the files of URIs, each once, without missing files."""
     found = (meshes.found[name] for name in names)
     return list(dict.fromkeys(path for path in found if path is not None))
 
 
-def _refusal(path: Path, *, mesh: bool) -> str:
+def _explain_refusal(path: Path, *, mesh: bool) -> str:
     """Explain why a file is not a mesh or image; return "" if it is."""
     if mesh:
         return explain_invalid_mesh(path)
     return "" if is_image(path) else "it is no image"
 
 
-def _package_uri(filename: str, path: Path) -> str:
+def _format_package_uri(filename: str, path: Path) -> str:
     if filename.startswith("package://"):
         return filename
-    own = own_package(Path(os.path.abspath(path)))
+    own = find_own_package(Path(os.path.abspath(path)))
     if own is None:
         return path.resolve().as_uri()
     return f"package://{own[0]}/{path.resolve().relative_to(own[1].resolve()).as_posix()}"
@@ -134,7 +145,7 @@ def _package_uri(filename: str, path: Path) -> str:
 
 def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
     """Assign paths that keep the folders of a package, so that relative references stay valid."""
-    homes = {path: package_path(path) for path in wanted}
+    homes = {path: get_package_path(path) for path in wanted}
     several = len({package for package, _ in homes.values()}) > 1
     taken: set[str] = set()
     for path in wanted:
@@ -143,16 +154,16 @@ def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
         if len(parts) > 1 and parts[0] == "meshes":
             parts = parts[1:]
         place = "/".join([meshes.options.mesh_dir, *([package] if several else []), *parts])
-        place = _free(place, taken)
+        place = _format_free(place, taken)
         meshes.places[path] = place
         taken.add(place)
     for path in wanted:
         _add_companions(meshes, path, meshes.places[path])
 
 
-def _free(place: str, taken: set[str]) -> str:
+def _format_free(place: str, taken: set[str]) -> str:
     stem, dot, suffix = place.rpartition(".")
-    return first_free(chain((place,), numbered(stem, suffix=dot + suffix)), taken)
+    return get_first_free(chain((place,), list_numbered_names(stem, suffix=dot + suffix)), taken)
 
 
 def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:

@@ -5,48 +5,48 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...model.elements import ZERO, GazeboExtension, Origin
-from ...model.read import numbers
-from ...rules.gazebo.block_values import is_flag, value_of
+from ...model.read import parse_numbers
+from ...rules.gazebo.block_values import get_value, is_flag
 from ...rules.gazebo.keywords import is_true
 from ...source.document import Element
-from ..common.naming import first_free, numbered
-from .body_sensors import body_sensors, is_body_sensor
-from .control import control
-from .frames import frames
-from .joints import joint
+from ..common.naming import get_first_free, list_numbered_names
+from .body_sensors import add_body_sensors, is_body_sensor
+from .control import keep_control
+from .frames import add_frames
+from .joints import add_joint
 from .links import link
-from .names import model_name
-from .plan import WORLD, links_of
-from .plugins import plugin
+from .names import get_model_name
+from .plan import WORLD, get_links
+from .plugins import add_plugin
 from .pose import set_origin
 from .raw_sdf import copy_raw_element, is_frame
 from .translation import Translation
-from .xml import Node, add, copied
+from .xml import Node, add, append_copy
 
 
-def model(parent: Node, t: Translation) -> Node:
+def add_model(parent: Node, t: Translation) -> Node:
     """Add the model of the robot."""
-    node = add(parent, "model", name=model_name(t.robot))
-    _whole(node, t)
-    _note_world(t)
-    for part in links_of(t.plan, t.robot):
+    node = add(parent, "model", name=get_model_name(t.robot))
+    _set_whole(node, t)
+    _report_world(t)
+    for part in get_links(t.plan, t.robot):
         link(node, t, part)
     _name_canonical(node, t)
     for each in t.robot.joints:
         if each.child in t.plan.owner:
-            joint(node, t, each)
-    if t.options.since("1.7"):
-        frames(node, t)
+            add_joint(node, t, each)
+    if t.options.is_at_least("1.7"):
+        add_frames(node, t)
     else:
-        _note_frames(t)
-    _parts(node, t)
-    control(node, t)
+        _report_frames(t)
+    _add_parts(node, t)
+    keep_control(node, t)
     return node
 
 
 def _name_canonical(node: Node, t: Translation) -> None:
     """Name the canonical link, unless it is the first, which is SDF's default."""
-    if t.plan.anchored or not t.options.since("1.7"):
+    if t.plan.anchored or not t.options.is_at_least("1.7"):
         return
     root = next(iter(t.plan.in_model), None)
     first = node.find("link")
@@ -56,47 +56,47 @@ def _name_canonical(node: Node, t: Translation) -> None:
             node.set("canonical_link", name)
 
 
-def _blocks(t: Translation) -> list[GazeboExtension]:
+def _collect_blocks(t: Translation) -> list[GazeboExtension]:
     return [block for block in t.robot.gazebo if not block.reference]
 
 
-def _whole(node: Node, t: Translation) -> None:
+def _set_whole(node: Node, t: Translation) -> None:
     """Set whether the model is static, and its pose."""
-    for block in _blocks(t):
+    for block in _collect_blocks(t):
         for element in block.element.all("static"):
-            text = value_of(element)
+            text = get_value(element)
             if is_flag(text):
                 for old in node.findall("static"):
                     node.remove(old)
                 add(node, "static", "true" if is_true(text) else "false")
     origin = t.robot.element.child("origin")
     if origin is not None:
-        xyz, rpy = (numbers(origin.get(name), 3) or ZERO for name in ("xyz", "rpy"))
+        xyz, rpy = (parse_numbers(origin.get(name), 3) or ZERO for name in ("xyz", "rpy"))
         set_origin(node, Origin(origin, xyz, rpy))  # type: ignore[arg-type]
 
 
-def _parts(node: Node, t: Translation) -> None:
+def _add_parts(node: Node, t: Translation) -> None:
     """Add plugins, and SDF elements that are copied unchanged."""
-    for block in _blocks(t):
+    for block in _collect_blocks(t):
         for element in block.element.children:
             if element.tag == "plugin":
                 if not is_body_sensor(t, element):
-                    plugin(node, t, element)
+                    add_plugin(node, t, element)
             elif element.tag == "joint":
-                _closing_joint(node, t, element)
+                _add_closing_joint(node, t, element)
             elif element.tag == "pose":
                 for old in node.findall("pose"):
                     node.remove(old)
-                node.insert(0, copied(node, element))
+                node.insert(0, append_copy(node, element))
             elif element.tag not in ("static", "canonicalBody"):
                 copy_raw_element(node, t, element)
-    body_sensors(node, t)
-    _note_dangling(t)
+    add_body_sensors(node, t)
+    _report_dangling(t)
 
 
-def _closing_joint(node: Node, t: Translation, element: Element) -> None:
+def _add_closing_joint(node: Node, t: Translation, element: Element) -> None:
     """Add a loop-closing SDF joint of a block, with the exported names of its links."""
-    if why := _why_not(t, _ends(element)):
+    if why := _explain_why_not(t, _collect_ends(element)):
         text = f"<joint> '{element.get('name')}' of a <gazebo> block is not exported: {why}"
         t.report_loss("reference", text, element)
         return
@@ -106,7 +106,7 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     name = made.get("name") or "joint"
     taken = {other.get("name") for other in node if other is not made}
     if name in taken:
-        new = first_free(numbered(name), taken)
+        new = get_first_free(list_numbered_names(name), taken)
         made.set("name", new)
         t.report_loss(
             "name",
@@ -120,7 +120,7 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
                 tag.text = t.names.link(t.plan.owner[name])
 
 
-def _why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
+def _explain_why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
     """Explain why a joint with these ends cannot be exported; return "" if it can."""
     for end, name in ends:
         if not _can_join(t, end, name):
@@ -131,7 +131,7 @@ def _why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
     return f"it connects '{one}' to itself" if one == other else ""
 
 
-def _ends(element: Element) -> list[tuple[str, str]]:
+def _collect_ends(element: Element) -> list[tuple[str, str]]:
     ends = (element.child(end) for end in ("parent", "child"))
     return [(end.tag, end.text.strip()) for end in ends if end is not None]
 
@@ -140,7 +140,7 @@ def _can_join(t: Translation, end: str, name: str) -> bool:
     return is_frame(t, name) and name != "" if name != WORLD else end == "parent"
 
 
-def _note_dangling(t: Translation) -> None:
+def _report_dangling(t: Translation) -> None:
     for block in t.robot.gazebo:
         name = block.reference
         if name and name not in t.robot.link and name not in t.robot.joint:
@@ -157,7 +157,7 @@ def _note_dangling(t: Translation) -> None:
             )
 
 
-def _note_world(t: Translation) -> None:
+def _report_world(t: Translation) -> None:
     if not t.plan.anchored:
         return
     world = t.robot.link[WORLD]
@@ -175,7 +175,7 @@ def _note_world(t: Translation) -> None:
         t.report_loss("world", text, world, world)
 
 
-def _note_frames(t: Translation) -> None:
+def _report_frames(t: Translation) -> None:
     for name in t.plan.in_model:
         if not t.plan.stays(name):
             link_ = t.robot.link[name]

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 
 from ...model.elements import Robot
-from ..common.naming import first_free, numbered
+from ..common.naming import get_first_free, list_numbered_names
 
 
 @dataclass
@@ -23,7 +23,7 @@ class Names:
         """Return the exported name of a link, or of the frame that replaces it."""
         return self.renamed.get(("link", name), name)
 
-    def joint(self, name: str) -> str:
+    def get_joint(self, name: str) -> str:
         """Return the exported name of a joint, or of the frame that replaces it."""
         return self.renamed.get(("joint", name), name)
 
@@ -40,22 +40,22 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
     joints = [joint.name for joint in robot.joints]
     if anchored:
         links.remove("world")
-    taken = {allowed(name) for name in joints} | set(links) | {"world"}
+    taken = {remove_reserved(name) for name in joints} | set(links) | {"world"}
     used: set[str] = set()
     for kind, olds in (("joint", joints), ("link", links)):
         for old in olds:
-            new = allowed(old) or "unnamed"
+            new = remove_reserved(old) or "unnamed"
             if new == "world":
                 new = f"world_{kind}"
             if new in used:
-                new = first_free(_variants(new, kind), used | taken)
+                new = get_first_free(_list_variants(new, kind), used | taken)
             used.add(new)
             if new != old:
                 names.renamed[kind, old] = new
     return names
 
 
-def allowed(name: str) -> str:
+def remove_reserved(name: str) -> str:
     """Return a name without what SDF reserves: ``::`` separators, ``__x__`` and blank names."""
     name = name.replace("::", "_") if name.strip() else ""
     if name.startswith("__") and name.endswith("__"):
@@ -63,12 +63,12 @@ def allowed(name: str) -> str:
     return name
 
 
-def _variants(name: str, kind: str) -> Iterator[str]:
+def _list_variants(name: str, kind: str) -> Iterator[str]:
     base = name if name.endswith(f"_{kind}") else f"{name}_{kind}"
-    return chain((base,) if base != name else (), numbered(base))
+    return chain((base,) if base != name else (), list_numbered_names(base))
 
 
-def model_name(robot: Robot) -> str:
+def get_model_name(robot: Robot) -> str:
     """Return the name of the model."""
-    name = allowed(robot.name.strip()) or "robot"
+    name = remove_reserved(robot.name.strip()) or "robot"
     return "world_model" if name == "world" else name

@@ -30,7 +30,7 @@ RELEASES = {
 MODEL = "model.sdf"
 
 
-def folder_and_file(output: str | Path) -> tuple[str, str]:
+def get_folder_and_file(output: str | Path) -> tuple[str, str]:
     """Return the name of an output's folder, and of its file; no file name for a folder."""
     path = Path(os.path.abspath(output))
     single = format_named("sdf").has_suffix(path)
@@ -97,10 +97,10 @@ class Options:
         """Return the files that are read in addition to the robot."""
         return () if self.actuator_config is None else (self.actuator_config,)
 
-    def since(self, version: str) -> bool:
+    def is_at_least(self, version: str) -> bool:
         """Tell whether the exported version is this one or newer."""
-        return _parts(self.sdf_version) >= _parts(version)
+        return _collect_parts(self.sdf_version) >= _collect_parts(version)
 
 
-def _parts(version: str) -> tuple[int, ...]:
+def _collect_parts(version: str) -> tuple[int, ...]:
     return tuple(map(int, version.split(".")))

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
-from ...mechanics.tensor import consistency, noise_of
+from ...mechanics.tensor import get_noise, measure_consistency
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
@@ -68,7 +68,7 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     plan = Plan(anchored=any(root.name == WORLD for root in robot.tree.roots))
     links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
     plan.in_model = {name: pose for name, pose in link_poses(robot).items() if name in set(links)}
-    loose = _loose_joints(robot, plan)
+    loose = _get_loose_joints(robot, plan)
     masses = {name: link_inertia(robot.link[name]) for name in links}
     for name in links:
         joint = loose.get(name)
@@ -77,7 +77,7 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     if not lump:
         _dissolve_groups(robot, plan, loose, masses)
     _place(robot, plan, lump)
-    _weigh(plan, masses)
+    _add_weigh(plan, masses)
     return plan
 
 
@@ -85,13 +85,13 @@ def _group(robot: Robot, plan: Plan) -> LumpingPlan:
     return plan_lumping(robot, plan.in_model, lambda joint: joint.name in plan.dissolved)
 
 
-def _loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
+def _get_loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
     """Return the fixed joints that may be dissolved, by their child."""
     loose = {}
     for joint in robot.joints:
         if not joint.is_fixed or (plan.anchored and joint.parent == WORLD):
             continue
-        if _senses_force(robot, joint) or _said_to_stay(robot, joint):
+        if _senses_force(robot, joint) or _is_preserved(robot, joint):
             plan.kept.add(joint.name)
         else:
             loose[joint.child] = joint
@@ -106,7 +106,7 @@ def _senses_force(robot: Robot, joint: Joint) -> bool:
     )
 
 
-def _said_to_stay(robot: Robot, joint: Joint) -> bool:
+def _is_preserved(robot: Robot, joint: Joint) -> bool:
     return any(
         is_true(block.value(tag))
         for block in robot.extensions.get(joint.name, [])
@@ -114,14 +114,14 @@ def _said_to_stay(robot: Robot, joint: Joint) -> bool:
     )
 
 
-def excess_of(mass: SpatialInertia) -> float:
+def get_excess(mass: SpatialInertia) -> float:
     """Return the inconsistency of a body's tensor, relative to a size that discounts noise."""
-    return consistency(mass.tensor, least_size=noise_of(mass.mass)).excess
+    return measure_consistency(mass.tensor, least_size=get_noise(mass.mass)).excess
 
 
 def _stands(mass: SpatialInertia) -> bool:
     """Tell whether a link with these mass properties can be a link of its own."""
-    return mass.mass > 0 and excess_of(mass) <= EXACT
+    return mass.mass > 0 and get_excess(mass) <= EXACT
 
 
 def _dissolve_groups(
@@ -132,7 +132,7 @@ def _dissolve_groups(
     group = _group(robot, plan).top
 
     def total(tops: set[str]) -> SpatialInertia:
-        return combine(masses[n].moved(poses[n]) for n in links if group[n] in tops)
+        return combine(masses[n].transform(poses[n]) for n in links if group[n] in tops)
 
     for top in links:
         if group[top] != top or _stands(total({top})):
@@ -164,16 +164,16 @@ def _place(robot: Robot, plan: Plan, lump: bool) -> None:
         plan.members[owner] = members
 
 
-def _weigh(plan: Plan, masses: dict[str, SpatialInertia]) -> None:
+def _add_weigh(plan: Plan, masses: dict[str, SpatialInertia]) -> None:
     for owner, members in plan.members.items():
         heavy = [n for n in members if masses[n].mass or any(masses[n].tensor)]
         if heavy in ([owner], []):
             plan.alone.add(owner)
             plan.mass[owner] = masses[owner]
         else:
-            plan.mass[owner] = combine(masses[n].moved(plan.in_owner[n]) for n in heavy)
+            plan.mass[owner] = combine(masses[n].transform(plan.in_owner[n]) for n in heavy)
 
 
-def links_of(plan: Plan, robot: Robot) -> list[Link]:
+def get_links(plan: Plan, robot: Robot) -> list[Link]:
     """Return the links that stay, parents first."""
     return [robot.link[name] for name in plan.in_model if plan.stays(name)]

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from ...model.elements import Joint, Link
-from ...model.pose import Pose, rotation_of_rpy
-from ...model.read import numbers
-from ...rules.gazebo.block_values import required_value
+from ...model.pose import Pose, rotation_from_rpy
+from ...model.read import parse_numbers
+from ...rules.gazebo.block_values import describe_required_value
 from ...source.document import Element
-from ..common.naming import free_name
+from ..common.naming import get_free_name
 from .imu import is_old_noise
 from .pose import set_pose
 from .translation import Translation
 from .vocabulary import DE_FACTO, ELEMENTS
-from .xml import Node, add, comment, copied, spoken
+from .xml import Node, add, append_comment, append_copy, format_one_line
 
 PLACED = frozenset(
     ("light", "projector", "sensor", "audio_source", "particle_emitter", "collision", "visual")
@@ -52,11 +52,13 @@ def copy_raw_element(
         text = f"<{element.tag}> of a <gazebo> block has no name; it is not exported"
         t.report_loss("element", text, element, about)
         return None
-    if required_value(element):
-        text = f"<{element.tag}> is '{element.text.strip()}', not {required_value(element)}"
+    if describe_required_value(element):
+        text = (
+            f"<{element.tag}> is '{element.text.strip()}', not {describe_required_value(element)}"
+        )
         t.report_loss("extension", f"{text}; it is not exported", element, about)
         return None
-    made = copied(node, element)
+    made = append_copy(node, element)
     remove_invalid(made, t, element, about)
     if element.tag in ("light", "projector"):
         _name_once(node, made)
@@ -69,7 +71,7 @@ def _name_once(node: Node, made: Node) -> None:
     """Rename an element if a sibling has the same name."""
     name = made.get("name") or made.tag
     taken = {other.get("name") for other in node if other is not made}
-    made.set("name", free_name(name, taken))
+    made.set("name", get_free_name(name, taken))
 
 
 def _is_known(parent: str, element: Element) -> bool:
@@ -97,7 +99,7 @@ def remove_invalid(
     for child, source in zip(list(made), element.children, strict=True):
         if is_old_noise(source):
             made.remove(child)
-        elif required := required_value(source):
+        elif required := describe_required_value(source):
             made.remove(child)
             text = f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {required}"
             t.report_loss("extension", f"{text}; it is not exported", source, about)
@@ -112,7 +114,7 @@ def _keep_as_comment(
     node: Node, t: Translation, element: Element, about: Link | Joint | None
 ) -> None:
     """Append an unknown element as a comment, and report it."""
-    comment(node, spoken(element))
+    append_comment(node, format_one_line(element))
     what = f"<{element.tag}>"
     t.report_loss(
         "element",
@@ -135,10 +137,10 @@ def move_to_owner(made: Node, t: Translation, link: Link) -> None:
             made.insert(0, pose)
         pose.set("relative_to", t.names.link(link.name))
         return
-    six = numbers(pose.text if pose is not None else "0 0 0 0 0 0", 6)
+    six = parse_numbers(pose.text if pose is not None else "0 0 0 0 0 0", 6)
     if six is None:
         return
-    local = Pose(rotation_of_rpy(six[3:]), six[:3])  # type: ignore[arg-type]
+    local = Pose(rotation_from_rpy(six[3:]), six[:3])  # type: ignore[arg-type]
     if pose is not None:
         made.remove(pose)
     set_pose(made, t.plan.in_owner[link.name] @ local)

@@ -8,7 +8,7 @@ from typing import Any
 from ...errors import ModelError
 from ...model.elements import Link, Robot
 from ...model.mechanism import Base
-from ...model.pose import IDENTITY, origin_at
+from ...model.pose import IDENTITY, get_origin_at
 from ...model.provenance import Written
 from ...model.world import WORLD
 from ...source.description import Description
@@ -110,7 +110,7 @@ def _fill(context: Context, top: Scope) -> None:
         robot.links.append(Link(robot.provenance, WORLD))
     else:
         at = own_pose(top) @ context.poses[roots[0]] if roots else IDENTITY
-        origin = origin_at(at, robot.provenance)
+        origin = get_origin_at(at, robot.provenance)
         robot.base = Base(robot.provenance, not (top.is_static or is_named), origin)
     for scope, prefix, element in links:
         robot.links.append(read_link(context, scope, prefix, element))

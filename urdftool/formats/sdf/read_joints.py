@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from ...errors import ModelError
 from ...model.elements import Axis, Dynamics, Joint, Limit, Link, Mimic, Robot, Vector
 from ...model.mechanism import Closure, Frame, MountedSensor
-from ...model.pose import IDENTITY, Pose, origin_at, rotate
+from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
 from ...model.world import WORLD
 from ...source.document import Element
@@ -135,14 +135,14 @@ def add_joint(context: Context, found: Found) -> None:
         _type(found),
         found.parent,
         found.child,
-        origin=origin_at(at, written),
+        origin=get_origin_at(at, written),
     )
     turn = Pose(context.poses[found.child].inverse().rotation)
     if found.type in ("universal", "revolute2"):
         middle = f"{found.child}~1"
         robot.links.append(Link(written, middle, is_virtual=True))
         second = replace(
-            joint, name=f"{found.name}~2", parent=middle, origin=origin_at(IDENTITY, written)
+            joint, name=f"{found.name}~2", parent=middle, origin=get_origin_at(IDENTITY, written)
         )
         for one, tag in ((replace(joint, child=middle), "axis"), (second, "axis2")):
             _set_axis(context, found, one, tag, turn)
@@ -295,7 +295,7 @@ def add_closure(context: Context, found: Found) -> None:
     """Add a joint that closes a loop."""
     written = Written(found.element.place)
     ends = [
-        origin_at(placed(context, link).inverse() @ found.pose, written)
+        get_origin_at(placed(context, link).inverse() @ found.pose, written)
         for link in (found.parent, found.child)
     ]
     element = found.element.child("axis")
@@ -319,7 +319,7 @@ def add_world(context: Context, robot: Robot, roots: list[str], is_static: bool)
             name += "_"
         taken.add(name)
         link = robot.link[root]
-        origin = origin_at(placed(context, WORLD).inverse() @ placed(context, root))
+        origin = get_origin_at(placed(context, WORLD).inverse() @ placed(context, root))
         robot.joints.append(Joint(link.provenance, name, kind, WORLD, root, origin=origin))
 
 
@@ -329,7 +329,7 @@ def add_frames(context: Context, top: Scope) -> None:
     for name, shift in context.shifts.items():
         if shift is not IDENTITY and name in robot.link:
             place = robot.link[name].provenance
-            robot.frames.append(Frame(place, name, name, "body", origin_at(shift)))
+            robot.frames.append(Frame(place, name, name, "body", get_origin_at(shift)))
     for prefix, scope in top.everything():
         path = prefix.removesuffix("::")
         base = top.pose(path, top.element) if path else IDENTITY
@@ -340,5 +340,5 @@ def add_frames(context: Context, top: Scope) -> None:
                 continue
             pose = base @ scope.pose(item.name, item.element)
             written = Written(item.element.place)
-            origin = origin_at(placed(context, owner).inverse() @ pose, written)
+            origin = get_origin_at(placed(context, owner).inverse() @ pose, written)
             robot.frames.append(Frame(written, prefix + item.name, owner, "frame", origin))

@@ -29,7 +29,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.mechanism import Camera, MountedSensor
-from ...model.pose import IDENTITY, Pose, norm, origin_at
+from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
 from ...source.document import Element
 from ..reading import Losses
@@ -101,14 +101,14 @@ def _inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Ine
     holder = link if element is None else element
     written = Written(holder.place)
     if element is None:
-        origin = origin_at(context.shifts[prefix + (link.get("name") or "")], written)
+        origin = get_origin_at(context.shifts[prefix + (link.get("name") or "")], written)
         return Inertial(written, origin, 1.0, Inertia(written, **_TENSOR))
     if (element.get("auto") or "").lower() in ("true", "1"):
         context.lose("auto-inertia", "inertia from shapes (auto) is not computed", link)
         return None
     if element.child("fluid_added_mass") is not None:
         context.lose("added-mass", "added mass of a fluid is not read", link)
-    origin = origin_at(_pose(context, scope, prefix, link, element), written)
+    origin = get_origin_at(_pose(context, scope, prefix, link, element), written)
     tensor = element.child("inertia")
     values = {name: number(tensor, name, value) for name, value in _TENSOR.items()}
     at = written if tensor is None else Written(tensor.place)
@@ -122,7 +122,7 @@ def _visual(
     if geometry is None:
         return []
     written = Written(element.place)
-    origin = origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
+    origin = get_origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
     material = _material(context, element)
     return [Visual(written, element.get("name"), origin, geometry, material)]
 
@@ -137,7 +137,7 @@ def _collision(
     if surface is not None and surface.children:
         context.lose("surface", "friction and contact of collisions are not read", element)
     written = Written(element.place)
-    origin = origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
+    origin = get_origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
     return [Collision(written, element.get("name"), origin, geometry)]
 
 
@@ -180,7 +180,7 @@ def _plane(element: Element, written: Written) -> tuple[Plane, Pose]:
 
 def _rotation_to(normal: Vector, element: Element) -> tuple[Vector, Vector, Vector]:
     """Return the least rotation that turns z to a direction."""
-    length = norm(normal)
+    length = compute_norm(normal)
     if not length:
         raise ModelError("the normal of the plane is zero", at=element.place)
     x, y, z = (part / length for part in normal)
@@ -235,10 +235,10 @@ def _add_sensor(
         if width and height and across < math.pi:
             vertical = 2 * math.atan(math.tan(across / 2) * height / width)
         size = (int(width), int(height)) if width and height else None
-        origin = origin_at(pose @ inner, written)
+        origin = get_origin_at(pose @ inner, written)
         context.robot.cameras.append(Camera(written, name, owner, origin, vertical, size))
         return
-    sensor = MountedSensor(written, name, kind, owner, "", origin_at(pose, written))
+    sensor = MountedSensor(written, name, kind, owner, "", get_origin_at(pose, written))
     context.robot.mounted_sensors.append(sensor)
 
 
@@ -248,7 +248,7 @@ def direction(element: Element, vector: Vector) -> Vector:
     Raises:
         ModelError: It is zero.
     """
-    length = norm(vector)
+    length = compute_norm(vector)
     if not length:
         raise ModelError("the axis is zero", at=element.place)
     x, y, z = vector

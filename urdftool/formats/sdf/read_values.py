@@ -6,7 +6,7 @@ import math
 
 from ...errors import ModelError
 from ...model.elements import Vector
-from ...model.pose import IDENTITY, Pose, rotation_of_quaternion, rotation_of_rpy
+from ...model.pose import IDENTITY, Pose, rotation_from_quaternion, rotation_from_rpy
 from ...source.document import Element
 
 Version = tuple[int, int]
@@ -70,11 +70,11 @@ def pose_in(element: Element) -> tuple[Pose, str]:
         x, y, z, a, b, c, d = numbers_of(child, 7)
         if not any((a, b, c, d)):
             raise ModelError("<pose> has a quaternion of zeros", at=child.place)
-        return Pose(rotation_of_quaternion((d, a, b, c)), (x, y, z)), frame
+        return Pose(rotation_from_quaternion((d, a, b, c)), (x, y, z)), frame
     x, y, z, roll, pitch, yaw = numbers_of(child, 6)
     if (child.get("degrees") or "").lower() in ("true", "1"):
         roll, pitch, yaw = map(math.radians, (roll, pitch, yaw))
-    return Pose(rotation_of_rpy((roll, pitch, yaw)), (x, y, z)), frame
+    return Pose(rotation_from_rpy((roll, pitch, yaw)), (x, y, z)), frame
 
 
 def version_of(root: Element) -> Version:

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from itertools import chain
 from pathlib import Path
 
-from ..common.naming import first_free, numbered
+from ..common.naming import get_first_free, list_numbered_names
 
 SCRIPTS = "materials/scripts"
 TEXTURES = "materials/textures"
 
 
-def picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
+def choose_picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
     """Choose a file name for each texture; Ogre shares one namespace among all models.
 
     Args:
@@ -22,23 +22,23 @@ def picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
     """
     names: dict[Path, str] = {}
     for path in pictures:
-        stem, suffix = plain(f"{robot}_{path.stem}"), path.suffix.lower()
-        candidates = chain((f"{stem}{suffix}",), numbered(stem, suffix=suffix))
-        names[path] = first_free(candidates, set(names.values()))
+        stem, suffix = replace_quoted(f"{robot}_{path.stem}"), path.suffix.lower()
+        candidates = chain((f"{stem}{suffix}",), list_numbered_names(stem, suffix=suffix))
+        names[path] = get_first_free(candidates, set(names.values()))
     return names
 
 
-def plain(name: str) -> str:
+def replace_quoted(name: str) -> str:
     """Replace characters that require quotes in a script."""
     return re.sub(r"[^\w.-]", "_", name)
 
 
-def material_name(robot: str, picture: str) -> str:
+def get_material_name(robot: str, picture: str) -> str:
     """Return the name of the material of a texture."""
-    return f"{plain(robot)}/{picture.rpartition('.')[0]}"
+    return f"{replace_quoted(robot)}/{picture.rpartition('.')[0]}"
 
 
-def script(robot: str, pictures: Mapping[Path, str]) -> bytes:
+def create_script(robot: str, pictures: Mapping[Path, str]) -> bytes:
     """Create the script with a white material for each texture; visuals set their own colors.
 
     Args:
@@ -46,7 +46,7 @@ def script(robot: str, pictures: Mapping[Path, str]) -> bytes:
         pictures: File names in the texture folder, by path.
     """
     parts = [
-        f"material {material_name(robot, name)}\n"
+        f"material {get_material_name(robot, name)}\n"
         "{\n  technique\n  {\n    pass\n    {\n"
         "      ambient 1 1 1 1\n      diffuse 1 1 1 1\n"
         f"      texture_unit\n      {{\n        texture {name}\n      }}\n"

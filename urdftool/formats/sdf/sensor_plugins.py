@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 from ...model.elements import Joint, Link
-from ...model.gazebo_plugins import SENSOR_PLUGINS, library
+from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library
 from ...model.read import number
 from ...source.document import Element
 from .translation import Translation
 from .xml import Node, add
 
 
-def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Element) -> bool:
+def convert_sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Element) -> bool:
     """Convert a sensor's plugin to settings of the sensor.
 
     Returns:
         Whether it is such a plugin.
     """
-    name = library(element)
+    name = get_library(element)
     known = SENSOR_PLUGINS.get(name)
     if known is None:
         return False
     if known.type and made.get("type") != known.type:
         made.set("type", known.type)
     settings = {child.tag: child.text.strip() for child in element.children if child.text.strip()}
-    topic = _topic(element, settings)
-    _once(made, "topic", topic)
+    topic = _get_topic(element, settings)
+    _add_once(made, "topic", topic)
     rate = settings.get("updateRate") or settings.get("update_rate") or ""
     if number(rate):
-        _once(made, "update_rate", rate)
+        _add_once(made, "update_rate", rate)
     frame = next((settings[tag] for tag in known.frame if tag in settings), "")
     _name_frame(made, t, part, element, frame)
     on = f" on topic '{topic}'" if topic else ""
@@ -41,7 +41,7 @@ def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Eleme
     return True
 
 
-def _once(made: Node, tag: str, text: str) -> None:
+def _add_once(made: Node, tag: str, text: str) -> None:
     if text and made.find(tag) is None:
         node = add(made, tag, text)
         made.remove(node)
@@ -56,8 +56,8 @@ def _name_frame(
     if not frame or made.find("gz_frame_id") is not None:
         return
     camera = made.find("camera")
-    if t.options.since("1.12"):
-        _once(made, "frame_id", frame)
+    if t.options.is_at_least("1.12"):
+        _add_once(made, "frame_id", frame)
     elif camera is not None:
         if camera.find("optical_frame_id") is None:
             add(camera, "optical_frame_id", frame)
@@ -72,7 +72,7 @@ def _name_frame(
         )
 
 
-def _topic(element: Element, settings: dict[str, str]) -> str:
+def _get_topic(element: Element, settings: dict[str, str]) -> str:
     """Return the topic that a plugin publishes, from its parameters or a remapping."""
     ros = element.child("ros")
     namespace = settings.get("robotNamespace", "")

@@ -8,21 +8,21 @@ from ...diagnostic import Severity
 from ...model.elements import Joint, Link
 from ...rules.gazebo.sensors import TYPES
 from ...source.document import Element
-from ..common.naming import free_name
+from ..common.naming import get_free_name
 from .extensions import block_elements
-from .imu import imu_noise
-from .plugins import plugin
+from .imu import write_imu_noise
+from .plugins import add_plugin
 from .raw_sdf import copy_raw_element, move_to_owner, rename_frames
-from .sensor_plugins import sensor_plugin
+from .sensor_plugins import convert_sensor_plugin
 from .sensor_types import TO_CLASSIC, TO_GZ
-from .shape_names import shape_names
+from .shape_names import choose_shape_names
 from .translation import Translation
 from .xml import Node
 
 _LUMP = "_fixed_joint_lump__"
 
 
-def sensors(node: Node, t: Translation, link: Link) -> None:
+def add_sensors(node: Node, t: Translation, link: Link) -> None:
     """Add the sensors of a link to its owner."""
     for element in block_elements(t.robot, link):
         if element.tag == "sensor":
@@ -32,19 +32,19 @@ def sensors(node: Node, t: Translation, link: Link) -> None:
                     "sensor", text + "it measures joints only, and is not exported", element, link
                 )
                 continue
-            for made in _made(node, t, link, element):
+            for made in _convert_made(node, t, link, element):
                 move_to_owner(made, t, link)
 
 
-def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
+def add_joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
     """Add the sensors of a joint."""
     for element in block_elements(t.robot, joint):
         if element.tag == "sensor":
-            for made in _made(node, t, joint, element):
+            for made in _convert_made(node, t, joint, element):
                 rename_frames(made, t, joint)
 
 
-def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:
+def _convert_made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:
     """Convert a sensor to the types of the target; a multicamera becomes several sensors."""
     kind = (element.get("type") or "").strip()
     if kind not in TYPES:
@@ -57,7 +57,7 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     types = TO_CLASSIC if t.options.classic else TO_GZ
     made = copy_raw_element(node, t, element, about=None)
     assert made is not None  # SDF allows sensors in links and joints
-    imu_noise(made, element)
+    write_imu_noise(made, element)
     _name_once(node, t, part, made, element)
     other = types.get(kind)
     if other is not None and not other.type:
@@ -79,8 +79,8 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
             f"'{other.type}'{note}"
         )
         t.report_note("sensor", text, element, part)
-    _plugins(made, t, part, element)
-    _contacts(made, t, part, element)
+    _add_plugins(made, t, part, element)
+    _update_contacts(made, t, part, element)
     if kind == "multicamera" and not t.options.classic:
         return _split(node, made)
     return [made]
@@ -92,7 +92,7 @@ def _name_once(
     """Rename a sensor if another of its link has the same name, and report it."""
     name = made.get("name") or f"{part.name}_sensor"
     taken = {other.get("name") for other in node if other is not made}
-    new = free_name(name, taken)
+    new = get_free_name(name, taken)
     if new != made.get("name"):
         made.set("name", new)
         t.report_loss(
@@ -100,11 +100,11 @@ def _name_once(
         )
 
 
-def _plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
+def _add_plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
     for written, source in zip(made.findall("plugin"), list(element.all("plugin")), strict=True):
         made.remove(written)
-        if t.options.classic or not sensor_plugin(made, t, part, source):
-            plugin(made, t, source)
+        if t.options.classic or not convert_sensor_plugin(made, t, part, source):
+            add_plugin(made, t, source)
 
 
 def _split(node: Node, made: Node) -> list[Node]:
@@ -123,12 +123,12 @@ def _split(node: Node, made: Node) -> list[Node]:
     return result
 
 
-def _contacts(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
+def _update_contacts(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
     """Update the collision names in a contact sensor, and report unknown ones."""
     if not isinstance(part, Link):
         return
     members = [t.robot.link[name] for name in t.plan.members[t.plan.owner[part.name]]]
-    names = shape_names(members)
+    names = choose_shape_names(members)
     here = {names[id(c)] for link in members for c in link.collisions}
     by_link = {f"{m.name}_collision": names[id(m.collisions[0])] for m in members if m.collisions}
     for tag in made.iterfind("contact/collision"):

@@ -22,9 +22,9 @@ from ...model.elements import (
     Visual,
 )
 from ...model.mesh_formats import READ_BY
-from ...model.pose import IDENTITY, pose_of
-from ...model.shapes import shape_name
-from ..common.numbers import number_text, numbers_text
+from ...model.pose import IDENTITY, make_pose
+from ...model.shapes import get_shape_name
+from ..common.numbers import format_numbers_text, number_text
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
@@ -37,23 +37,23 @@ def set_place(node: Node, t: Translation, link: Link, origin: Origin | None) -> 
     so for it the poses are composed.
     """
     if t.plan.stays(link.name):
-        set_origin(node, origin, exact=t.options.since("1.9"))
+        set_origin(node, origin, exact=t.options.is_at_least("1.9"))
     elif t.options.classic:
-        set_pose(node, t.plan.in_owner[link.name] @ (pose_of(origin) if origin else IDENTITY))
+        set_pose(node, t.plan.in_owner[link.name] @ (make_pose(origin) if origin else IDENTITY))
     else:
-        set_origin(node, origin, t.names.link(link.name), t.options.since("1.9"))
+        set_origin(node, origin, t.names.link(link.name), t.options.is_at_least("1.9"))
 
 
-def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
+def is_writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
     """Tell whether a shape can be exported; report it if not."""
     geometry, beyond = shape.geometry, (UnknownShape, Ellipsoid, Cone, Plane)
     if geometry is None or isinstance(geometry, beyond) or not has_extent(geometry):
         if geometry is None:
             what = "has no geometry"
         elif isinstance(geometry, beyond):
-            what = f"has <{shape_name(geometry)}>, which cannot be written"
+            what = f"has <{get_shape_name(geometry)}>, which cannot be written"
         else:
-            what = f"has a <{shape_name(geometry)}> without extent"
+            what = f"has a <{get_shape_name(geometry)}> without extent"
         t.report_loss(
             "shape",
             f"a {shape.element.tag} of link '{link.name}' {what}; it is not exported",
@@ -61,7 +61,7 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
             link,
         )
         return False
-    if isinstance(geometry, Mesh) and not t.meshes.known(geometry):
+    if isinstance(geometry, Mesh) and not t.meshes.is_known(geometry):
         t.report_loss(
             "mesh",
             f"mesh '{geometry.filename}' of link '{link.name}' is "
@@ -94,20 +94,20 @@ def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
         )
 
 
-def geometry(node: Node, t: Translation, shape: Geometry) -> None:
+def add_geometry(node: Node, t: Translation, shape: Geometry) -> None:
     """Add the geometry of a visual or collision."""
     holder = add(node, "geometry")
     if isinstance(shape, Mesh):
         mesh = add(holder, "mesh")
-        add(mesh, "uri", t.meshes.uri(shape))
+        add(mesh, "uri", t.meshes.get_uri(shape))
         if shape.scale != (1.0, 1.0, 1.0):
-            add(mesh, "scale", numbers_text(shape.scale))
+            add(mesh, "scale", format_numbers_text(shape.scale))
         return
     _PRIMITIVES[type(shape)](add(holder, shape.element.tag), shape)
 
 
-def _box(node: Node, box: Box) -> None:
-    add(node, "size", numbers_text(box.size))
+def _add_box(node: Node, box: Box) -> None:
+    add(node, "size", format_numbers_text(box.size))
 
 
 def _round(node: Node, shape: Cylinder | Capsule) -> None:
@@ -115,13 +115,13 @@ def _round(node: Node, shape: Cylinder | Capsule) -> None:
     add(node, "length", number_text(shape.length))
 
 
-def _sphere(node: Node, sphere: Sphere) -> None:
+def _add_sphere(node: Node, sphere: Sphere) -> None:
     add(node, "radius", number_text(sphere.radius))
 
 
 _PRIMITIVES: dict[type, Callable[..., None]] = {
-    Box: _box,
+    Box: _add_box,
     Cylinder: _round,
     Capsule: _round,
-    Sphere: _sphere,
+    Sphere: _add_sphere,
 }

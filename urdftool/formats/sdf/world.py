@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .plugins import system_name
+from .plugins import get_system_name
 from .sensor_types import RENDERED, SYSTEMS
 from .translation import Translation
 from .xml import Node, add
@@ -14,7 +14,7 @@ ALWAYS = (
 )
 
 
-def world(parent: Node, t: Translation, robot: Node) -> None:
+def add_world(parent: Node, t: Translation, robot: Node) -> None:
     """Add a world around the robot.
 
     Args:
@@ -27,24 +27,24 @@ def world(parent: Node, t: Translation, robot: Node) -> None:
         for uri in ("model://ground_plane", "model://sun"):
             add(add(node, "include"), "uri", uri)
     else:
-        _systems(node, t, robot)
-        _sun(node)
-        _ground(node)
+        _add_systems(node, t, robot)
+        _add_sun(node)
+        _add_ground(node)
     node.append(robot)
 
 
-def needed(robot: Node) -> list[tuple[str, str]]:
+def get_needed(robot: Node) -> list[tuple[str, str]]:
     """Return the systems that the sensors of a model need, in the order of the table."""
     types = {sensor.get("type") for sensor in robot.iter("sensor")}
     return list(dict.fromkeys(system for kind, system in SYSTEMS.items() if kind in types))
 
 
-def _systems(node: Node, t: Translation, robot: Node) -> None:
-    for system in (*ALWAYS, *needed(robot)):
-        made = add(node, "plugin", **system_name(t, *system))
+def _add_systems(node: Node, t: Translation, robot: Node) -> None:
+    for system in (*ALWAYS, *get_needed(robot)):
+        made = add(node, "plugin", **get_system_name(t, *system))
         if system == RENDERED:
             add(made, "render_engine", "ogre2")
-    if any(system[0] == "navsat" for system in needed(robot)):
+    if any(system[0] == "navsat" for system in get_needed(robot)):
         place = add(node, "spherical_coordinates")
         add(place, "surface_model", "EARTH_WGS84")
         add(place, "world_frame_orientation", "ENU")
@@ -52,7 +52,7 @@ def _systems(node: Node, t: Translation, robot: Node) -> None:
             add(place, tag, "0")
 
 
-def _sun(node: Node) -> None:
+def _add_sun(node: Node) -> None:
     light = add(node, "light", name="sun", type="directional")
     add(light, "cast_shadows", "true")
     add(light, "pose", "0 0 10 0 0 0")
@@ -61,7 +61,7 @@ def _sun(node: Node) -> None:
     add(light, "direction", "-0.5 0.1 -0.9")
 
 
-def _ground(node: Node) -> None:
+def _add_ground(node: Node) -> None:
     model = add(node, "model", name="ground_plane")
     add(model, "static", "true")
     link = add(model, "link", name="link")

@@ -17,14 +17,14 @@ def add(parent: Node, tag: str, text: str | None = None, **attributes: str) -> N
     return node
 
 
-def comment(parent: Node, text: str) -> None:
+def append_comment(parent: Node, text: str) -> None:
     """Append a comment; XML does not allow two consecutive hyphens in it."""
     while "--" in text:
         text = text.replace("--", "- -")
     parent.append(etree.Comment(f" {text.rstrip('-')} "))
 
 
-def at(parent: Node, path: str) -> Node:
+def get_or_create(parent: Node, path: str) -> Node:
     """Return the element at a path such as ``surface/friction/ode``; create missing ones."""
     for tag in path.split("/"):
         found = parent.find(tag)
@@ -32,7 +32,7 @@ def at(parent: Node, path: str) -> Node:
     return parent
 
 
-def copied(parent: Node, element: Element, tag: str | None = None) -> Node:
+def append_copy(parent: Node, element: Element, tag: str | None = None) -> Node:
     """Append a copy of a source element with all its children.
 
     Args:
@@ -40,7 +40,9 @@ def copied(parent: Node, element: Element, tag: str | None = None) -> Node:
         element: Element of the source.
         tag: New tag; None keeps the tag.
     """
-    node = etree.SubElement(parent, tag or _name(element, element.tag), nsmap=_prefixes(element))
+    node = etree.SubElement(
+        parent, tag or _name(element, element.tag), nsmap=_collect_prefixes(element)
+    )
     for name, value in element.attributes.items():
         if name != "xmlns" and not name.startswith("xmlns:"):
             node.set(_name(element, name), value)
@@ -48,15 +50,15 @@ def copied(parent: Node, element: Element, tag: str | None = None) -> Node:
     if text:
         node.text = text
     for child in element.children:
-        copied(node, child)
+        append_copy(node, child)
     return node
 
 
-def spoken(element: Element) -> str:
+def format_one_line(element: Element) -> str:
     """Format an element as one line for a comment."""
     words = [element.tag, *(f'{name}="{value}"' for name, value in element.attributes.items())]
     words += element.text.split()
-    inner = "; ".join(spoken(child) for child in element.children)
+    inner = "; ".join(format_one_line(child) for child in element.children)
     return " ".join(words) + (f" ({inner})" if inner else "")
 
 
@@ -73,7 +75,7 @@ def merge(target: Node, source: Node) -> None:
             same.attrib.update(child.attrib)
 
 
-def document(root: Node) -> bytes:
+def serialize_document(root: Node) -> bytes:
     """Serialize a root element."""
     etree.indent(root, "  ")
     text: bytes = etree.tostring(root, encoding="UTF-8")
@@ -85,10 +87,10 @@ def _name(element: Element, name: str) -> str:
     prefix, colon, local = name.partition(":")
     if not colon:
         return name
-    return f"{{{_namespace(element, prefix)}}}{local}"
+    return f"{{{_format_namespace(element, prefix)}}}{local}"
 
 
-def _namespace(element: Element | None, prefix: str) -> str:
+def _format_namespace(element: Element | None, prefix: str) -> str:
     while element is not None:
         if f"xmlns:{prefix}" in element.attributes:
             return element.attributes[f"xmlns:{prefix}"]
@@ -96,7 +98,7 @@ def _namespace(element: Element | None, prefix: str) -> str:
     return f"urn:{prefix}"  # robot files rarely declare their prefixes
 
 
-def _prefixes(element: Element) -> dict[str, str] | None:
+def _collect_prefixes(element: Element) -> dict[str, str] | None:
     names = [element.tag, *element.attributes]
     prefixes = {name.partition(":")[0] for name in names if ":" in name} - {"xmlns"}
-    return {prefix: _namespace(element, prefix) for prefix in sorted(prefixes)} or None
+    return {prefix: _format_namespace(element, prefix) for prefix in sorted(prefixes)} or None

@@ -1,4 +1,4 @@
 """Collision geometry."""
 
-FILES = ("presence", "shapes", "likeness", "displaced", "wheels", "overlap")
+FILES = ("presence", "shapes", "visual_mismatch", "displaced", "wheels", "overlap")
 """Files with rules, in reading order."""

@@ -8,24 +8,24 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ...mechanics.spatial_inertia import combine_links
-from ...mechanics.tensor import principal_moments
-from ...model.attached import Attached, attached_links
+from ...mechanics.tensor import compute_principal_moments
+from ...model.attached import Attached, find_attached_links
 from ...model.elements import Collision, Cylinder, Joint, Link, Mesh, Robot, Vector, Visual
-from ...model.kinematics import limits_of
-from ...model.pose import dot, norm, pose_of, rotate, transpose
-from ...model.read import numbers
-from ..mesh.outlines import reaches
-from ..sides import sides
+from ...model.kinematics import get_limits
+from ...model.pose import compute_dot, compute_norm, make_pose, rotate, transpose
+from ...model.read import parse_numbers
+from ..mesh.link_extents import get_extents
+from ..symmetry import get_sides
 
 _WHEEL = re.compile(r"wheel|tire|tyre|caster", re.IGNORECASE)
 _STEERS = re.compile(r"steer|swivel|rotation|yaw", re.IGNORECASE)
-PLACE = "the position of its twin"
+TWIN_POSITION = "the position of its twin"
 VISUAL = "its visual"
 _ROUND = 0.05
 """Relative difference of two equal lengths or moments of a wheel."""
 
 
-class Saying(NamedTuple):
+class AxleDirection(NamedTuple):
     """A source of the direction of a wheel's axle.
 
     Attributes:
@@ -54,41 +54,49 @@ class Wheel(NamedTuple):
     link: Link
     shape: Cylinder
     kind: Visual | Collision
-    axis: Saying
-    cylinder: Saying
-    others: list[Saying]
+    axis: AxleDirection
+    cylinder: AxleDirection
+    others: list[AxleDirection]
 
 
-def wheel_of_joint(robot: Robot, joint: Joint) -> Wheel | None:
+def get_wheel(robot: Robot, joint: Joint) -> Wheel | None:
     """Get the wheel of a joint; None if the joint has none, or nothing can be compared."""
     link = robot.link.get(joint.child)
-    if link is None or not _turns_round(joint) or _STEERS.search(link.name + joint.name):
+    if link is None or not _is_continuous(joint) or _STEERS.search(link.name + joint.name):
         return None
-    if joint.axis is not None and numbers(joint.axis.element.get("xyz"), 3) is None:
+    if joint.axis is not None and parse_numbers(joint.axis.element.get("xyz"), 3) is None:
         return None  # an unreadable axis, which the default replaces
-    members = attached_links(robot, link)
+    members = find_attached_links(robot, link)
     if not any(_WHEEL.search(member.name + joint.name) for member, _ in members):
         return None
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     discs = [
-        (member, shape, collision, rotate((pose @ pose_of(collision.origin)).rotation, _Z))
+        (member, shape, collision, rotate((pose @ make_pose(collision.origin)).rotation, _Z))
         for member, pose in members
         for collision in member.collisions
         if isinstance(shape := collision.geometry, Cylinder)
     ]
-    if norm(axis) < 1e-6 or len(discs) != 1 or sum(len(m.collisions) for m, _ in members) != 1:
+    if (
+        compute_norm(axis) < 1e-6
+        or len(discs) != 1
+        or sum(len(m.collisions) for m, _ in members) != 1
+    ):
         return None
     member, shape, collision, along = discs[0]
     if shape.length > 4 * shape.radius:
         return None
-    others = [_of_visual(robot, members), _of_inertia(members), _of_place(robot, joint)]
+    others = [
+        _get_visual_direction(robot, members),
+        _get_inertia_direction(members),
+        _get_position_direction(robot, joint),
+    ]
     return Wheel(
         joint,
         member,
         shape,
         collision,
-        Saying(f"the axis of '{joint.name}'", _unit(axis)),
-        Saying("its collision", along),
+        AxleDirection(f"the axis of '{joint.name}'", _normalize(axis)),
+        AxleDirection("its collision", along),
         [saying for saying in others if saying is not None],
     )
 
@@ -96,12 +104,14 @@ def wheel_of_joint(robot: Robot, joint: Joint) -> Wheel | None:
 _Z: Vector = (0.0, 0.0, 1.0)
 
 
-def angle_between(one: Vector, other: Vector) -> float:
+def compute_angle(one: Vector, other: Vector) -> float:
     """Compute the angle between two lines [degrees], at most 90."""
-    return math.degrees(math.acos(min(1.0, abs(dot(one, other)))))
+    return math.degrees(math.acos(min(1.0, abs(compute_dot(one, other)))))
 
 
-def agreeing(sayings: Sequence[Saying], along: Vector, within: float) -> list[Saying]:
+def select_agreeing(
+    sayings: Sequence[AxleDirection], along: Vector, within: float
+) -> list[AxleDirection]:
     """Select the sources with about the same direction.
 
     Args:
@@ -109,24 +119,24 @@ def agreeing(sayings: Sequence[Saying], along: Vector, within: float) -> list[Sa
         along: The direction.
         within: The tolerated angle [degrees].
     """
-    return [saying for saying in sayings if angle_between(saying.along, along) <= within]
+    return [saying for saying in sayings if compute_angle(saying.along, along) <= within]
 
 
 def is_upright(robot: Robot, joint: Joint, along: Vector) -> bool:
     """Tell whether a line of a joint's child points up in the root frame, with joints at zero."""
-    rotation = pose_of(joint.origin).rotation
+    rotation = make_pose(joint.origin).rotation
     line = rotate(rotation, along)
     name, seen = joint.parent, {joint.child}
     above = robot.tree.parent_joint(name)
     while above is not None and name not in seen:
         seen.add(name)
-        line = rotate(pose_of(above.origin).rotation, line)
+        line = rotate(make_pose(above.origin).rotation, line)
         name = above.parent
         above = robot.tree.parent_joint(name)
     return abs(line[2]) > 0.9
 
 
-def _turns_round(joint: Joint) -> bool:
+def _is_continuous(joint: Joint) -> bool:
     """Tell whether a joint is continuous, or revolute without limits."""
     if joint.type == "continuous":
         return True
@@ -135,11 +145,11 @@ def _turns_round(joint: Joint) -> bool:
     limit = joint.limit
     if limit is None or limit.lower is None or limit.upper is None:
         return True
-    lower, upper = limits_of(joint)
+    lower, upper = get_limits(joint)
     return upper <= lower or upper - lower >= 2 * math.pi
 
 
-def _of_visual(robot: Robot, members: Attached) -> Saying | None:
+def _get_visual_direction(robot: Robot, members: Attached) -> AxleDirection | None:
     """Get the direction of the only visual of a wheel: a cylinder, or a round mesh."""
     shown = [(member, pose, visual) for member, pose in members for visual in member.visuals]
     discs = [one for one in shown if isinstance(one[2].geometry, Cylinder)]
@@ -148,33 +158,37 @@ def _of_visual(robot: Robot, members: Attached) -> Saying | None:
         assert isinstance(visual.geometry, Cylinder)
         if visual.geometry.length > 4 * visual.geometry.radius:
             return None
-        return Saying(VISUAL, rotate((pose @ pose_of(visual.origin)).rotation, _Z))
+        return AxleDirection(VISUAL, rotate((pose @ make_pose(visual.origin)).rotation, _Z))
     if len(shown) != 1 or not isinstance(shown[0][2].geometry, Mesh):
         return None
     member, pose, _ = shown[0]
-    box = reaches(robot).shapes(member.visuals)
-    axis = _odd_length(box.size, 0.8) if box is not None else None
-    return None if axis is None else Saying(VISUAL, rotate(pose.rotation, _unit_of(axis)))
+    box = get_extents(robot).get_shapes_box(member.visuals)
+    axis = _find_odd_length(box.size, 0.8) if box is not None else None
+    return (
+        None
+        if axis is None
+        else AxleDirection(VISUAL, rotate(pose.rotation, _get_unit_vector(axis)))
+    )
 
 
-def _of_inertia(members: Attached) -> Saying | None:
+def _get_inertia_direction(members: Attached) -> AxleDirection | None:
     """Get the direction of a wheel's inertia: two moments are equal, and the third is larger."""
     body = combine_links(members)
     six = body.tensor
     if not body.mass or max(map(abs, (six[1], six[2], six[4]))) > _ROUND * max(
-        principal_moments(six)
+        compute_principal_moments(six)
     ):
         return None
     x, y, z = six[0], six[3], six[5]
     if min(x, y, z) <= 0:
         return None
-    axis = _odd_length((1 / x, 1 / y, 1 / z), 0.9)
-    return None if axis is None else Saying("its inertia", _unit_of(axis))
+    axis = _find_odd_length((1 / x, 1 / y, 1 / z), 0.9)
+    return None if axis is None else AxleDirection("its inertia", _get_unit_vector(axis))
 
 
-def _of_place(robot: Robot, joint: Joint) -> Saying | None:
+def _get_position_direction(robot: Robot, joint: Joint) -> AxleDirection | None:
     """Get the direction from a wheel to the wheel on the other side of the robot."""
-    known = sides(robot)
+    known = get_sides(robot)
     for pair in known.pairs:
         if joint.child not in (pair.left.name, pair.right.name):
             continue
@@ -182,15 +196,15 @@ def _of_place(robot: Robot, joint: Joint) -> Saying | None:
             return None
         a, b = (known.poses[one.name].translation for one in (pair.left, pair.right))
         apart = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
-        length = norm(apart)
+        length = compute_norm(apart)
         if length < 1e-3 or max(map(abs, apart)) < 0.95 * length:
             return None
         turn = transpose(known.poses[joint.child].rotation)
-        return Saying(PLACE, _unit(rotate(turn, apart)))
+        return AxleDirection(TWIN_POSITION, _normalize(rotate(turn, apart)))
     return None
 
 
-def _odd_length(lengths: Vector, most: float) -> int | None:
+def _find_odd_length(lengths: Vector, most: float) -> int | None:
     """Find the axis of the one length that is less than two equal ones."""
     for axis, length in enumerate(lengths):
         one, other = (value for i, value in enumerate(lengths) if i != axis)
@@ -199,11 +213,11 @@ def _odd_length(lengths: Vector, most: float) -> int | None:
     return None
 
 
-def _unit(vector: Vector) -> Vector:
-    length = norm(vector)
+def _normalize(vector: Vector) -> Vector:
+    length = compute_norm(vector)
     x, y, z = vector
     return x / length, y / length, z / length
 
 
-def _unit_of(axis: int) -> Vector:
+def _get_unit_vector(axis: int) -> Vector:
     return float(axis == 0), float(axis == 1), float(axis == 2)

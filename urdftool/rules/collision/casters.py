@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ...geometry.penetration import Convex
-from ...model.attached import attached_links
+from ...model.attached import find_attached_links
 from ...model.elements import Collision, Joint, Link, Robot, Sphere, Vector
-from ...model.pose import Pose, dot, pose_of, rotate, transpose
-from ..gazebo.wheel_pair import CASTER, driven_joints
-from .pieces import Pieces, pieces
+from ...model.pose import Pose, compute_dot, make_pose, rotate, transpose
+from ..gazebo.wheel_pair import CASTER, find_driven_joints
+from .convex_bodies import ConvexBodies, get_convex_bodies
 
 _UP = (0.0, 0.0, 1.0)
 
@@ -54,14 +54,14 @@ class Caster(NamedTuple):
         return math.atan2(self.above, abs(self.ahead))
 
 
-def axle_of(robot: Robot) -> Axle | None:
+def find_axle(robot: Robot) -> Axle | None:
     """Find the one driven axle; None if there is none, or its height is unknown."""
-    found = pieces(robot)
+    found = get_convex_bodies(robot)
     lows = []
-    wheels = driven_joints(robot)
+    wheels = find_driven_joints(robot)
     for joint in wheels:
-        low = _lowest(found, _body(robot, joint.child))
-        if low is None or not _hangs_rigidly(robot, joint.parent):
+        low = _find_lowest_point(found, _get_body_names(robot, joint.child))
+        if low is None or not _is_rigid(robot, joint.parent):
             return None
         lows.append(low)
     if len(wheels) < 2:
@@ -72,22 +72,22 @@ def axle_of(robot: Robot) -> Axle | None:
     if not level or abs(z) > 0.1 * level:
         return None
     ahead = (y / level, -x / level, 0.0)
-    heights, places = [low[2] for low in lows], [dot(ahead, low) for low in lows]
+    heights, places = [low[2] for low in lows], [compute_dot(ahead, low) for low in lows]
     if max(heights) - min(heights) > 0.002 or max(places) - min(places) > 0.01:
         return None
     a, b, c = (sum(part) / len(lows) for part in zip(*lows, strict=True))
-    links = frozenset(name for joint in wheels for name in _body(robot, joint.child))
+    links = frozenset(name for joint in wheels for name in _get_body_names(robot, joint.child))
     return Axle(links, (a, b, c), ahead)
 
 
-def _body(robot: Robot, name: str) -> set[str]:
+def _get_body_names(robot: Robot, name: str) -> set[str]:
     """Get the names of a link and of all links rigidly attached to it."""
-    return {link.name for link, _ in attached_links(robot, robot.link[name])}
+    return {link.name for link, _ in find_attached_links(robot, robot.link[name])}
 
 
-def casters_of(robot: Robot, axle: Axle) -> Iterator[Caster]:
+def find_casters(robot: Robot, axle: Axle) -> Iterator[Caster]:
     """Find casters by their names, and spheres that are lower than all but the wheels."""
-    found = pieces(robot)
+    found = get_convex_bodies(robot)
     taken = set(axle.links)
     for name in robot.tree.order:
         joint = robot.tree.parent_joint(name)
@@ -96,15 +96,15 @@ def casters_of(robot: Robot, axle: Axle) -> Iterator[Caster]:
         if CASTER.search(name) or CASTER.search(joint.name):
             links = {name, *robot.tree.descendants(name)}
             taken |= links
-            low = _lowest(found, links)
-            if low is not None and _hangs_rigidly(robot, name):
-                yield _caster(found, robot.link[name], axle, low, joint)
-    balls = list(_balls(robot, found, taken))
+            low = _find_lowest_point(found, links)
+            if low is not None and _is_rigid(robot, name):
+                yield _make_caster(found, robot.link[name], axle, low, joint)
+    balls = list(_find_spheres(robot, found, taken))
     if not balls:
         return
     shapes = {id(ball[1]) for ball in balls}
     others = [
-        _low(piece)[2]
+        _get_lowest_point(piece)[2]
         for parts in found.bodies.values()
         for link, piece in parts
         if link.name not in taken and not any(id(c) in shapes for c in link.collisions)
@@ -114,11 +114,11 @@ def casters_of(robot: Robot, axle: Axle) -> Iterator[Caster]:
         alone = joint is not None and len(link.collisions) == 1
         if all(low[2] <= other + 1e-6 for other in others):
             moved = joint if alone and joint is not None else collision
-            yield _caster(found, link, axle, low, moved)
+            yield _make_caster(found, link, axle, low, moved)
 
 
-def _balls(
-    robot: Robot, found: Pieces, taken: set[str]
+def _find_spheres(
+    robot: Robot, found: ConvexBodies, taken: set[str]
 ) -> Iterator[tuple[Link, Collision, Vector]]:
     """Get spheres of links that are fixed to the root, each with its lowest point."""
     for link in robot.links:
@@ -126,28 +126,30 @@ def _balls(
             continue
         for collision in link.collisions:
             shape = collision.geometry
-            if isinstance(shape, Sphere) and _hangs_rigidly(robot, link.name):
-                pose = found.poses[link.name] @ pose_of(collision.origin)
+            if isinstance(shape, Sphere) and _is_rigid(robot, link.name):
+                pose = found.poses[link.name] @ make_pose(collision.origin)
                 x, y, z = pose.translation
                 yield link, collision, (x, y, z - abs(shape.radius))
 
 
-def _caster(found: Pieces, link: Link, axle: Axle, low: Vector, moved: Joint | Collision) -> Caster:
+def _make_caster(
+    found: ConvexBodies, link: Link, axle: Axle, low: Vector, moved: Joint | Collision
+) -> Caster:
     above = low[2] - axle.middle[2]
     name = moved.parent if isinstance(moved, Joint) else link.name
     frame: Pose | None = found.poses.get(name)
-    up = frame is not None and dot(rotate(frame.rotation, _UP), _UP) > 0.9999
+    up = frame is not None and compute_dot(rotate(frame.rotation, _UP), _UP) > 0.9999
     z = moved.origin.xyz[2] if moved.origin is not None else 0.0
     return Caster(
         link,
         above,
-        dot(axle.ahead, low) - dot(axle.ahead, axle.middle),
+        compute_dot(axle.ahead, low) - compute_dot(axle.ahead, axle.middle),
         moved,
         z - above if up else None,
     )
 
 
-def _hangs_rigidly(robot: Robot, link: str) -> bool:
+def _is_rigid(robot: Robot, link: str) -> bool:
     """Tell whether no spring is between a link and the root; swivel joints are allowed."""
     for name in (link, *robot.tree.ancestors(link)):
         joint = robot.tree.parent_joint(name)
@@ -156,7 +158,7 @@ def _hangs_rigidly(robot: Robot, link: str) -> bool:
     return True
 
 
-def _lowest(found: Pieces, links: set[str]) -> Vector | None:
+def _find_lowest_point(found: ConvexBodies, links: set[str]) -> Vector | None:
     """Compute the lowest point of links; None without collisions or with an unread mesh."""
     parts = [
         (link, piece)
@@ -166,10 +168,12 @@ def _lowest(found: Pieces, links: set[str]) -> Vector | None:
     ]
     if len(parts) < sum(len(found.robot.link[name].collisions) for name in links):
         return None
-    return min((_low(piece) for _, piece in parts), key=lambda point: point[2], default=None)
+    return min(
+        (_get_lowest_point(piece) for _, piece in parts), key=lambda point: point[2], default=None
+    )
 
 
-def _low(piece: Convex) -> Vector:
+def _get_lowest_point(piece: Convex) -> Vector:
     """Compute the center of a piece, at the height of its lowest point [m]."""
     x, y, z = piece.pose.translation
     return x, y, z - piece.reach(*rotate(transpose(piece.pose.rotation), (0.0, 0.0, -1.0)))

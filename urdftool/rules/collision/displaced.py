@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ...model.elements import Collision, Link, Mesh, Robot, Vector, Visual
-from ...model.pose import Pose, Rotation, matrix_product, pose_of, transpose
+from ...model.pose import Pose, Rotation, make_pose, multiply_matrices, transpose
 from ..fix import FixContext, Proposal, unsafe
-from ..mesh.outlines import outline_of, reaches
+from ..mesh.link_extents import get_convex_points, get_extents
 from ..rule import UNSAFE, WARNING, Problem, rule
 from ..shape_changes import copy_origin
 
@@ -20,7 +20,7 @@ _SYMMETRY = 0.03
 at which the two count as one shape; the extents are known to about one percent."""
 
 
-class Displaced(NamedTuple):
+class DisplacedMesh(NamedTuple):
     """A collision mesh and the visual of the same file that it should coincide with."""
 
     visual: Visual
@@ -46,7 +46,7 @@ def collision_mesh_displaced(
     ignored. ``distance`` [m] and ``angle`` [rad] are the tolerated differences.
     """
     for link in robot.links:
-        for found in displaced(robot, link, distance, angle):
+        for found in find_displaced(robot, link, distance, angle):
             mesh = found.collision.geometry
             assert isinstance(mesh, Mesh)
             apart = []
@@ -66,11 +66,11 @@ def collision_mesh_displaced(
 @collision_mesh_displaced.fix(UNSAFE)
 def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
     """Copy the origin that agrees with the center of mass to the other geometry."""
-    link, robot = context.link(problem), context.robot
+    link, robot = context.get_link(problem), context.robot
     found = next(
         (
             pair
-            for pair in displaced(robot, link)
+            for pair in find_displaced(robot, link)
             if (pair.collision.origin or pair.collision).place == problem.place
         ),
         None,
@@ -78,7 +78,7 @@ def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Prop
     com = link.inertial.origin.xyz if link.inertial and link.inertial.origin else None
     if found is None or com is None or not any(com):
         return None  # the origin of the center of mass may be missing too
-    boxes = [reaches(robot).shape(shape) for shape in (found.visual, found.collision)]
+    boxes = [get_extents(robot).get_shape_box(shape) for shape in (found.visual, found.collision)]
     if boxes[0] is None or boxes[1] is None:
         return None
     visual, collision = (math.dist(com, box.centre) for box in boxes if box is not None)
@@ -91,9 +91,9 @@ def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Prop
     return None
 
 
-def displaced(
+def find_displaced(
     robot: Robot, link: Link, distance: float = 1e-4, angle: float = 1e-3
-) -> list[Displaced]:
+) -> list[DisplacedMesh]:
     """List the collision meshes of a link that are away from the visual of the same file.
 
     Each is paired with the nearest visual of that file without a collision of its own. A collision
@@ -104,9 +104,13 @@ def displaced(
     for collision in link.collisions:
         if not free or not isinstance(collision.geometry, Mesh):
             continue
-        same = [visual for visual in free if _same_mesh(visual.geometry, collision.geometry)]
+        same = [visual for visual in free if _is_same_mesh(visual.geometry, collision.geometry)]
         match = next(
-            (visual for visual in same if _coincide(robot, visual, collision, distance, angle)),
+            (
+                visual
+                for visual in same
+                if _is_coincident(robot, visual, collision, distance, angle)
+            ),
             None,
         )
         if match is not None:
@@ -116,9 +120,9 @@ def displaced(
     found = []
     for collision in unmatched:
         pairs = [
-            Displaced(visual, collision, *_difference(visual, collision))
+            DisplacedMesh(visual, collision, *_compute_difference(visual, collision))
             for visual in free
-            if _same_mesh(visual.geometry, collision.geometry)
+            if _is_same_mesh(visual.geometry, collision.geometry)
         ]
         if pairs:
             best = min(pairs, key=lambda pair: (pair.distance, pair.angle))
@@ -127,7 +131,7 @@ def displaced(
     return found
 
 
-def _same_mesh(one: object, other: object) -> bool:
+def _is_same_mesh(one: object, other: object) -> bool:
     return (
         isinstance(one, Mesh)
         and isinstance(other, Mesh)
@@ -136,51 +140,53 @@ def _same_mesh(one: object, other: object) -> bool:
     )
 
 
-def _difference(visual: Visual, collision: Collision) -> tuple[float, float]:
+def _compute_difference(visual: Visual, collision: Collision) -> tuple[float, float]:
     """Compute distance [m] and angle [rad] between two origins."""
-    one, other = pose_of(visual.origin), pose_of(collision.origin)
-    return math.dist(one.translation, other.translation), _angle(one.rotation, other.rotation)
+    one, other = make_pose(visual.origin), make_pose(collision.origin)
+    return math.dist(one.translation, other.translation), _compute_angle(
+        one.rotation, other.rotation
+    )
 
 
-def _angle(one: Rotation, other: Rotation) -> float:
+def _compute_angle(one: Rotation, other: Rotation) -> float:
     """Compute the angle between two orientations [rad], accurate for small angles too."""
-    (_, b, c), (d, _, f), (g, h, _) = between = matrix_product(transpose(one), other)
+    (_, b, c), (d, _, f), (g, h, _) = between = multiply_matrices(transpose(one), other)
     cosine = (between[0][0] + between[1][1] + between[2][2] - 1) / 2
     return math.atan2(math.hypot(h - f, c - g, d - b) / 2, cosine)
 
 
-def _coincide(
+def _is_coincident(
     robot: Robot, visual: Visual, collision: Collision, distance: float, angle: float
 ) -> bool:
     """Tell whether two uses of one mesh look the same.
 
     For a mesh that is rotated and unreadable this is assumed.
     """
-    apart, turned = _difference(visual, collision)
+    apart, turned = _compute_difference(visual, collision)
     if turned <= angle:
         return apart <= distance
-    use = reaches(robot).use_of(collision)
-    outline = outline_of(use) if use is not None else None
+    use = get_extents(robot).get_use(collision)
+    outline = get_convex_points(use) if use is not None else None
     if use is None or outline is None:
         return True
     a, b, c = use.mesh.scale
     points: list[Vector] = [(a * x, b * y, c * z) for x, y, z in outline.points]
-    one, other = pose_of(visual.origin), pose_of(collision.origin)
+    one, other = make_pose(visual.origin), make_pose(collision.origin)
     diagonal = math.dist(*(tuple(map(f, zip(*points, strict=True))) for f in (min, max)))
     return all(
-        abs(_extent(points, one, way) - _extent(points, other, way))
+        abs(_compute_extent(points, one, way) - _compute_extent(points, other, way))
         <= max(distance, _SYMMETRY * diagonal)
-        for way in _ways()
+        for way in _make_directions()
     )
 
 
-def _ways() -> list[Vector]:
+def _make_directions() -> list[Vector]:
     from ...geometry.convex_points import directions
 
     return directions()
 
 
-def _extent(points: list[Vector], pose: Pose, way: Vector) -> float:
+def _compute_extent(points: list[Vector], pose: Pose, way: Vector) -> float:
     """Compute the extent of a placed mesh along a direction [m]."""
     back = transpose(pose.rotation)
     a, b, c = (sum(x * y for x, y in zip(row, way, strict=True)) for row in back)

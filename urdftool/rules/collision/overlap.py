@@ -7,13 +7,13 @@ from collections.abc import Iterator
 
 from ...geometry.penetration import CORNER_DIRECTIONS, Convex
 from ...model.elements import Joint, Link, Mesh, Robot
-from ...model.kinematics import MOVABLE, limits_of, motion_of
-from ...model.pose import IDENTITY, Pose, dot, pose_of, rotate, transpose
-from ...model.read import numbers
+from ...model.kinematics import MOVABLE, compute_motion, get_limits
+from ...model.pose import IDENTITY, Pose, compute_dot, make_pose, rotate, transpose
+from ...model.read import parse_numbers
 from ..mujoco import reads_collisions
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
-from ..words import some_of
-from .pieces import Pieces, pieces
+from ..words import join_some
+from .convex_bodies import ConvexBodies, get_convex_bodies
 
 APPLIES_TO = ("collision",)
 
@@ -58,7 +58,7 @@ def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[P
     pairs that include the convex hull of a mesh.
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
-    found = list(resting(robot, deeper))
+    found = list(find_resting_overlaps(robot, deeper))
     hulls = [pair for pair in found if any(map(_has_mesh, pair[:2]))]
     exact = [pair for pair in found if not any(map(_has_mesh, pair[:2]))]
     for pairs, what, keys in (
@@ -67,40 +67,42 @@ def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[P
     ):
         if pairs:
             pairs.sort(key=lambda pair: -pair[2])
-            yield _overlap(pairs, keys, what)
+            yield _report_overlap(pairs, keys, what)
 
 
 def _has_mesh(link: Link) -> bool:
     return any(isinstance(collision.geometry, Mesh) for collision in link.collisions)
 
 
-def _overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> Problem:
+def _report_overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> Problem:
     """Report the pairs of links that overlap, the deepest at the second link."""
     _, other, depth = pairs[0]
     at_rest = "with all joints at rest"
     if len(pairs) == 1:
-        message = f"{what} {_pairs(pairs)} overlap by up to {depth * 1000:.3g} mm {at_rest}"
+        message = f"{what} {_format_pairs(pairs)} overlap by up to {depth * 1000:.3g} mm {at_rest}"
     else:
         message = (
             f"{len(pairs)} pairs of {what.removeprefix('the ')} overlap {at_rest}, by up to "
-            f"{depth * 1000:.3g} mm: {_pairs(pairs)}"
+            f"{depth * 1000:.3g} mm: {_format_pairs(pairs)}"
         )
     names = [[one.name, other.name] for one, other, _ in pairs]
     data = {"pairs": names, "depth": depth}
     return Problem(other, message, at=other.collisions[0], effects=effects, data=data)
 
 
-def _pairs(found: list[_Pair]) -> str:
-    return some_of([f"'{one.name}' and '{other.name}'" for one, other, _ in found], "pairs")
+def _format_pairs(found: list[_Pair]) -> str:
+    return join_some([f"'{one.name}' and '{other.name}'" for one, other, _ in found], "pairs")
 
 
-def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float]]:
+def find_resting_overlaps(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float]]:
     """Find pairs of links that no joint connects and that overlap at rest, with the depth [m]."""
 
     def compute() -> tuple[list[tuple[Link, Link, float]], bool]:
-        known = pieces(robot)
-        pairs, complete = known.strangers(RESTING) if _has_known_poses(robot) else ([], True)
-        deepest = (known.deepest(one, other, least=deeper) for one, other in pairs)
+        known = get_convex_bodies(robot)
+        pairs, complete = (
+            known.find_candidate_pairs(RESTING) if _has_known_poses(robot) else ([], True)
+        )
+        deepest = (known.find_deepest_overlap(one, other, least=deeper) for one, other in pairs)
         return [found for found in deepest if found is not None], complete
 
     return robot.memo.get(_RESTING, compute)[0]
@@ -113,10 +115,10 @@ def _has_known_poses(robot: Robot) -> bool:
     """Tell whether all joint origins have three numbers; readers differ for others."""
     origins = (joint.origin.element for joint in robot.joints if joint.origin is not None)
     texts = (element.get(name) for element in origins for name in ("xyz", "rpy"))
-    return all(text is None or numbers(text, 3) is not None for text in texts)
+    return all(text is None or parse_numbers(text, 3) is not None for text in texts)
 
 
-def resting_in_part(robot: Robot) -> bool:
+def is_partly_checked(robot: Robot) -> bool:
     """Tell whether only some pairs were checked, because too many links are near each other."""
     resting = robot.memo.peek(_RESTING)
     return resting is not None and not resting[1]
@@ -138,19 +140,19 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
     Two links that overlap at spawn are pushed apart, and the robot moves or diverges. More than
     ``together`` pairs are one finding.
     """
-    whole = any(_says(block.value("self_collide")) for block in robot.extensions.get(None, ()))
+    whole = any(_is_true(block.value("self_collide")) for block in robot.extensions.get(None, ()))
     enabled = {
         name
         for name, blocks in robot.extensions.items()
-        if any(_says(block.value("selfCollide")) for block in blocks)
+        if any(_is_true(block.value("selfCollide")) for block in blocks)
     }
     found = [
         (one, other, depth)
-        for one, other, depth in resting(robot)
+        for one, other, depth in find_resting_overlaps(robot)
         if whole or (one.name in enabled and other.name in enabled)
     ]
     many = len(found) > together
-    more = f"; so do {_pairs(found[1:])}" if many else ""
+    more = f"; so do {_format_pairs(found[1:])}" if many else ""
     for one, other, depth in found[:1] if many else found:
         yield Problem(
             other,
@@ -160,7 +162,7 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
         )
 
 
-def _says(value: str | None) -> bool:
+def _is_true(value: str | None) -> bool:
     return (value or "").strip().lower() in ("1", "true", "yes")
 
 
@@ -182,7 +184,7 @@ def link_inside_parent(
     parent's than ``core`` of the parent's half width, and both have similar sizes. More than
     ``together`` such joints are one finding.
     """
-    known = pieces(robot)
+    known = get_convex_bodies(robot)
     found = []
     for joint in robot.joints:
         if joint.type not in MOVABLE or joint.child not in known.poses:
@@ -191,11 +193,11 @@ def link_inside_parent(
             continue
         if _is_across(known, joint):
             continue
-        depth, parent = _depth_of_middle(known, joint, IDENTITY)
+        depth, parent = _compute_center_depth(known, joint, IDENTITY)
         if depth > core and parent is not None:
             found.append((joint, parent))
     many = len(found) > together
-    names = some_of([f"'{joint.name}'" for joint, _ in found[1:]], "joints")
+    names = join_some([f"'{joint.name}'" for joint, _ in found[1:]], "joints")
     for joint, parent in found[:1] if many else found:
         yield Problem(
             joint,
@@ -205,7 +207,7 @@ def link_inside_parent(
         )
 
 
-def _is_across(known: Pieces, joint: Joint) -> bool:
+def _is_across(known: ConvexBodies, joint: Joint) -> bool:
     """Tell whether a joint axis is at right angles to that of the moving joint before it."""
     before = known.robot.tree.parent_joint(joint.parent)
     while before is not None and before.is_fixed:
@@ -216,10 +218,12 @@ def _is_across(known: Pieces, joint: Joint) -> bool:
         rotate(known.poses[each.child].rotation, each.axis.xyz if each.axis else (1.0, 0.0, 0.0))
         for each in (before, joint)
     )
-    return abs(dot(one, other)) < 0.1 * math.hypot(*one) * math.hypot(*other)
+    return abs(compute_dot(one, other)) < 0.1 * math.hypot(*one) * math.hypot(*other)
 
 
-def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, Link | None]:
+def _compute_center_depth(
+    known: ConvexBodies, joint: Joint, moved: Pose
+) -> tuple[float, Link | None]:
     """Compute how deep the center of a joint's child is in its parent, in half widths of it.
 
     The result is negative outside, and 1 at the center. Children much smaller than the parent are
@@ -234,13 +238,13 @@ def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, L
         for parent, around in known.bodies.get(known.body_of.get(joint.parent, joint.parent), ()):
             if not 0.5 < piece.radius / around.radius < 2:
                 continue
-            depth = _depth(around, at)
+            depth = _compute_depth(around, at)
             if depth > best[0]:
                 best = depth, parent
     return best
 
 
-def _depth(around: Convex, at: tuple[float, float, float]) -> float:
+def _compute_depth(around: Convex, at: tuple[float, float, float]) -> float:
     """Compute the depth of a point in a shape: 1 at the center, 0 on the surface."""
     x, y, z = (a - b for a, b in zip(at, around.pose.translation, strict=True))
     local = rotate(transpose(around.pose.rotation), (x, y, z))
@@ -275,9 +279,10 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
     joints, and a second one those whose two links are parent and child. For a robot with very many
     links only the first joints are checked, which ``analysis-incomplete`` reports.
     """
-    known = pieces(robot)
+    known = get_convex_bodies(robot)
     taken = {
-        frozenset((known.body_of[a.name], known.body_of[b.name])) for a, b, _ in resting(robot)
+        frozenset((known.body_of[a.name], known.body_of[b.name]))
+        for a, b, _ in find_resting_overlaps(robot)
     }
     found = []
     skipped: list[Joint] = []
@@ -299,12 +304,12 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
     robot.memo.get(_SWEPT, lambda: skipped)
     alike: dict[str, list[tuple[Joint, Link, Link, float]]] = {}
     for hit in found:
-        alike.setdefault(_contact_in_mujoco(known, hit[1], hit[2]), []).append(hit)
+        alike.setdefault(_select_case(known, hit[1], hit[2]), []).append(hit)
     for case, hits in alike.items():
         joint, one, other, where = hits[0]
         unit = "m" if joint.type == "prismatic" else "rad"
         others = [f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in hits[1:]]
-        more = f"; also {some_of(others, 'joints')}"
+        more = f"; also {join_some(others, 'joints')}"
         yield Problem(
             joint,
             f"joint '{joint.name}' can move link '{one.name}' into '{other.name}', at "
@@ -314,31 +319,31 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         )
 
 
-def _contact_in_mujoco(known: Pieces, one: Link, other: Link) -> str:
+def _select_case(known: ConvexBodies, one: Link, other: Link) -> str:
     """Select the case of MuJoCo: no contact of parent and child, unless the parent is world."""
     body, carrier = known.body_of[one.name], known.body_of[other.name]
     is_root = known.robot.tree.parent_joint(carrier) is None
-    return "neighbors" if _carrier(known, body) == carrier and not is_root else "contact"
+    return "neighbors" if _find_carrier(known, body) == carrier and not is_root else "contact"
 
 
-def passed_over(robot: Robot) -> list[Joint]:
+def get_skipped_joints(robot: Robot) -> list[Joint]:
     """List the joints that were not checked in motion, because there are too many."""
     skipped: list[Joint] | None = robot.memo.peek(_SWEPT)
     return skipped or []
 
 
 def _sweep(
-    known: Pieces, joint: Joint, taken: set[frozenset[str]], deeper: float
+    known: ConvexBodies, joint: Joint, taken: set[frozenset[str]], deeper: float
 ) -> tuple[tuple[Link, Link, float] | None, int]:
     """Find the first two links that overlap as one joint moves, the position, and pairs tried."""
     robot, rest = known.robot, known.rest.get(joint.name, 0.0)
     moving = {joint.child, *robot.tree.descendants(joint.child)}
     bodies = {known.body_of.get(name, name) for name in moving}
     inside = [body for body in known.bodies if body in bodies]
-    along = known.followers(joint)  # mimic joints move at the same time
+    along = known.find_followers(joint)  # mimic joints move at the same time
     outside = [body for body in known.bodies if body not in bodies and body not in along]
-    at = known.poses[joint.parent] @ pose_of(joint.origin)
-    back = (at @ motion_of(joint, rest)).inverse()
+    at = known.poses[joint.parent] @ make_pose(joint.origin)
+    back = (at @ compute_motion(joint, rest)).inverse()
     apart = known.neighbors | taken
     carrier = known.body_of[joint.parent]
     partners = {
@@ -346,17 +351,17 @@ def _sweep(
             (other, *known.spheres[other])
             for other in outside
             if frozenset((one, other)) not in apart
-            and carrier in (other, _carrier(known, one))
-            and _carrier(known, _carrier(known, one)) == other
+            and carrier in (other, _find_carrier(known, one))
+            and _find_carrier(known, _find_carrier(known, one)) == other
         ]
         for one in inside
     }
-    into = _depth_of_middle(known, joint, IDENTITY)[0] <= 0
+    into = _compute_center_depth(known, joint, IDENTITY)[0] <= 0
     count = 0
-    for value in _positions(joint, rest):
-        moved = at @ motion_of(joint, value) @ back
+    for value in _get_positions(joint, rest):
+        moved = at @ compute_motion(joint, value) @ back
         if into:
-            depth, link = _depth_of_middle(known, joint, moved)
+            depth, link = _compute_center_depth(known, joint, moved)
             if depth > 0.3 and link is not None:
                 return (robot.link[joint.child], link, value), count
         for one in inside:
@@ -366,20 +371,20 @@ def _sweep(
                 if math.dist(there, place) >= radius + reach:
                     continue
                 count += 1
-                deepest = known.deepest(one, other, moved, deeper)
+                deepest = known.find_deepest_overlap(one, other, moved, deeper)
                 if deepest is not None:
                     return (deepest[0], deepest[1], value), count
     return None, count
 
 
-def _carrier(known: Pieces, body: str) -> str:
+def _find_carrier(known: ConvexBodies, body: str) -> str:
     """Find the body that carries a body with a joint; empty for the root."""
     joint = known.robot.tree.parent_joint(body)
     return "" if joint is None else known.body_of.get(joint.parent, "")
 
 
-def _positions(joint: Joint, rest: float) -> list[float]:
-    lower, upper = limits_of(joint)
+def _get_positions(joint: Joint, rest: float) -> list[float]:
+    lower, upper = get_limits(joint)
     if not (math.isfinite(lower) and math.isfinite(upper)) or upper - lower > 2 * math.pi:
         if joint.type == "prismatic":
             return []

@@ -7,20 +7,20 @@ import re
 from collections.abc import Iterator
 from statistics import median
 
-from ...model.attached import attached_links
-from ...model.bounds import Bounds, has_extent, size_of
+from ...model.attached import find_attached_links
+from ...model.bounds import Bounds, compute_size, has_extent
 from ...model.elements import Box, Cylinder, Link, Mesh, Robot, Sphere
-from ...model.pose import pose_of
+from ...model.pose import make_pose
 from ..fix import FixContext, Proposal, unsafe
-from ..gazebo.contact import axis_up
-from ..inertia.bodies import bodies, mass_of
-from ..mesh.outlines import reaches
+from ..gazebo.contact import compute_axis_elevation
+from ..inertia.bodies import compute_mass, find_rigid_bodies
+from ..mesh.link_extents import get_extents
 from ..mujoco import keeps_visuals
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import copy_shape
-from ..sides import family_of
-from ..words import some_of
-from ..xml.vocabulary_table import misspelt_children
+from ..symmetry import get_family
+from ..words import join_some
+from ..xml.vocabulary_table import find_misspelled_children
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
 _VIRTUAL = re.compile(r"(^|_)(virtual|dummy)(_|\d|$)", re.IGNORECASE)
@@ -57,17 +57,17 @@ def missing_collision(
     transparent visuals are skipped. Links smaller than ``small`` [m], and those inside the
     bounding box of their rigid body's collisions, are an info.
     """
-    seen = [link for link in robot.links if _seen_size(link) > smallest]
+    seen = [link for link in robot.links if _compute_visual_size(link) > smallest]
     ghosts = [link for link in seen if not link.collisions and not _is_invisible(robot, link)]
-    sizes = _sizes(robot, ghosts)
-    odd = {link.name for link, _ in _odd_links(robot)}
+    sizes = _compute_sizes(robot, ghosts)
+    odd = {link.name for link, _ in _find_odd_links(robot)}
     discarded = not keeps_visuals(robot)
     for link in ghosts:
         if link.name in odd:
             continue
-        if sizes[link.name] <= smallest or _has_misspelt_collision(link):
+        if sizes[link.name] <= smallest or _has_misspelled_collision(link):
             continue
-        if _is_covered(robot, link) or _turns_inside(robot, link) or _slides_through(robot, link):
+        if _is_covered(robot, link) or _is_rotating_inside(robot, link) or _has_rail(robot, link):
             continue
         is_minor = sizes[link.name] < small or _is_enveloped(robot, link)
         yield Problem(
@@ -82,7 +82,7 @@ def missing_collision(
 
 
 @missing_collision.full
-def robot_without_collision(robot: Robot) -> Iterator[Problem]:
+def report_robot_without_collision(robot: Robot) -> Iterator[Problem]:
     """Report a robot without any collision geometry with an extent."""
     shapes = [shape.geometry for link in robot.links for shape in link.collisions]
     if not any(shape is not None and has_extent(shape) for shape in shapes):
@@ -114,7 +114,7 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
     median mass of the others are ignored.
     """
     discarded = not keeps_visuals(robot)
-    for link, others in _odd_links(robot):
+    for link, others in _find_odd_links(robot):
         yield Problem(
             link,
             f"link '{link.name}' has a visual but no collision, while {others} one; add a "
@@ -127,7 +127,7 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
 @odd_link_without_collision.fix(UNSAFE)
 def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
     """Copy the visuals, if all are primitives; small links may lack a collision on purpose."""
-    link = context.link(problem)
+    link = context.get_link(problem)
     if not link.visuals or link.collisions or problem.severity is INFO:
         return None
     changes = []
@@ -141,37 +141,39 @@ def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe("copy its visuals as collisions", *changes)
 
 
-def _odd_links(robot: Robot) -> list[tuple[Link, str]]:
+def _find_odd_links(robot: Robot) -> list[tuple[Link, str]]:
     """Find links without a collision although similar links have one, with these links."""
-    found = {link.name: others for link, others in (*_alone(robot), *_unlike(robot))}
+    found = {
+        link.name: others for link, others in (*_find_only_body(robot), *_find_odd_corners(robot))
+    }
     return [(link, found[link.name]) for link in robot.links if link.name in found]
 
 
-def _unlike(robot: Robot) -> Iterator[tuple[Link, str]]:
+def _find_odd_corners(robot: Robot) -> Iterator[tuple[Link, str]]:
     """Find links without a collision although most links at other corners have one."""
     families: dict[str, list[Link]] = {}
     for link in robot.links:
         if link.visuals:
-            families.setdefault(family_of(link.name), []).append(link)
+            families.setdefault(get_family(link.name), []).append(link)
     for links in families.values():
         solid = [link for link in links if link.collisions]
         if 2 * len(solid) < len(links):
             continue
         typical = median(link.mass for link in solid)
         names = [f"'{link.name}'" for link in solid]
-        others = f"{some_of(names, 'links')} {'have' if len(names) > 1 else 'has'}"
+        others = f"{join_some(names, 'links')} {'have' if len(names) > 1 else 'has'}"
         for link in links:
-            if link.collisions or _has_misspelt_collision(link):
+            if link.collisions or _has_misspelled_collision(link):
                 continue
             if link.mass >= typical / 100:
                 yield link, others
 
 
-def _alone(robot: Robot) -> Iterator[tuple[Link, str]]:
+def _find_only_body(robot: Robot) -> Iterator[tuple[Link, str]]:
     """Find the only moving body without a collision, as its first link with a visual."""
     moving = [
         links
-        for name, links in bodies(robot).items()
+        for name, links in find_rigid_bodies(robot).items()
         if (joint := robot.tree.parent_joint(name)) is not None
         and not joint.is_fixed
         and any(link.visuals for link in links)
@@ -180,15 +182,15 @@ def _alone(robot: Robot) -> Iterator[tuple[Link, str]]:
     if len(solid) != len(moving) - 1 or len(solid) < 2:
         return
     bare = next(links for links in moving if links not in solid)
-    if any(map(_has_misspelt_collision, bare)):
+    if any(map(_has_misspelled_collision, bare)):
         return
-    if mass_of(bare) >= median(map(mass_of, solid)) / 100:
+    if compute_mass(bare) >= median(map(compute_mass, solid)) / 100:
         link = next(link for link in bare if link.visuals)
         yield link, f"the {len(solid)} other moving bodies of the robot have"
 
 
-def _has_misspelt_collision(link: Link) -> bool:
-    return "collision" in misspelt_children(link.element).values()
+def _has_misspelled_collision(link: Link) -> bool:
+    return "collision" in find_misspelled_children(link.element).values()
 
 
 @rule(
@@ -208,16 +210,16 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
     ``missing-collision`` instead. ``lightest`` [kg] is the smallest mass that is reported.
     """
     for link in robot.links:
-        if link.collisions or link.mass < lightest or _seen_size(link) >= 0.01:
+        if link.collisions or link.mass < lightest or _compute_visual_size(link) >= 0.01:
             continue
         joint = robot.tree.parent_joint(link.name)
         if joint is None or any(not below.is_fixed for below in robot.tree.child_joints(link.name)):
             continue
-        if any(_shapes_below(robot, link)):
+        if any(_find_shapes_below(robot, link)):
             continue
-        if any(one.collisions for one, _ in attached_links(robot, link)):
+        if any(one.collisions for one, _ in find_attached_links(robot, link)):
             continue
-        level = joint.type == "continuous" and abs(axis_up(robot, link, joint)) < 0.5
+        level = joint.type == "continuous" and abs(compute_axis_elevation(robot, link, joint)) < 0.5
         if level or (_CONTACT.search(link.name) and not joint.is_fixed):
             yield Problem(
                 link,
@@ -228,16 +230,16 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
 
 def _is_covered(robot: Robot, link: Link) -> bool:
     """Tell whether attached links' collisions cover at least four fifths of a link's visual."""
-    attached = attached_links(robot, link)[1:]
+    attached = find_attached_links(robot, link)[1:]
     if not any(other.collisions for other, _ in attached):
         return False
-    reach = reaches(robot)
-    seen = reach.shapes(link.visuals)
+    reach = get_extents(robot)
+    seen = reach.get_shapes_box(link.visuals)
     if seen is None:
         return False
     for other, at in attached:
-        box = reach.body(link, "collisions", [(other, at)]) if other.collisions else None
-        if box is not None and _holds(box, seen):
+        box = reach.get_body_box(link, "collisions", [(other, at)]) if other.collisions else None
+        if box is not None and _contains_box(box, seen):
             return True
     return False
 
@@ -254,50 +256,50 @@ def _is_invisible(robot: Robot, link: Link) -> bool:
 
 def _is_enveloped(robot: Robot, link: Link) -> bool:
     """Tell whether a link's visual is inside the bounding box of its rigid body's collisions."""
-    reach = reaches(robot)
-    seen = reach.shapes(link.visuals)
-    solid = [(other, at) for other, at in reach.attached(link) if other.collisions]
-    box = reach.body(link, "collisions", solid) if seen is not None and solid else None
-    return box is not None and seen is not None and _holds(box, seen)
+    reach = get_extents(robot)
+    seen = reach.get_shapes_box(link.visuals)
+    solid = [(other, at) for other, at in reach.get_attached(link) if other.collisions]
+    box = reach.get_body_box(link, "collisions", solid) if seen is not None and solid else None
+    return box is not None and seen is not None and _contains_box(box, seen)
 
 
-def _turns_inside(robot: Robot, link: Link) -> bool:
+def _is_rotating_inside(robot: Robot, link: Link) -> bool:
     """Tell whether a body without a collision rotates inside the body that carries it.
 
     At any angle, its visuals stay in a sphere about the origin of the joint.
     """
-    reach = reaches(robot)
-    members = reach.attached(link)
+    reach = get_extents(robot)
+    members = reach.get_attached(link)
     joint = robot.tree.parent_joint(link.name)
     above = robot.link.get(joint.parent) if joint is not None else None
     if joint is None or above is None or joint.type not in ("revolute", "continuous"):
         return False
     if any(one.collisions for one, _ in members):
         return False
-    seen = reach.shapes(link.visuals)
+    seen = reach.get_shapes_box(link.visuals)
     if seen is None:
         return False
     radius = math.hypot(*(max(abs(a), abs(b)) for a, b in zip(seen.low, seen.high, strict=True)))
-    x, y, z = pose_of(joint.origin).translation
+    x, y, z = make_pose(joint.origin).translation
     ball = Bounds((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
-    for other, at in reach.attached(above):
-        box = reach.body(above, "collisions", [(other, at)]) if other.collisions else None
-        if box is not None and _holds(box, ball):
+    for other, at in reach.get_attached(above):
+        box = reach.get_body_box(above, "collisions", [(other, at)]) if other.collisions else None
+        if box is not None and _contains_box(box, ball):
             return True
     return False
 
 
-def _slides_through(robot: Robot, link: Link) -> bool:
+def _has_rail(robot: Robot, link: Link) -> bool:
     """Tell whether the rail of a prismatic joint goes through the visuals of a link."""
-    reach = reaches(robot)
+    reach = get_extents(robot)
     joint = robot.tree.parent_joint(link.name)
     rail = robot.link.get(joint.parent) if joint is not None else None
     if joint is None or rail is None or joint.type != "prismatic":
         return False
-    seen, along = reach.shapes(link.visuals), reach.shapes(rail.visuals)
+    seen, along = reach.get_shapes_box(link.visuals), reach.get_shapes_box(rail.visuals)
     if seen is None or along is None:
         return False
-    pose = pose_of(joint.origin)
+    pose = make_pose(joint.origin)
     x, y, z = pose.translation
     turned = seen.rotated(pose.rotation)
     low, high = turned.low, turned.high
@@ -309,7 +311,7 @@ def _slides_through(robot: Robot, link: Link) -> bool:
     return crossed.count(True) >= 2 and placed.meets(along)
 
 
-def _holds(box: Bounds, other: Bounds) -> bool:
+def _contains_box(box: Bounds, other: Bounds) -> bool:
     """Tell whether a box contains another, except for a fifth of each side."""
     return all(
         min(c, d) - max(a, b) >= 0.8 * (c - a)
@@ -317,36 +319,36 @@ def _holds(box: Bounds, other: Bounds) -> bool:
     )
 
 
-def _seen_size(link: Link) -> float:
+def _compute_visual_size(link: Link) -> float:
     """Compute the largest length of a link's visuals [m]; 1 for a mesh, 0 for a frame marker."""
     largest = 0.0
     for visual in link.visuals:
         if visual.geometry is not None:
-            size = size_of(visual.geometry)
+            size = compute_size(visual.geometry)
             largest = max(largest, 1.0 if size is None else max(size))
     return 0.0 if _FRAME.search(link.name) and largest <= _MARKER else largest
 
 
-def _sizes(robot: Robot, links: list[Link]) -> dict[str, float]:
+def _compute_sizes(robot: Robot, links: list[Link]) -> dict[str, float]:
     """Compute the sizes of links' visuals by name [m]; meshes are measured if that is cheap."""
-    sizes = {link.name: _seen_size(link) for link in links}
+    sizes = {link.name: _compute_visual_size(link) for link in links}
     with_mesh = {
         link.name
         for link in links
         if len(link.visuals) == 1 and isinstance(link.visuals[0].geometry, Mesh)
     }
     if with_mesh and robot.source is not None:
-        from ..mesh.scale import rough_size
-        from ..mesh.uses import mesh_uses
+        from ..mesh.mesh_uses import get_mesh_uses
+        from ..mesh.scale import estimate_size
 
-        for use in mesh_uses(robot, robot.source):
+        for use in get_mesh_uses(robot, robot.source):
             if use.link.name in with_mesh:
-                size = rough_size(use)
+                size = estimate_size(use)
                 sizes[use.link.name] = 1.0 if size is None else size
     return sizes
 
 
-def _shapes_below(robot: Robot, link: Link) -> Iterator[bool]:
+def _find_shapes_below(robot: Robot, link: Link) -> Iterator[bool]:
     """Yield for each link below one whether it has geometry."""
     for name in robot.tree.descendants(link.name):
         below = robot.link.get(name)

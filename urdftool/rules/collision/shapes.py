@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Collision, Link, Robot, UnknownShape, Visual
-from ...model.millimeters import shapes_in_millimeters
-from ...model.read import number, numbers
+from ...model.millimeters import find_shapes_in_millimeters
+from ...model.read import number, parse_numbers
 from ...suggestions import nearest
 from ..fix import (
     FixContext,
     Proposal,
-    element_at,
+    find_element,
+    get_suggestion,
     is_computed,
     rename_element,
     set_attribute,
-    suggestion_of,
     unsafe,
 )
 from ..mujoco import keeps_visuals
@@ -58,7 +58,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
         for name in _SIZES.get(element.tag, ()):
             text = element.get(name)
             one = number(text)
-            values = numbers(text, 3) if name == "size" else None if one is None else (one,)
+            values = parse_numbers(text, 3) if name == "size" else None if one is None else (one,)
             if values is None or min(values) > 0:
                 continue
             rejected = kind == "collision" or keeps
@@ -113,10 +113,10 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             rejected = keeps or isinstance(shape, Collision)
             effects = [_UNKNOWN_SHAPE, "pybullet", "drake", *["mujoco"] * rejected]
             if tag in VOCABULARY:
-                message = _of_unknown_shape(link, shape, geometry)
+                message = _describe_unknown_shape(link, shape, geometry)
                 yield Problem(link, message, at=geometry, effects=effects)
                 continue
-            if tag == "plane" and numbers(geometry.element.get("normal"), 3):
+            if tag == "plane" and parse_numbers(geometry.element.get("normal"), 3):
                 others = targets - {"pybullet"}
                 yield Problem(
                     link,
@@ -129,7 +129,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 continue
             yield Problem(
                 link,
-                _of_unknown_shape(link, shape, geometry),
+                _describe_unknown_shape(link, shape, geometry),
                 at=geometry,
                 effects=effects,
                 data={"tag": tag, "suggestion": nearest(tag, _KNOWN)},
@@ -137,16 +137,16 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 
 
 @unsupported_shape.full
-def every_unsupported_shape(robot: Robot) -> Iterator[Problem]:
+def report_every_unsupported_shape(robot: Robot) -> Iterator[Problem]:
     """Report each shape that URDF does not define, also with a namespace, and planes."""
     for link, shape in robot.shapes:
         if isinstance(shape.geometry, UnknownShape):
-            message = _of_unknown_shape(link, shape, shape.geometry)
+            message = _describe_unknown_shape(link, shape, shape.geometry)
             in_drake = shape.geometry.element.tag in ("drake:ellipsoid", "drake:capsule")
             yield Problem(link, message, at=shape.geometry, data={"is_in_drake": in_drake})
 
 
-def _of_unknown_shape(link: Link, shape: Visual | Collision, geometry: UnknownShape) -> str:
+def _describe_unknown_shape(link: Link, shape: Visual | Collision, geometry: UnknownShape) -> str:
     tag = geometry.element.tag
     if tag in VOCABULARY:
         return (
@@ -162,12 +162,12 @@ def _of_unknown_shape(link: Link, shape: Visual | Collision, geometry: UnknownSh
 @unsupported_shape.fix(UNSAFE)
 def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested shape; move what is not a shape out of the geometry."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None:
         return None
     if element.tag in VOCABULARY and element.parent is not None:
         return move_out_of_geometry(element, element.parent)
-    name = suggestion_of(problem, element.tag)
+    name = get_suggestion(problem, element.tag)
     return unsafe(f"write <{name}>", rename_element(element, name)) if name else None
 
 
@@ -186,14 +186,14 @@ def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
     thousandth of the lengths and would be lighter than air in meters.
     """
     for link in robot.links:
-        for shape in shapes_in_millimeters(link):
+        for shape in find_shapes_in_millimeters(link):
             if shape.geometry is None:
                 continue
             element = shape.geometry.element
             kind = "collision" if isinstance(shape, Collision) else "visual"
             names = _SIZES[element.tag]
             lengths = " and ".join(f"{name} {element.get(name)} m" for name in names)
-            right = " ".join(f'{name}="{_thousandth(element.get(name))}"' for name in names)
+            right = " ".join(f'{name}="{_divide_by_thousand(element.get(name))}"' for name in names)
             yield Problem(
                 link,
                 f"<{element.tag}> in a {kind} of link '{link.name}' has {lengths}, probably in "
@@ -203,7 +203,7 @@ def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
             )
 
 
-def _thousandth(text: str | None) -> str:
+def _divide_by_thousand(text: str | None) -> str:
     """Divide numbers by a thousand."""
     return " ".join(f"{float(word) / 1000:.12g}" for word in (text or "").split())
 
@@ -211,11 +211,11 @@ def _thousandth(text: str | None) -> str:
 @shape_in_millimetres.fix(UNSAFE)
 def write_lengths_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
     """Write a thousandth of each length."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None or is_computed(element):
         return None
     changes = [
-        set_attribute(element, name, _thousandth(element.get(name)))
+        set_attribute(element, name, _divide_by_thousand(element.get(name)))
         for name in ("size", "radius", "length")
         if name in element.attributes
     ]

@@ -5,23 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ...model.bounds import size_of
+from ...model.bounds import compute_size
 from ...model.elements import Box, Joint, Robot, Vector
-from ...model.millimeters import shapes_in_millimeters
-from ...model.pose import norm
+from ...model.millimeters import find_shapes_in_millimeters
+from ...model.pose import compute_norm
 from ..fix import (
     FixContext,
     Proposal,
-    element_at,
+    find_element,
+    get_written_value,
     insert_after,
     is_computed,
     set_attribute,
     unsafe,
-    written_value,
 )
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import set_in_origin
-from .axle import PLACE, VISUAL, Wheel, agreeing, angle_between, is_upright, wheel_of_joint
+from .axle import (
+    TWIN_POSITION,
+    VISUAL,
+    Wheel,
+    compute_angle,
+    get_wheel,
+    is_upright,
+    select_agreeing,
+)
 
 APPLIES_TO = ("collision",)
 
@@ -48,23 +56,23 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
     A ``revolute`` joint without limits counts as ``continuous``; steering joints are skipped.
     """
     for joint in robot.joints:
-        wheel = wheel_of_joint(robot, joint)
+        wheel = get_wheel(robot, joint)
         if wheel is None:
             continue
         axis, cylinder = wheel.axis.along, wheel.cylinder.along
-        angle = angle_between(axis, cylinder)
+        angle = compute_angle(axis, cylinder)
         if angle <= steepest:
             continue
-        right, why = _which_is_right(robot, wheel, 90 - steepest)
+        right, why = _choose_reference(robot, wheel, 90 - steepest)
         disc = f"the cylinder of wheel '{wheel.link.name}'"
         line = f"the axis of '{joint.name}'" + (", x by default," if joint.axis is None else "")
         data: dict[str, Any] = {"angle": angle, "odd": ""}
         if right == "cylinder":
             what = f"{line} is at {angle:.0f}° to {disc}, which {why}; "
-            data |= {"odd": "axis", "write": axis_text(cylinder)}
+            data |= {"odd": "axis", "write": format_axis(cylinder)}
             what += f'write <axis xyz="{data["write"]}"/>'
         elif right == "axis":
-            same = any(one.what == VISUAL for one in agreeing(wheel.others, cylinder, 45))
+            same = any(one.what == VISUAL for one in select_agreeing(wheel.others, cylinder, 45))
             also = ", and that of its visual," if same else ""
             what = f"{disc} is at {angle:.0f}° to {line}, which {why}; rotate its <origin>{also} "
             what += "so that z points along the axis"
@@ -80,7 +88,7 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
         )
 
 
-def _which_is_right(robot: Robot, wheel: Wheel, within: float) -> tuple[str, str]:
+def _choose_reference(robot: Robot, wheel: Wheel, within: float) -> tuple[str, str]:
     """Decide between the axis of a wheel's joint and its cylinder.
 
     The position of its twin decides, because both are on one axle; without one, that axles are
@@ -91,21 +99,21 @@ def _which_is_right(robot: Robot, wheel: Wheel, within: float) -> tuple[str, str
     """
     lines = {"axis": wheel.axis.along, "cylinder": wheel.cylinder.along}
     found = {
-        name: [one.what for one in agreeing(wheel.others, along, within)]
+        name: [one.what for one in select_agreeing(wheel.others, along, within)]
         for name, along in lines.items()
     }
-    placed = [name for name in lines if PLACE in found[name]]
+    placed = [name for name in lines if TWIN_POSITION in found[name]]
     level = [name for name, along in lines.items() if not is_upright(robot, wheel.joint, along)]
     voted = [name for name in lines if len(found[name]) * 2 > len(wheel.others)]
     for choice in (placed, level, voted):
         if len(choice) == 1:
             reasons = found[choice[0]]
-            why = f"agrees with {_listed(reasons)}" if reasons else ""
+            why = f"agrees with {_join_reasons(reasons)}" if reasons else ""
             return choice[0], why or "is horizontal, as axles are"
     return "", ""
 
 
-def axis_text(along: Vector) -> str:
+def format_axis(along: Vector) -> str:
     """Write a line as an axis: its largest part is positive, and 1 near a coordinate axis."""
     largest = max(along, key=abs)
     sign = -1.0 if largest < 0 else 1.0
@@ -114,7 +122,7 @@ def axis_text(along: Vector) -> str:
     return " ".join(f"{sign * part + 0.0:.6g}" for part in along)
 
 
-def _listed(reasons: list[str]) -> str:
+def _join_reasons(reasons: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(reasons[:-1]), *reasons[-1:])))
 
 
@@ -123,7 +131,7 @@ def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal |
     """Write the wrong one: the axis along the cylinder, or the cylinder along the axis."""
     if isinstance(problem.subject, Joint):
         return _write_axis(problem.subject, problem.data["write"])
-    link = context.link(problem)
+    link = context.get_link(problem)
     joint = context.robot.tree.parent_joint(link.name)
     if joint is None or joint.is_fixed or len(link.collisions) != 1:
         return None
@@ -131,7 +139,7 @@ def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal |
         return None
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     largest = max(range(3), key=lambda i: abs(axis[i]))
-    if abs(axis[largest]) < 0.999 * norm(axis):
+    if abs(axis[largest]) < 0.999 * compute_norm(axis):
         return None
     rpy = ("0 1.5707963267948966 0", "1.5707963267948966 0 0", "0 0 0")[largest]
     collision = link.collisions[0]
@@ -177,12 +185,12 @@ def caster_height_mismatch(
         return
     from math import degrees
 
-    from .casters import axle_of, casters_of
+    from .casters import find_axle, find_casters
 
-    if any(any(shapes_in_millimeters(link)) for link in robot.links):
+    if any(any(find_shapes_in_millimeters(link)) for link in robot.links):
         return
-    axle = axle_of(robot)
-    found = list(casters_of(robot, axle)) if axle is not None else []
+    axle = find_axle(robot)
+    found = list(find_casters(robot, axle)) if axle is not None else []
     found = [caster for caster in found if abs(caster.ahead) > 0.005]
     ends = [[c for c in found if c.ahead > 0], [c for c in found if c.ahead < 0]]
     firsts = [min(end, key=lambda c: c.tilt) for end in ends if end]
@@ -192,21 +200,21 @@ def caster_height_mismatch(
         air = -(one.above * abs(other.ahead) + other.above * abs(one.ahead)) / apart
         if air > deepest:
             low = min(firsts, key=lambda c: c.above)
-            yield _caster_problem(low, f"the wheels are {air * 1000:.3g} mm above the ground")
+            yield _report_caster(low, f"the wheels are {air * 1000:.3g} mm above the ground")
             return
     tilted = min(firsts, key=lambda c: abs(c.tilt), default=None)
     if tilted is not None and degrees(abs(tilted.tilt)) > steepest:
         tilt = degrees(abs(tilted.tilt))
-        yield _caster_problem(tilted, f"the robot is tilted by {tilt:.1f}°")
+        yield _report_caster(tilted, f"the robot is tilted by {tilt:.1f}°")
 
 
-def _caster_problem(caster: Caster, consequence: str) -> Problem:
+def _report_caster(caster: Caster, consequence: str) -> Problem:
     where = "below" if caster.above < 0 else "above"
     what = "joint" if isinstance(caster.moved, Joint) else "collision"
     data: dict[str, Any] = {"above": caster.above}
     right = ""
     if caster.height is not None:
-        data["write"] = _length(caster.height)
+        data["write"] = _format_length(caster.height)
         right = f"; write z = {data['write']} for its {what}"
     return Problem(
         caster.link,
@@ -217,18 +225,18 @@ def _caster_problem(caster: Caster, consequence: str) -> Problem:
     )
 
 
-def _length(value: float) -> str:
+def _format_length(value: float) -> str:
     return f"{round(value, 5) + 0.0:g}"
 
 
 @caster_height_mismatch.fix(UNSAFE)
 def write_caster_height(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the height at which the caster ends at the height of the wheels."""
-    origin = element_at(problem)
+    origin = find_element(problem)
     height = problem.data.get("write")
     if height is None or origin is None or origin.tag != "origin":
         return None
-    words = written_value(origin, "xyz").split()
+    words = get_written_value(origin, "xyz").split()
     if len(words) != 3 or is_computed(origin, "xyz"):
         return None
     x, y, _ = words
@@ -252,7 +260,7 @@ def paper_thin_collision(robot: Robot, *, thinnest: float = 0.001) -> Iterator[P
     """
     for link in robot.links:
         for collision in link.collisions:
-            size = size_of(collision.geometry)
+            size = compute_size(collision.geometry)
             if size is None or min(size) <= 0 or min(size) >= thinnest:
                 continue
             what = "box" if isinstance(collision.geometry, Box) else "collision"

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ...errors import ConfigError, PackageNotFound
-from ...model.controllers import Controller, controllers_in
+from ...model.controllers import Controller, list_controllers
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.location import SourceFile
-from ...source.nearby import file_at
+from ...source.nearby_files import file_at
 from ...workspace import Workspace
 
 _FOLDERS = ("config", "controllers", "control", "bringup/config", "params", "launch")
@@ -58,7 +58,7 @@ class Package:
     @cached_property
     def controller_files(self) -> list[ControllerFile]:
         """The controller files of the robot."""
-        return list(_found(self.robot, self))
+        return list(_find_controller_files(self.robot, self))
 
     @cached_property
     def launch_files(self) -> list[SourceFile]:
@@ -94,39 +94,43 @@ class Package:
         """The ``other_files`` that are different robots; None if too many."""
         if self.other_files is None:
             return None
-        stem = _stem(self.description.path)
-        return [f for f in self.other_files if _stem(f.path) != stem and _is_robot(f)]
+        stem = _get_stem(self.description.path)
+        return [f for f in self.other_files if _get_stem(f.path) != stem and _is_robot(f)]
 
     def is_shared(self, path: str) -> bool:
         """Tell whether another robot refers to a file, or includes files of this robot."""
         names = [os.path.basename(other) for other in (path, *self.own)]
-        mention = _mention(*names)
+        mention = _compile_names(*names)
         others = self.other_robots
         if others is None or any(mention.search(other.data) for other in others):
             return True
-        named = _mention(os.path.basename(path))
+        named = _compile_names(os.path.basename(path))
         robots = [os.path.basename(other.path) for other in others]
         launches = [file for file in self.launch_files if named.search(file.data)]
-        return bool(robots) and any(_mention(*robots).search(file.data) for file in launches)
+        return bool(robots) and any(_compile_names(*robots).search(file.data) for file in launches)
 
     def is_launched_with(self, path: str) -> bool:
         """Tell whether a launch file refers to the description and to another file."""
-        one = _mention(self.description.packages.file.name)
-        other = _mention(os.path.basename(path))
+        one = _compile_names(self.description.packages.file.name)
+        other = _compile_names(os.path.basename(path))
         return any(one.search(file.data) and other.search(file.data) for file in self.launch_files)
 
 
-def package_of(robot: Robot, description: Description) -> Package:
+def get_package(robot: Robot, description: Description) -> Package:
     """Get the package of a robot, one object for all rules."""
     return robot.memo.get("package", lambda: Package(robot, description))
 
 
-def _found(robot: Robot, package: Package) -> Iterator[ControllerFile]:
+def _find_controller_files(robot: Robot, package: Package) -> Iterator[ControllerFile]:
     if not robot.ros2_controls and not robot.transmissions:
         return
     workspace = package.workspace
-    named = {workspace.real_path(path) for path in _named_by_plugins(robot, package.description)}
-    beside = {workspace.real_path(path) for path in _beside(workspace, package.folder)}
+    named = {
+        workspace.real_path(path) for path in _find_named_by_plugins(robot, package.description)
+    }
+    beside = {
+        workspace.real_path(path) for path in _list_configuration_files(workspace, package.folder)
+    }
     for path in sorted(named | beside):
         file = file_at(workspace, path) if workspace.is_file(path) else None
         if file is None or len(file.data) > _MOST_BYTES or not _CONTROLLER.search(file.data):
@@ -140,15 +144,15 @@ def _found(robot: Robot, package: Package) -> Iterator[ControllerFile]:
 
 
 def _read(file: SourceFile) -> list[Controller]:
-    from ...source.yaml_tree import yaml_of
+    from ...source.yaml_tree import parse_yaml
 
     try:
-        return list(controllers_in(yaml_of(file)))
+        return list(list_controllers(parse_yaml(file)))
     except ConfigError:
         return []
 
 
-def _named_by_plugins(robot: Robot, description: Description) -> Iterator[Path]:
+def _find_named_by_plugins(robot: Robot, description: Description) -> Iterator[Path]:
     for plugin in robot.plugins:
         if "ros2_control" not in plugin.filename:
             continue
@@ -161,7 +165,7 @@ def _named_by_plugins(robot: Robot, description: Description) -> Iterator[Path]:
                     continue
 
 
-def _beside(workspace: Workspace, package: Path | None) -> list[Path]:
+def _list_configuration_files(workspace: Workspace, package: Path | None) -> list[Path]:
     if package is None:
         return []
     found = [
@@ -173,7 +177,7 @@ def _beside(workspace: Workspace, package: Path | None) -> list[Path]:
     return [path for path in found[:_MOST_FILES] if workspace.is_file(path)]
 
 
-def _stem(path: str) -> str:
+def _get_stem(path: str) -> str:
     return os.path.basename(path).split(".")[0]
 
 
@@ -185,6 +189,6 @@ def _is_robot(file: SourceFile) -> bool:
     return b"<link" in outside or b"<xacro:" in outside
 
 
-def _mention(*names: str) -> re.Pattern[bytes]:
+def _compile_names(*names: str) -> re.Pattern[bytes]:
     words = b"|".join(re.escape(name.encode("utf-8", "replace")) for name in names)
     return re.compile(rb"(?<![\w.-])(?:" + words + rb")(?![\w-])")

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...model.controllers import Controller, joint_of
+from ...model.controllers import Controller, extract_joint
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.yaml_tree import Node
-from ..fix import FixContext, Proposal, Span, suggestion_of, unsafe
+from ..fix import FixContext, Proposal, Span, get_suggestion, unsafe
 from ..rule import ROS, UNSAFE, WARNING, Problem, rule
 from ..words import nearest
-from .controller_files import ControllerFile, Package, package_of
+from .controller_files import ControllerFile, Package, get_package
 
 APPLIES_TO = ("ros2_control", "transmission")
 
@@ -36,21 +36,21 @@ def controller_unknown_joint(robot: Robot, description: Description) -> Iterator
     robot uses. If the file is for several robots, or xacro arguments remove parts of the robot,
     only names that are similar to an unused joint are reported.
     """
-    package = package_of(robot, description)
+    package = get_package(robot, description)
     for file in package.controller_files:
         for controller in file.controllers:
             for node in controller.joints:
-                yield from _wrong(robot, package, file, controller, node)
+                yield from _check_joint(robot, package, file, controller, node)
 
 
-def _wrong(
+def _check_joint(
     robot: Robot,
     package: Package,
     file: ControllerFile,
     controller: Controller,
     node: Node,
 ) -> Iterator[Problem]:
-    name = joint_of(node)
+    name = extract_joint(node)
     if _has(robot, name):
         joint = robot.joint.get(name)
         fixed = joint is not None and joint.is_fixed and not controller.kind.endswith(_READ_ONLY)
@@ -61,11 +61,11 @@ def _wrong(
                 at=node.place,
             )
         return
-    if not re.fullmatch(r"[\w.-]+", name) or _is_elsewhere(robot, package, name):
+    if not re.fullmatch(r"[\w.-]+", name) or _is_in_other_part(robot, package, name):
         return
-    if package.description.expansion is not None and _have_prefix(robot, controller):
+    if package.description.expansion is not None and _is_differently_prefixed(robot, controller):
         return
-    near = _meant(robot, controller, name)
+    near = _suggest_joint(robot, controller, name)
     if near or (not file.shared and _is_sure(robot, package, file, controller)):
         asked = f"; did you mean '{near}'?" if near else ""
         yield Problem(
@@ -82,7 +82,7 @@ def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested joint in the controller file."""
     file, start, end = problem.place.file, problem.place.start, problem.place.end
     wrong = re.search(rb"[\w.-]+(?=[\"']?$)", file.data[start:end])
-    name = suggestion_of(problem, wrong[0].decode("utf-8", "replace")) if wrong is not None else ""
+    name = get_suggestion(problem, wrong[0].decode("utf-8", "replace")) if wrong is not None else ""
     if wrong is None or not name:
         return None
     at = start + wrong.start()
@@ -96,7 +96,7 @@ def _has(robot: Robot, name: str) -> bool:
 
 
 def _has_some(robot: Robot, *controllers: Controller) -> bool:
-    return any(_has(robot, joint_of(node)) for one in controllers for node in one.joints)
+    return any(_has(robot, extract_joint(node)) for one in controllers for node in one.joints)
 
 
 def _is_sure(robot: Robot, package: Package, file: ControllerFile, controller: Controller) -> bool:
@@ -113,14 +113,14 @@ def _is_sure(robot: Robot, package: Package, file: ControllerFile, controller: C
     return not any(b"<xacro:if" in data or b"<xacro:unless" in data for data in sources)
 
 
-def _have_prefix(robot: Robot, controller: Controller) -> bool:
+def _is_differently_prefixed(robot: Robot, controller: Controller) -> bool:
     """Tell whether joints of a controller differ from those of the robot by a prefix only."""
-    names = [joint_of(node) for node in controller.joints]
+    names = [extract_joint(node) for node in controller.joints]
     known = [joint.name for joint in robot.joints if joint.name]
     return all(a not in known and any(a.endswith(b) or b.endswith(a) for b in known) for a in names)
 
 
-def _is_elsewhere(robot: Robot, package: Package, name: str) -> bool:
+def _is_in_other_part(robot: Robot, package: Package, name: str) -> bool:
     """Tell whether a name occurs in a file or a branch that this robot does not use."""
     if name in robot.link:
         return False
@@ -129,9 +129,9 @@ def _is_elsewhere(robot: Robot, package: Package, name: str) -> bool:
     return any(word.search(file.data) for file in (*sources, *(package.other_files or ())))
 
 
-def _meant(robot: Robot, controller: Controller, name: str) -> str:
+def _suggest_joint(robot: Robot, controller: Controller, name: str) -> str:
     """Find the joint with a similar name that the controller does not contain."""
-    named = {joint_of(node) for node in controller.joints}
+    named = {extract_joint(node) for node in controller.joints}
     if name in robot.link:  # a link name in place of its joint
         joint = robot.tree.parent_joint(name)
         return joint.name if joint is not None and joint.has_axis else ""

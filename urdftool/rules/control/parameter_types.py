@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from ...errors import ConfigError
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.yaml_tree import Node, yaml_of
+from ...source.yaml_tree import Node, parse_yaml
 from ..fix import FixContext, Proposal, Span, safe
 from ..rule import ERROR, SAFE, Problem, rule
-from ..words import some_of
-from .controller_files import ControllerFile, package_of
+from ..words import join_some
+from .controller_files import ControllerFile, get_package
 
 APPLIES_TO = ("ros2_control",)
 
@@ -100,13 +100,13 @@ def controller_parameter_type(robot: Robot, description: Description) -> Iterato
     """
     if not robot.ros2_controls:
         return
-    for file in package_of(robot, description).controller_files:
-        wrong = list(wrong_types(file))
+    for file in get_package(robot, description).controller_files:
+        wrong = list(find_wrong_types(file))
         if wrong:
             name, node, right = wrong[0]
             what = "doubles" if node.items is not None else "a double" if _is_int(node) else ""
             names = [f"{one}.{other.key}" for one, other, _ in wrong[1:]]
-            more = f"; the same applies to {some_of(names, 'parameters', 3)}" if names else ""
+            more = f"; the same applies to {join_some(names, 'parameters', 3)}" if names else ""
             yield Problem(
                 robot,
                 f"{node.key} of '{name}' must be {what or 'an integer'} for ROS 2; "
@@ -119,11 +119,11 @@ def controller_parameter_type(robot: Robot, description: Description) -> Iterato
 @controller_parameter_type.fix(SAFE)
 def write_declared_type(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the same numbers with the declared type, without rounding."""
-    for file in package_of(context.robot, context.description).controller_files:
+    for file in get_package(context.robot, context.description).controller_files:
         if file.file.path != problem.place.path:
             continue
         spans = []
-        for _, node, right in wrong_types(file):
+        for _, node, right in find_wrong_types(file):
             if node.items is None and float(node.text or 0) != float(right):
                 continue
             pairs = [(node, right)]
@@ -134,32 +134,32 @@ def write_declared_type(problem: Problem, context: FixContext) -> Proposal | Non
     return None
 
 
-def wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:
+def find_wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:
     """Yield parameters with a wrong type: the controller, the value, and the corrected text."""
     try:
-        root = yaml_of(file.file)
+        root = parse_yaml(file.file)
     except ConfigError:
         return
     for path, parameters in root.walk():
         if path[-2:] == ("controller_manager", "ros__parameters"):
-            for node in _at(parameters, "update_rate"):
+            for node in _find_values(parameters, "update_rate"):
                 if node.kind == "float" and (right := _as_integer(node)):
                     yield "controller_manager", node, right
     for controller in file.controllers:
         for pattern in _DOUBLES.get(controller.kind, ()):
-            for node in _at(controller.parameters, pattern):
+            for node in _find_values(controller.parameters, pattern):
                 scalars = [node] if node.items is None else node.items
                 if scalars and all(map(_is_int, scalars)):
                     texts = [f"{scalar.text}.0" for scalar in scalars]
                     right = texts[0] if node.items is None else f"[{', '.join(texts)}]"
                     yield controller.name, node, right
         for pattern in _INTEGERS.get(controller.kind, ()):
-            for node in _at(controller.parameters, pattern):
+            for node in _find_values(controller.parameters, pattern):
                 if node.kind == "float" and (right := _as_integer(node)):
                     yield controller.name, node, right
 
 
-def _at(node: Node, pattern: str) -> Iterator[Node]:
+def _find_values(node: Node, pattern: str) -> Iterator[Node]:
     """Yield the values at a path of keys; a star matches each key."""
     before, star, after = pattern.partition(".*.")
     found = node.find(*before.split("."))
@@ -168,7 +168,7 @@ def _at(node: Node, pattern: str) -> Iterator[Node]:
         return
     for inner in (found.fields or {}).values():
         if inner.fields is not None:
-            yield from _at(inner, after)
+            yield from _find_values(inner, after)
 
 
 def _is_int(node: Node) -> bool:

@@ -10,8 +10,8 @@ from ..fix import (
     FixContext,
     Proposal,
     append_child,
-    element_at,
     escape_attribute,
+    find_element,
     is_computed,
     remove_element,
     unsafe,
@@ -19,7 +19,7 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest
+from ..words import nearest, suggest_name
 
 APPLIES_TO = ("ros2_control",)
 
@@ -44,7 +44,7 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' does not exist in "
-                    "the robot" + did_you_mean(joint.name, robot.joint),
+                    "the robot" + suggest_name(joint.name, robot.joint),
                     at=joint.element.attribute_place("name"),
                     data={
                         "joint": joint.name,
@@ -90,7 +90,7 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
 @ros2_control_fixed_joint.fix(UNSAFE)
 def remove_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the joint; the fix is unsafe because ROS before Jazzy reports its state."""
-    element = element_at(problem)
+    element = find_element(problem)
     return unsafe("remove the joint", remove_element(element)) if element is not None else None
 
 
@@ -143,7 +143,7 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
 @ros2_control_mimic.fix(UNSAFE)
 def remove_commands(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the command interfaces of a mimic joint."""
-    interface = element_at(problem)
+    interface = find_element(problem)
     joint = interface.parent if interface is not None else None
     if interface is None or interface.tag != "command_interface" or joint is None:
         return None
@@ -172,7 +172,7 @@ def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
             for param in joint.element.all("param"):
                 if param.get("name") == "mimic":
                     written = robot.joint.get(joint.name)
-                    message, repeats = _of_mimic_param(
+                    message, repeats = _compare_with_mimic(
                         joint, param.text.strip(), written.mimic if written is not None else None
                     )
                     yield Problem(
@@ -185,7 +185,9 @@ def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-def _of_mimic_param(joint: ControlComponent, leader: str, mimic: Mimic | None) -> tuple[str, bool]:
+def _compare_with_mimic(
+    joint: ControlComponent, leader: str, mimic: Mimic | None
+) -> tuple[str, bool]:
     """Compare the mimic parameters of a joint with its ``<mimic>``.
 
     Args:
@@ -204,7 +206,7 @@ def _of_mimic_param(joint: ControlComponent, leader: str, mimic: Mimic | None) -
             f"write <mimic joint='{leader}'{by}/> into the joint of the URDF",
             False,
         )
-    if repeats_mimic(joint.params, mimic):
+    if is_same_mimic(joint.params, mimic):
         return (
             f"joint '{joint.name}' mimics '{leader}' by a <param> and by its <mimic>; "
             f"remove {'the <param>' if factor is None else 'both <param>, mimic and multiplier'}",
@@ -218,7 +220,7 @@ def _of_mimic_param(joint: ControlComponent, leader: str, mimic: Mimic | None) -
     )
 
 
-def repeats_mimic(params: Mapping[str, str], mimic: Mimic) -> bool:
+def is_same_mimic(params: Mapping[str, str], mimic: Mimic) -> bool:
     """Tell whether parameters of a joint in ``<ros2_control>`` repeat its ``<mimic>``."""
     return params.get("mimic") == mimic.joint and (
         number(params.get("multiplier", "1")) == mimic.multiplier
@@ -231,7 +233,7 @@ def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
 
     The fix is unsafe because ROS before Jazzy reads the parameters.
     """
-    param = element_at(problem)
+    param = find_element(problem)
     part = param.parent if param is not None else None
     joint = context.robot.joint.get(part.get("name") or "") if part is not None else None
     if param is None or part is None or joint is None:
@@ -250,6 +252,6 @@ def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
         )
         return unsafe("write <mimic> into the joint", *changes)
     params = {p.get("name") or "": p.text.strip() for p in part.all("param")}
-    if not repeats_mimic(params, joint.mimic):
+    if not is_same_mimic(params, joint.mimic):
         return None
     return unsafe("remove it: the joint has a <mimic>", *changes)

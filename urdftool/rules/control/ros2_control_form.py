@@ -10,18 +10,18 @@ from ...source.document import Element
 from ..fix import (
     FixContext,
     Proposal,
-    element_at,
+    find_element,
+    get_suggestion,
+    get_written_lines,
     insert_after,
     remove_element,
     rename_element,
     replace_element,
     safe,
-    suggestion_of,
     unsafe,
-    written_lines,
 )
 from ..rule import BOTH, ERROR, UNSAFE, Problem, rule
-from ..words import did_you_mean, nearest
+from ..words import nearest, suggest_name
 
 APPLIES_TO = ("ros2_control",)
 
@@ -50,7 +50,7 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 control.element,
                 f"ros2_control '{control.name}' has the unknown type '{control.type}'; "
-                f"the types are {', '.join(_TYPES)}" + did_you_mean(control.type, _TYPES),
+                f"the types are {', '.join(_TYPES)}" + suggest_name(control.type, _TYPES),
                 at=control.element.attribute_place("type"),
                 data={"type": control.type, "suggestion": nearest(control.type, _TYPES)},
             )
@@ -107,7 +107,7 @@ def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"ros2_control '{control.name}' has an unknown <{child.tag}>; it may have "
-                    f"{', '.join(_CHILDREN)}{did_you_mean(child.tag, _CHILDREN)}",
+                    f"{', '.join(_CHILDREN)}{suggest_name(child.tag, _CHILDREN)}",
                     at=child,
                     data={"suggestion": nearest(child.tag, _CHILDREN)},
                 )
@@ -116,8 +116,8 @@ def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
 @ros2_control_invalid_tag.fix(UNSAFE)
 def write_element(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested element."""
-    element = element_at(problem)
-    name = suggestion_of(problem, element.tag) if element is not None else ""
+    element = find_element(problem)
+    name = get_suggestion(problem, element.tag) if element is not None else ""
     if element is None or not name:
         return None
     return unsafe(f"write <{name}>", rename_element(element, name))
@@ -160,9 +160,11 @@ def move_up(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     alone = element.parent is top and len(top.children) == 1 and top.tag == "gazebo"
     if alone and not top.attributes:
-        return make("move it into <robot>", replace_element(top, tuple(written_lines(element))))
+        return make("move it into <robot>", replace_element(top, tuple(get_written_lines(element))))
     return make(
-        "move it into <robot>", remove_element(element), insert_after(top, *written_lines(element))
+        "move it into <robot>",
+        remove_element(element),
+        insert_after(top, *get_written_lines(element)),
     )
 
 

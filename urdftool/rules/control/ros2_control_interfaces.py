@@ -12,8 +12,8 @@ from ..fix import (
     FixContext,
     Proposal,
     append_child,
-    element_at,
     escape_attribute,
+    find_element,
     is_computed,
     remove_element,
     unsafe,
@@ -21,7 +21,7 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest, quoted
+from ..words import nearest, quote, suggest_name
 
 APPLIES_TO = ("ros2_control",)
 
@@ -69,7 +69,7 @@ def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
 @ros2_control_duplicate_interface.fix(UNSAFE)
 def remove_second(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the second interface of a joint; if two blocks conflict, none is chosen."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None or "block" in problem.data:
         return None
     return unsafe("remove the second", remove_element(element))
@@ -99,7 +99,7 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
                     yield Problem(
                         control.element,
                         f"joint '{joint.name}' has the nonstandard interface '{interface.name}'"
-                        + did_you_mean(interface.name, _STANDARD, 0.8),
+                        + suggest_name(interface.name, _STANDARD, 0.8),
                         at=interface.element.attribute_place("name"),
                         data={"suggestion": near},
                     )
@@ -146,7 +146,7 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
                 if interface.name in ("position", "velocity") and interface.name not in states
             ]
             if missing:
-                words = quoted(interface.name for interface in missing)
+                words = quote(interface.name for interface in missing)
                 yield Problem(
                     control.element,
                     f"joint '{joint.name}' has the command interface {words} but no such state "
@@ -159,7 +159,7 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
 @command_without_state.fix(UNSAFE)
 def add_state(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the missing state interfaces."""
-    interface = element_at(problem)
+    interface = find_element(problem)
     joint = interface.parent if interface is not None else None
     if joint is None:
         return None
@@ -190,7 +190,7 @@ def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
     is only measured needs a state interface and no command interface.
     """
     known = {joint.name for control in robot.ros2_controls for joint in control.joints}
-    if not known or not known.intersection(robot.joint) or _reports_otherwise(robot):
+    if not known or not known.intersection(robot.joint) or _has_other_publisher(robot):
         return
     for joint in robot.moving_joints:
         if joint.mimic is None and joint.has_axis and joint.name not in known:
@@ -205,7 +205,7 @@ def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
 @joint_outside_ros2_control.fix(UNSAFE)
 def add_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the joint with its states and without commands, if there is exactly one block."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if len(context.robot.ros2_controls) != 1 or is_computed(joint.element):
         return None
     block = context.robot.ros2_controls[0].element
@@ -218,7 +218,7 @@ def add_joint(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe("report its position and velocity", append_child(block, *lines))
 
 
-def _reports_otherwise(robot: Robot) -> bool:
+def _has_other_publisher(robot: Robot) -> bool:
     """Tell whether a Gazebo plugin publishes joint states as well."""
     words = ("drive", "joint-state", "joint_state")
     return any(word in plugin.filename for plugin in robot.plugins for word in words)
@@ -247,7 +247,7 @@ def bad_initial_value(robot: Robot) -> Iterator[Problem]:
                 if value is None:
                     wrong = "is not a number"
                 elif interface.name == "position" and (
-                    limits := _outside(robot, joint.name, value)
+                    limits := _format_exceeded_limits(robot, joint.name, value)
                 ):
                     wrong = f"is outside the joint limits {limits}"
                 else:
@@ -255,13 +255,13 @@ def bad_initial_value(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"initial_value of joint '{joint.name}' is '{text}', which {wrong}",
-                    at=_param(interface.element, "initial_value"),
+                    at=_find_param(interface.element, "initial_value"),
                     severity=None if value is None else WARNING,
                     data={"joint": joint.name, "value": text},
                 )
 
 
-def _outside(robot: Robot, name: str, value: float) -> str:
+def _format_exceeded_limits(robot: Robot, name: str, value: float) -> str:
     joint = robot.joint.get(name)
     if joint is None or not joint.is_limited or joint.limit is None:
         return ""
@@ -269,5 +269,5 @@ def _outside(robot: Robot, name: str, value: float) -> str:
     return "" if low > high or low <= value <= high else f"{low:g} to {high:g}"
 
 
-def _param(element: Element, name: str) -> Element:
+def _find_param(element: Element, name: str) -> Element:
     return next((p for p in element.all("param") if p.get("name") == name), element)

@@ -15,14 +15,14 @@ from ..fix import (
     FixContext,
     Proposal,
     append_child,
-    element_at,
     escape_attribute,
+    find_element,
     set_text,
     unsafe,
     write_suggestion,
 )
 from ..rule import ERROR, GAZEBO, UNSAFE, WARNING, Problem, rule
-from ..words import did_you_mean, nearest
+from ..words import nearest, suggest_name
 
 APPLIES_TO = ("ros2_control", "plugin")
 
@@ -47,7 +47,7 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
     ros2_control plugin of the robot decides.
     """
     if {"gz", "gazebo-classic"} <= targets:
-        targets = _of_plugins(robot)
+        targets = _find_gazebo_versions(robot)
         if len(targets) != 1:
             return
     for control in robot.ros2_controls:
@@ -70,14 +70,14 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
 @ros2_control_wrong_sim_plugin.fix(UNSAFE)
 def write_hardware(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the class of the target version of Gazebo."""
-    element = element_at(problem)
+    element = find_element(problem)
     right = problem.data["write"]
     if element is None or element.tag != "plugin":
         return None
     return unsafe(f"write {right}", set_text(element, right))
 
 
-def _of_plugins(robot: Robot) -> frozenset[str]:
+def _find_gazebo_versions(robot: Robot) -> frozenset[str]:
     """Find the versions of Gazebo for which a plugin runs ros2_control."""
     names = [plugin.filename for plugin in robot.plugins]
     found = {"gz" for name in names if any(word in name for word in _GZ_PLUGINS)}
@@ -145,7 +145,7 @@ def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     runs = [v for prefix, v in _RUNS.items() if (controls[0].plugin or "").startswith(prefix)]
     found = context.workspace.glob(own[1] / "config", "*.y*ml")
-    files = [path for path in found if _manages(context.workspace, path)]
+    files = [path for path in found if _has_controller_manager(context.workspace, path)]
     if len(files) != 1 or not runs:
         return None
     check_not_included(context)
@@ -163,7 +163,7 @@ def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
     )
 
 
-def _manages(workspace: Workspace, path: Path) -> bool:
+def _has_controller_manager(workspace: Workspace, path: Path) -> bool:
     """Tell whether a file has the parameters of a controller_manager."""
     try:
         data = workspace.read_bytes(path)
@@ -246,7 +246,7 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                         control.element,
                         f"sensor '{part.name}' has no state '{interface.name}'"
                         + (
-                            did_you_mean(interface.name, _IMU)
+                            suggest_name(interface.name, _IMU)
                             or f"; the states are {', '.join(_IMU)}"
                         ),
                         at=interface.element.attribute_place("name"),
@@ -282,7 +282,7 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"no <sensor> in a <gazebo> block has the name '{part.name}'"
-                    + did_you_mean(part.name, known),
+                    + suggest_name(part.name, known),
                     at=part.element.attribute_place("name"),
                     data={"sensor": part.name, "suggestion": nearest(part.name, known)},
                 )

@@ -11,17 +11,17 @@ from ..fix import (
     Lines,
     Proposal,
     escape_attribute,
+    get_written_value,
     insert_after,
     is_computed,
     remove_element,
     replace_element,
     unsafe,
-    written_value,
 )
 from ..gazebo.lumping import is_lumped
 from ..joint.range import is_locked
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .transmissions import called
+from .transmissions import describe_transmission
 
 APPLIES_TO = ("transmission", "plugin")
 
@@ -60,7 +60,8 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                     keys.append("gazebo_ros_control (loaded)")
             yield Problem(
                 transmission.element,
-                f"{called(transmission)} drives joint '{joint.name}', which is fixed; remove it",
+                f"{describe_transmission(transmission)} drives joint '{joint.name}', "
+                "which is fixed; remove it",
                 at=joint.element.attribute_place("name"),
                 severity=None if len(keys) > 1 else WARNING,
                 effects=keys,
@@ -104,7 +105,7 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
         for child in plugin.element.children
         if "oint" in child.tag
     }
-    others.update(_in_loops(robot))
+    others.update(_find_loop_joints(robot))
     for joint in robot.moving_joints:
         if joint.mimic is not None or joint.name in driven | others or not joint.has_axis:
             continue
@@ -118,7 +119,7 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
 @actuated_joint_without_transmission.fix(UNSAFE)
 def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
     """Add a transmission with the interface of the others, if they have the same."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     used = [
         text
         for transmission in context.robot.transmissions
@@ -128,7 +129,7 @@ def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
     if len(set(used)) > 1:
         return None
     interface = used[0] if used else "hardware_interface/EffortJointInterface"
-    name = escape_attribute(written_value(joint.element, "name"))
+    name = escape_attribute(get_written_value(joint.element, "name"))
     lines = (
         f'<transmission name="{name}_transmission">',
         "\t<type>transmission_interface/SimpleTransmission</type>",
@@ -143,7 +144,7 @@ def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe(f"add a transmission with {interface}", insert_after(joint.element, *lines))
 
 
-def _in_loops(robot: Robot) -> Iterator[str]:
+def _find_loop_joints(robot: Robot) -> Iterator[str]:
     """Yield the joints of loops that a ``<joint>`` in a ``<gazebo>`` block closes."""
     for block in robot.gazebo:
         for joint in () if block.reference else block.element.all("joint"):
@@ -173,7 +174,7 @@ def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
     robot with a ROS 1 Gazebo plugin that reads them is not reported, even if its package is for ROS
     2.
     """
-    if robot.transmissions and not any(_reads_transmissions(one) for one in robot.plugins):
+    if robot.transmissions and not any(_is_transmission_reader(one) for one in robot.plugins):
         first = robot.transmissions[0]
         count = len(robot.transmissions)
         more = f" (and {count - 1} more)" if count > 1 else ""
@@ -185,7 +186,7 @@ def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
         )
 
 
-def _reads_transmissions(plugin: Plugin) -> bool:
+def _is_transmission_reader(plugin: Plugin) -> bool:
     """Tell whether a Gazebo plugin reads the transmissions of ROS 1."""
     name = plugin.filename.rpartition("/")[2].removeprefix("lib").removesuffix(".so")
     return name in ("gazebo_ros_control", "gazebo_ros_controller_manager")
@@ -209,7 +210,7 @@ def write_ros2_control(problem: Problem, context: FixContext) -> Proposal | None
     robot, targets = context.robot, context.targets
     if "ros1" in targets or set(_HARDWARE) <= targets:
         return None
-    joints = list(_driven(robot))
+    joints = list(_get_driven_joints(robot))
     if not all(commands or robot.joint[name].mimic is not None for name, commands in joints):
         return None  # transmissions for a reader other than ros_control
     if not joints:
@@ -247,19 +248,19 @@ def write_ros2_control(problem: Problem, context: FixContext) -> Proposal | None
     )
 
 
-def _driven(robot: Robot) -> Iterator[tuple[str, list[str]]]:
+def _get_driven_joints(robot: Robot) -> Iterator[tuple[str, list[str]]]:
     """Get the joints of transmissions, each once, with their commands; none for mimic joints."""
     found: dict[str, list[str]] = {}
     for transmission in robot.transmissions:
         for joint in transmission.joints:
             if joint.name in robot.joint:
-                found.setdefault(joint.name, []).extend(_commands(transmission, joint.name))
+                found.setdefault(joint.name, []).extend(_get_commands(transmission, joint.name))
     for name, commands in found.items():
         mimics = robot.joint[name].mimic is not None
         yield name, [] if mimics else list(dict.fromkeys(commands))
 
 
-def _commands(transmission: Transmission, name: str) -> Iterator[str]:
+def _get_commands(transmission: Transmission, name: str) -> Iterator[str]:
     written = [joint.hardware_interfaces for joint in transmission.joints if joint.name == name]
     written += [actuator.hardware_interfaces for actuator in transmission.actuators]
     for interface in (one for interfaces in written for one in interfaces):

@@ -10,8 +10,8 @@ from ..fix import (
     Proposal,
     append_child,
     append_number,
-    element_at,
     escape_attribute,
+    find_element,
     remove_element,
     safe,
     substitute_text,
@@ -20,14 +20,14 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest
+from ..words import nearest, suggest_name
 
 APPLIES_TO = ("transmission", "plugin")
 
 JOINT_INTERFACES = ("EffortJointInterface", "PositionJointInterface", "VelocityJointInterface")
 
 
-def called(transmission: Transmission) -> str:
+def describe_transmission(transmission: Transmission) -> str:
     """Describe a transmission by its name, or by its first joint."""
     if transmission.name:
         return f"transmission '{transmission.name}'"
@@ -49,8 +49,8 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
             if joint.name and joint.name not in robot.joint and not is_unexpanded(joint.name):
                 yield Problem(
                     transmission.element,
-                    f"{called(transmission)} refers to joint '{joint.name}', "
-                    f"which does not exist{did_you_mean(joint.name, idle, 0.8)}",
+                    f"{describe_transmission(transmission)} refers to joint '{joint.name}', "
+                    f"which does not exist{suggest_name(joint.name, idle, 0.8)}",
                     at=joint.element.attribute_place("name"),
                     data={"joint": joint.name, "suggestion": nearest(joint.name, idle, 0.8)},
                 )
@@ -85,7 +85,7 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 if name in JOINT_INTERFACES:
                     yield Problem(
                         transmission.element,
-                        f"'{name}' in {called(transmission)} has no prefix; "
+                        f"'{name}' in {describe_transmission(transmission)} has no prefix; "
                         f"write hardware_interface/{name}",
                         at=child,
                         group="{count} hardware interfaces have no prefix hardware_interface/, "
@@ -96,7 +96,7 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
 @unprefixed_hardware_interface.fix(SAFE)
 def write_prefix(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the prefix."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None:
         return None
     name = element.text.strip()
@@ -136,7 +136,7 @@ def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
         if missing:
             yield Problem(
                 transmission.element,
-                f"{called(transmission)} has no <{'> and no <'.join(missing)}>",
+                f"{describe_transmission(transmission)} has no <{'> and no <'.join(missing)}>",
                 data={"missing": missing},
             )
 
@@ -169,7 +169,7 @@ def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
             )
             yield Problem(
                 transmission.element,
-                f'{called(transmission)} {what} into <joint name="{joint.name}">',
+                f'{describe_transmission(transmission)} {what} into <joint name="{joint.name}">',
                 at=inside[0] if inside else joint,
             )
 
@@ -217,10 +217,10 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                     continue
                 if "/" in name and not name.startswith("hardware_interface/"):
                     continue  # interface of another package
-                near = did_you_mean(name, _KNOWN, 0.6)
+                near = suggest_name(name, _KNOWN, 0.6)
                 yield Problem(
                     transmission.element,
-                    f"'{name}' in {called(transmission)} is not a hardware interface"
+                    f"'{name}' in {describe_transmission(transmission)} is not a hardware interface"
                     + (near or "; write, for example, hardware_interface/EffortJointInterface"),
                     at=child,
                     data={"suggestion": nearest(name, _KNOWN, 0.6)},
@@ -264,7 +264,7 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
         others = ", ".join(f"'{other.name}'" for _, other in rest)
         yield Problem(
             transmission.element,
-            f"joint '{joint.name}' in {called(transmission)} has "
+            f"joint '{joint.name}' in {describe_transmission(transmission)} has "
             f"{len(joint.hardware_interfaces)} interfaces; Gazebo takes the first"
             + (f"; the same applies to {others}" if others else ""),
             at=list(joint.element.all("hardwareInterface"))[1],

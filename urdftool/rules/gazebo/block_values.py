@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...source.document import Element
-from ..words import words
+from ..words import split_words
 from .keywords import FLAGS, NUMBERS, is_true
 
 _FALSE = frozenset(("false", "no", "0"))
@@ -15,13 +15,13 @@ COUNTS = frozenset(("maxContacts",))
 VECTORS = frozenset(("fdir1",))
 """Keywords that hold three numbers."""
 
-OF_JOINT = words(
+OF_JOINT = split_words(
     "stopCfm stopErp fudgeFactor implicitSpringDamper cfmDamping provideFeedback springStiffness "
     "springReference"
 )
 """Keywords of a joint that hold a value; the others are of a link."""
 
-_NOT_OF_PARTS = words("static preserveFixedJoint disableFixedJointLumping")
+_NOT_OF_PARTS = split_words("static preserveFixedJoint disableFixedJointLumping")
 """Flags of the model, or of its conversion."""
 
 _KIND_IN_WORDS = {
@@ -31,26 +31,26 @@ _KIND_IN_WORDS = {
     "flag": "true or false",
 }
 
-SENSOR_NUMBERS = words(
+SENSOR_NUMBERS = split_words(
     "update_rate horizontal_fov near far width height samples resolution min_angle max_angle min "
     "max mean stddev bias_mean bias_stddev precision dynamic_bias_stddev "
     "dynamic_bias_correlation_time"
 )
 """Elements in a sensor that hold one number."""
 
-SHAPE_NUMBERS = words(
+SHAPE_NUMBERS = split_words(
     "mu mu2 slip1 slip2 kp kd max_vel min_depth soft_cfm soft_erp restitution_coefficient "
     "threshold coefficient max_contacts laser_retro transparency"
 )
 """Elements in a collision or visual that hold one number."""
 
-SDF_FLAGS = words(
+SDF_FLAGS = split_words(
     "always_on visualize enable_metrics gravity self_collide enable_wind kinematic "
     "must_be_base_link allow_auto_disable cast_shadows static"
 )
 """Elements that hold true or false, or 1 or 0."""
 
-COLORS = words("ambient diffuse specular emissive")
+COLORS = split_words("ambient diffuse specular emissive")
 """Elements in a material or light that hold a color, with or without alpha."""
 
 WORDS = {
@@ -72,12 +72,12 @@ def is_flag(text: str) -> bool:
     return is_true(text) or is_false(text)
 
 
-def value_of(element: Element) -> str:
+def get_value(element: Element) -> str:
     """Return the value of an element: its attribute ``value``, or its text."""
     return (element.get("value") or element.text).strip()
 
 
-def kind_of_value(keyword: str) -> str:
+def get_kind(keyword: str) -> str:
     """Return the kind of a keyword's value: ``number``, ``count``, ``vector`` or ``flag``.
 
     Empty for a keyword without a value, and for what is not a keyword of a link or joint.
@@ -96,43 +96,43 @@ def is_value_of_kind(kind: str, text: str) -> bool:
     if kind == "flag":
         return is_flag(text)
     if kind == "vector":
-        return numbers(text, 3) is not None
+        return parse_numbers(text, 3) is not None
     one = number(text)
     return one is not None and (kind != "count" or (one >= 0 and one.is_integer()))
 
 
-def required_keyword_value(element: Element) -> str:
+def describe_required_keyword_value(element: Element) -> str:
     """Describe the value that a keyword requires; return "" if it has one or takes none."""
-    kind = kind_of_value(element.tag)
-    return "" if not kind or is_value_of_kind(kind, value_of(element)) else _KIND_IN_WORDS[kind]
+    kind = get_kind(element.tag)
+    return "" if not kind or is_value_of_kind(kind, get_value(element)) else _KIND_IN_WORDS[kind]
 
 
-def required_value(element: Element) -> str:
+def describe_required_value(element: Element) -> str:
     """Describe the value that an SDF element requires; return "" if it is valid or not known."""
     text = element.text.strip()
     if element.children:
         return ""
     if element.tag == "pose":
         count = 7 if element.get("rotation_format") == "quat_xyzw" else 6
-        return f"{count} finite numbers" if text and numbers(text, count) is None else ""
+        return f"{count} finite numbers" if text and parse_numbers(text, count) is None else ""
     parent = element.parent.tag if element.parent else ""
     if (parent, element.tag) == ("axis", "xyz"):
-        return "3 finite numbers" if numbers(text, 3) is None else ""
+        return "3 finite numbers" if parse_numbers(text, 3) is None else ""
     allowed = WORDS.get((parent, element.tag), ())
     if allowed and text not in allowed:
         return " or ".join(allowed)
-    if element.tag in COLORS and _enclosing_part(element) != "sensor":
-        right = any(numbers(text, count) for count in (3, 4))
+    if element.tag in COLORS and _get_enclosing_part(element) != "sensor":
+        right = any(parse_numbers(text, count) for count in (3, 4))
         return "" if right else "3 or 4 finite numbers"
     if element.tag in SDF_FLAGS:
-        return "" if is_flag(value_of(element)) else "true or false"
-    known = _NUMBERS_IN.get(_enclosing_part(element), frozenset())
+        return "" if is_flag(get_value(element)) else "true or false"
+    known = _NUMBERS_IN.get(_get_enclosing_part(element), frozenset())
     if element.tag in known and number(text) is None:
         return "a finite number"
     return ""
 
 
-def _enclosing_part(element: Element) -> str:
+def _get_enclosing_part(element: Element) -> str:
     """Return the tag of the enclosing sensor, collision or visual; empty for none."""
     above = element.parent
     while above is not None and above.tag != "plugin":

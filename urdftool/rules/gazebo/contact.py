@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import re
 
-from ...model.attached import attached_links
+from ...model.attached import find_attached_links
 from ...model.elements import Collision, Cylinder, GazeboExtension, Joint, Link, Robot, Sphere
-from ...model.pose import IDENTITY, Pose, cross, dot, norm, pose_of, rotate
+from ...model.pose import (
+    IDENTITY,
+    Pose,
+    compute_cross,
+    compute_dot,
+    compute_norm,
+    make_pose,
+    rotate,
+)
 
 _WHEEL = re.compile(r"wheel|(^|_)tire(_|\d|$)", re.IGNORECASE)
 _CASTER = re.compile(r"caster|castor", re.IGNORECASE)
@@ -19,7 +27,7 @@ _NOT_WHEEL = re.compile(
 )
 
 
-def contact_role(robot: Robot, link: Link) -> str:
+def get_contact_role(robot: Robot, link: Link) -> str:
     """Get the role of a link in contact: ``wheel``, ``caster``, ``foot``, ``finger`` or empty."""
     if not link.collisions:
         return ""
@@ -29,23 +37,23 @@ def contact_role(robot: Robot, link: Link) -> str:
     if _CASTER.search(link.name):
         turned = any(below.type == "continuous" for below in robot.tree.child_joints(link.name))
         return "" if turned else "caster"
-    if _rolls(robot, link):
+    if _is_rolling(robot, link):
         return "wheel"
     leaf = not any(not below.is_fixed for below in robot.tree.child_joints(link.name))
-    if leaf and _FOOT.search(link.name) and _moves(robot, link):
+    if leaf and _FOOT.search(link.name) and _is_moving(robot, link):
         return "foot"
-    if leaf and _FINGER.search(link.name) and _grips(robot, link):
+    if leaf and _FINGER.search(link.name) and _is_gripping(robot, link):
         return "finger"
     return ""
 
 
-def _grips(robot: Robot, link: Link) -> bool:
+def _is_gripping(robot: Robot, link: Link) -> bool:
     """Tell whether a finger moves, or another finger moves toward it.
 
     A finger of a gripper without moving joints is a part of the wrist: the joint that moves it has
     an unrelated name, and no finger moves relative to it.
     """
-    members = [one for one, _ in attached_links(robot, link)]
+    members = [one for one, _ in find_attached_links(robot, link)]
     for member in members:
         joint = robot.tree.parent_joint(member.name)
         if joint is not None and not joint.is_fixed:
@@ -59,15 +67,17 @@ def _grips(robot: Robot, link: Link) -> bool:
 
 def is_wheel(robot: Robot, link: Link) -> bool:
     """Tell whether a link, or one that is fixed to it, rolls on the ground."""
-    return any(contact_role(robot, one) == "wheel" for one, _ in attached_links(robot, link))
+    return any(
+        get_contact_role(robot, one) == "wheel" for one, _ in find_attached_links(robot, link)
+    )
 
 
-def _rolls(robot: Robot, link: Link) -> bool:
+def _is_rolling(robot: Robot, link: Link) -> bool:
     """Tell whether a link is round and turns continuously about a horizontal axis.
 
     The link may be fixed to the one that the joint moves, as a tire to its hub.
     """
-    members = attached_links(robot, link)
+    members = find_attached_links(robot, link)
     hub, pose = next(((one, at) for one, at in members if _is_moved(robot, one)), (link, IDENTITY))
     joint = robot.tree.parent_joint(hub.name)
     if joint is None or joint.type != "continuous" or _NOT_WHEEL.search(link.name):
@@ -78,7 +88,7 @@ def _rolls(robot: Robot, link: Link) -> bool:
     is_round = any(_is_round_about(collision, joint, place) for collision in link.collisions)
     if _WHEEL.search(link.name) and (hub is link or is_round or not hub.collisions):
         return True
-    return is_round and abs(axis_up(robot, hub, joint)) < 0.5
+    return is_round and abs(compute_axis_elevation(robot, hub, joint)) < 0.5
 
 
 def _is_moved(robot: Robot, link: Link) -> bool:
@@ -95,29 +105,29 @@ def _is_round_about(collision: Collision, joint: Joint, place: Pose = IDENTITY) 
         joint: The joint that turns it.
         place: The pose of the shape's link in the frame of the joint's child.
     """
-    shape, pose = collision.geometry, place @ pose_of(collision.origin)
+    shape, pose = collision.geometry, place @ make_pose(collision.origin)
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-    length = norm(axis)
+    length = compute_norm(axis)
     if not isinstance(shape, Cylinder | Sphere) or not length:
         return False
     if isinstance(shape, Cylinder):
         along = rotate(pose.rotation, (0.0, 0.0, 1.0))
-        if abs(dot(along, axis)) < 0.9 * length:
+        if abs(compute_dot(along, axis)) < 0.9 * length:
             return False
-    return norm(cross(pose.translation, axis)) / length < 0.3 * shape.radius
+    return compute_norm(compute_cross(pose.translation, axis)) / length < 0.3 * shape.radius
 
 
-def axis_up(robot: Robot, link: Link, joint: Joint) -> float:
+def compute_axis_elevation(robot: Robot, link: Link, joint: Joint) -> float:
     """Compute the vertical component of a joint's unit axis, with all joints at 0."""
-    pose = pose_of(joint.origin)
+    pose = make_pose(joint.origin)
     for name in robot.tree.ancestors(link.name):
         above = robot.tree.parent_joint(name)
-        pose = (pose_of(above.origin) if above is not None else IDENTITY) @ pose
+        pose = (make_pose(above.origin) if above is not None else IDENTITY) @ pose
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-    return rotate(pose.rotation, axis)[2] / (norm(axis) or 1.0)
+    return rotate(pose.rotation, axis)[2] / (compute_norm(axis) or 1.0)
 
 
-def _moves(robot: Robot, link: Link) -> bool:
+def _is_moving(robot: Robot, link: Link) -> bool:
     """Tell whether a moving joint is between a link and the root."""
     names = [link.name, *robot.tree.ancestors(link.name)]
     joints = [robot.tree.parent_joint(name) for name in names]

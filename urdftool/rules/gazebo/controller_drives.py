@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.controllers import Controller, joint_of
+from ...model.controllers import Controller, extract_joint
 from ...model.elements import Robot
 from ...model.kinematics import link_poses
 from ...model.pose import Pose
 from ...model.read import number
 from ...source.description import Description
 from ...source.yaml_tree import Node
-from ..control.controller_files import package_of
-from .drive_wheels import Drive, Told, wheel_of
+from ..control.controller_files import get_package
+from .drive_wheels import ConfiguredLength, Drive, get_wheel
 
 
-def controller_drives(
+def find_controller_drives(
     robot: Robot, description: Description, poses: dict[str, Pose]
 ) -> Iterator[Drive]:
     """Yield the controllers with known wheels, from the controller files of a robot.
@@ -26,17 +26,17 @@ def controller_drives(
         description: Its description.
         poses: Poses of its links in the frame of the root; empty if not computed yet.
     """
-    for file in package_of(robot, description).controller_files:
+    for file in get_package(robot, description).controller_files:
         for controller in file.controllers:
             if controller.kind == "DiffDriveController":
                 poses = poses or link_poses(robot)
-                yield from _of_controller(robot, controller, poses)
+                yield from _make_drive(robot, controller, poses)
 
 
-def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose]) -> Iterator[Drive]:
+def _make_drive(robot: Robot, controller: Controller, poses: dict[str, Pose]) -> Iterator[Drive]:
     sides = [
         [
-            (node, wheel_of(robot, poses, joint_of(node)))
+            (node, get_wheel(robot, poses, extract_joint(node)))
             for end in ("_names", "")
             for node in controller.named(f"{side}_wheel{end}")
         ]
@@ -54,15 +54,17 @@ def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose])
         pairs[0][0].joint,
         pairs,
         sides[0][0][0].place,
-        len(pairs) > 1 or (_value(controller, "wheels_per_side") or 1) > 1,
+        len(pairs) > 1 or (_read_value(controller, "wheels_per_side") or 1) > 1,
         _is_simulated(robot),
         [
             (length, pairs[0])
-            for length in _parameter(controller, "wheel_separation", "wheel_separation_multiplier")
+            for length in _read_length(
+                controller, "wheel_separation", "wheel_separation_multiplier"
+            )
         ],
         [
             (length, pairs[0][0])
-            for length in _parameter(
+            for length in _read_length(
                 controller,
                 "wheel_radius",
                 "wheel_radius_multiplier",
@@ -72,19 +74,21 @@ def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose])
     )
 
 
-def _parameter(controller: Controller, name: str, *multipliers: str) -> Iterator[Told]:
+def _read_length(
+    controller: Controller, name: str, *multipliers: str
+) -> Iterator[ConfiguredLength]:
     for node in controller.named(name):
-        value = _scalar(node)
+        value = _read_number(node)
         if value is not None:
-            scaled = value * math.prod(_value(controller, word) or 1.0 for word in multipliers)
-            yield Told(name, value, scaled, node.place)
+            scaled = value * math.prod(_read_value(controller, word) or 1.0 for word in multipliers)
+            yield ConfiguredLength(name, value, scaled, node.place)
 
 
-def _value(controller: Controller, name: str) -> float | None:
-    return next((_scalar(node) for node in controller.named(name)), None)
+def _read_value(controller: Controller, name: str) -> float | None:
+    return next((_read_number(node) for node in controller.named(name)), None)
 
 
-def _scalar(node: Node) -> float | None:
+def _read_number(node: Node) -> float | None:
     return None if node.quoted else number(node.text or "")
 
 

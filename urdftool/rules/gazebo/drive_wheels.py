@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ...model.elements import Joint, Plugin, Robot, Vector
 from ...model.kinematics import link_poses
-from ...model.pose import Pose, norm, rotate
+from ...model.pose import Pose, compute_norm, rotate
 from ...model.read import number
 from ...source.document import Element
 from ...source.location import Place
@@ -42,7 +42,7 @@ Pair = tuple[Wheel, Wheel]
 """A left wheel and the right one."""
 
 
-class Told(NamedTuple):
+class ConfiguredLength(NamedTuple):
     """A length in the parameters of a drive.
 
     Attributes:
@@ -80,35 +80,35 @@ class Drive(NamedTuple):
     named: Place
     skids: bool
     turns: bool
-    separations: list[tuple[Told, Pair]]
-    sizes: list[tuple[Told, Wheel]]
+    separations: list[tuple[ConfiguredLength, Pair]]
+    sizes: list[tuple[ConfiguredLength, Wheel]]
 
 
-def drives(robot: Robot) -> Iterator[Drive]:
+def find_drives(robot: Robot) -> Iterator[Drive]:
     """Yield the drives of a robot with known wheels."""
     poses: dict[str, Pose] = {}
     for plugin in robot.plugins:
         if _ROLLS.search(plugin.filename.rpartition("/")[2]):
             poses = poses or link_poses(robot)
-            yield from _of_plugin(robot, plugin, poses)
+            yield from _make_drive(robot, plugin, poses)
     if robot.source is None or not (robot.ros2_controls or robot.transmissions):
         return
-    from .controller_drives import controller_drives
+    from .controller_drives import find_controller_drives
 
-    yield from controller_drives(robot, robot.source, poses)
+    yield from find_controller_drives(robot, robot.source, poses)
 
 
-def _of_plugin(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator[Drive]:
-    elements = _named(plugin, _LEFT)
+def _make_drive(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator[Drive]:
+    elements = _find_children(plugin, _LEFT)
     rights = {
         tag: [child.text.strip() for child in plugin.element.all(tag)]
-        for tag in {_mirrored(child.tag) for child in elements}
+        for tag in {_mirror_tag(child.tag) for child in elements}
     }
     pairs = []
     for child in elements:
-        others = rights[_mirrored(child.tag)]
+        others = rights[_mirror_tag(child.tag)]
         other = others.pop(0) if others else ""
-        wheels = [wheel_of(robot, poses, name) for name in (child.text.strip(), other)]
+        wheels = [get_wheel(robot, poses, name) for name in (child.text.strip(), other)]
         if wheels[0] is not None and wheels[1] is not None:
             pairs.append((wheels[0], wheels[1]))
     if not pairs:
@@ -122,38 +122,43 @@ def _of_plugin(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator
         bool(_DRIVES.search(plugin.filename.rpartition("/")[2])),
         [
             (length, pairs[min(index, len(pairs) - 1)])
-            for index, length in _told(plugin, _SEPARATION, 1)
+            for index, length in _read_lengths(plugin, _SEPARATION, 1)
         ],
         [
             (length, pairs[min(index, len(pairs) - 1)][0])
             for names, per_radius in ((_RADIUS, 1), (_DIAMETER, 2))
-            for index, length in _told(plugin, names, per_radius)
+            for index, length in _read_lengths(plugin, names, per_radius)
         ],
     )
 
 
-def _told(plugin: Plugin, names: tuple[str, ...], per_radius: int) -> Iterator[tuple[int, Told]]:
-    for index, element in enumerate(_named(plugin, names)):
+def _read_lengths(
+    plugin: Plugin, names: tuple[str, ...], per_radius: int
+) -> Iterator[tuple[int, ConfiguredLength]]:
+    for index, element in enumerate(_find_children(plugin, names)):
         value = number(element.text)
         if value is not None:
-            yield index, Told(f"<{element.tag}>", value, value, element.place, per_radius)
+            yield (
+                index,
+                ConfiguredLength(f"<{element.tag}>", value, value, element.place, per_radius),
+            )
 
 
-def _named(plugin: Plugin, names: tuple[str, ...]) -> list[Element]:
+def _find_children(plugin: Plugin, names: tuple[str, ...]) -> list[Element]:
     return [child for child in plugin.element.children if child.tag in names]
 
 
-def _mirrored(tag: str) -> str:
+def _mirror_tag(tag: str) -> str:
     return tag.replace("left", "right")
 
 
-def wheel_of(robot: Robot, poses: dict[str, Pose], name: str) -> Wheel | None:
+def get_wheel(robot: Robot, poses: dict[str, Pose], name: str) -> Wheel | None:
     """Get the wheel that a joint turns; None if there is no such joint, or it is fixed."""
     joint = robot.joint.get(name)
     if joint is None or joint.child not in poses or joint.is_fixed:
         return None
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-    length = norm(axis)
+    length = compute_norm(axis)
     if not length:
         return None
     pose = poses[joint.child]

@@ -7,13 +7,13 @@ from itertools import product
 
 from ...model.elements import Robot, Vector
 from ...model.kinematics import link_poses
-from ...model.pose import dot, norm
-from ..mesh.outlines import ShapeKind, reaches
+from ...model.pose import compute_dot, compute_norm
+from ..mesh.link_extents import ShapeKind, get_extents
 from ..rule import GAZEBO, ROS, WARNING, Problem, rule
-from ..sides import sides
+from ..symmetry import get_sides
 from .contact import is_wheel
-from .drive_wheels import Drive, Pair, Told, Wheel, drives, wheel_of
-from .wheel_pair import radius_about
+from .drive_wheels import ConfiguredLength, Drive, Pair, Wheel, find_drives, get_wheel
+from .wheel_pair import compute_radius
 
 APPLIES_TO = ("plugin", "ros2_control", "transmission")
 
@@ -45,11 +45,13 @@ def drive_size_mismatch(
     it. Checked are plugins, and ``diff_drive_controller`` in the controller files of the robot (see
     ``controller-unknown-joint``), with its multipliers.
     """
-    for drive in drives(robot):
+    for drive in find_drives(robot):
         for length, pair in drive.separations:
-            yield from _separation(robot, drive, length, pair, apart, _SLIP if drive.skids else 1.0)
+            yield from _check_separation(
+                robot, drive, length, pair, apart, _SLIP if drive.skids else 1.0
+            )
         for length, wheel in drive.sizes:
-            yield from _radius(robot, drive, length, wheel, round)
+            yield from _check_radius(robot, drive, length, wheel, round)
 
 
 @rule(
@@ -70,20 +72,20 @@ def drive_direction_mismatch(robot: Robot) -> Iterator[Problem]:
     wheel names, and only opposite axes are reported.
     """
     seen: set[str] = set()
-    for drive in drives(robot):
+    for drive in find_drives(robot):
         if not drive.turns:
             continue
         for left, right in drive.pairs:
             seen |= {left.joint.name, right.joint.name}
-            to_the_left = _between(right, left)
-            length = norm(to_the_left)
+            to_the_left = _get_offset(right, left)
+            length = compute_norm(to_the_left)
             if length < 1e-6:
                 continue
-            one, other = (dot(wheel.axis, to_the_left) / length for wheel in (left, right))
+            one, other = (compute_dot(wheel.axis, to_the_left) / length for wheel in (left, right))
             if min(abs(one), abs(other)) < 0.7:
                 continue
             if (one > 0) != (other > 0):
-                yield _against(left, right, one, drive.name)
+                yield _report_opposite_axes(left, right, one, drive.name)
             elif one < 0:
                 yield Problem(
                     drive.subject,
@@ -92,18 +94,18 @@ def drive_direction_mismatch(robot: Robot) -> Iterator[Problem]:
                     at=drive.named,
                 )
                 break
-    for left, right in _commanded(robot):
-        if left.joint.name not in seen and dot(left.axis, right.axis) < -0.7:
-            ahead = dot(left.axis, _between(right, left))
-            yield _against(left, right, ahead, "a diff_drive_controller")
+    for left, right in _find_commanded_pairs(robot):
+        if left.joint.name not in seen and compute_dot(left.axis, right.axis) < -0.7:
+            ahead = compute_dot(left.axis, _get_offset(right, left))
+            yield _report_opposite_axes(left, right, ahead, "a diff_drive_controller")
 
 
-def _between(one: Wheel, other: Wheel) -> Vector:
+def _get_offset(one: Wheel, other: Wheel) -> Vector:
     (a, b, c), (d, e, f) = one.pose.translation, other.pose.translation
     return d - a, e - b, f - c
 
 
-def _against(left: Wheel, right: Wheel, to_the_left: float, driver: str) -> Problem:
+def _report_opposite_axes(left: Wheel, right: Wheel, to_the_left: float, driver: str) -> Problem:
     wrong = left if to_the_left < 0 else right
     return Problem(
         wrong.joint,
@@ -113,7 +115,7 @@ def _against(left: Wheel, right: Wheel, to_the_left: float, driver: str) -> Prob
     )
 
 
-def _commanded(robot: Robot) -> Iterator[Pair]:
+def _find_commanded_pairs(robot: Robot) -> Iterator[Pair]:
     """Yield left and right wheels whose velocity simulated ros2_control commands."""
     driven = {
         part.name
@@ -125,24 +127,24 @@ def _commanded(robot: Robot) -> Iterator[Pair]:
     if len(driven) < 2:
         return
     poses = link_poses(robot)
-    for pair in sides(robot).pairs:
-        wheels = [wheel_of(robot, poses, j.name) for j in (pair.left_joint, pair.right_joint)]
+    for pair in get_sides(robot).pairs:
+        wheels = [get_wheel(robot, poses, j.name) for j in (pair.left_joint, pair.right_joint)]
         rolls = is_wheel(robot, pair.left) and is_wheel(robot, pair.right)
         named = {pair.left_joint.name, pair.right_joint.name} <= driven
         if rolls and named and wheels[0] is not None and wheels[1] is not None:
             yield wheels[0], wheels[1]
 
 
-def _separation(
-    robot: Robot, drive: Drive, length: Told, pair: Pair, tolerance: float, slip: float
+def _check_separation(
+    robot: Robot, drive: Drive, length: ConfiguredLength, pair: Pair, tolerance: float, slip: float
 ) -> Iterator[Problem]:
     along = pair[0].axis
-    if abs(dot(along, pair[1].axis)) < 0.95:
+    if abs(compute_dot(along, pair[1].axis)) < 0.95:
         return
-    joints = [dot(along, wheel.pose.translation) for wheel in pair]
+    joints = [compute_dot(along, wheel.pose.translation) for wheel in pair]
     between = abs(joints[0] - joints[1])
     middles, inner, outer = between, between, between
-    spans = [_span(robot, wheel, along) for wheel in pair]
+    spans = [_compute_extent(robot, wheel, along) for wheel in pair]
     if spans[0] is not None and spans[1] is not None:
         (a, b), (c, d) = sorted((spans[0], spans[1]))
         middles, inner, outer = (c + d - a - b) / 2, min(between, c - b), max(between, d - a)
@@ -159,23 +161,23 @@ def _separation(
     )
 
 
-def _radius(
-    robot: Robot, drive: Drive, length: Told, wheel: Wheel, part: float
+def _check_radius(
+    robot: Robot, drive: Drive, length: ConfiguredLength, wheel: Wheel, part: float
 ) -> Iterator[Problem]:
     link, per_radius = robot.link[wheel.name], length.per_radius
     axis = wheel.joint.axis.xyz if wheel.joint.axis is not None else (1.0, 0.0, 0.0)
-    reach = reaches(robot)
+    reach = get_extents(robot)
     kinds: tuple[ShapeKind, ...] = ("collisions", "visuals")
-    boxes = [reach.body(link, kind) for kind in kinds]
-    found = [radius for box in boxes if box and (radius := radius_about(box, axis))]
+    boxes = [reach.get_body_box(link, kind) for kind in kinds]
+    found = [radius for box in boxes if box and (radius := compute_radius(box, axis))]
     if not found:
         return
     # a hub may have a cap, or carry a part that is not round
-    members = reach.attached(link)
+    members = reach.get_attached(link)
     for member in members if len(members) > 1 else ():
         for kind in kinds:
-            box = reach.body(link, kind, [member])
-            radius = radius_about(box, axis) if box is not None else None
+            box = reach.get_body_box(link, kind, [member])
+            radius = compute_radius(box, axis) if box is not None else None
             found += [] if radius is None else [radius]
     written = {length.value / per_radius, length.meant / per_radius}
     if any(abs(one - radius) <= part * radius for radius in found for one in written):
@@ -193,14 +195,14 @@ def _radius(
     )
 
 
-def _span(robot: Robot, wheel: Wheel, along: Vector) -> tuple[float, float] | None:
+def _compute_extent(robot: Robot, wheel: Wheel, along: Vector) -> tuple[float, float] | None:
     """Compute the extent of a wheel along a direction of the root's frame [m]."""
     link = robot.link[wheel.name]
-    reach = reaches(robot)
-    box = reach.body(link, "collisions") or reach.body(link, "visuals")
+    reach = get_extents(robot)
+    box = reach.get_body_box(link, "collisions") or reach.get_body_box(link, "visuals")
     if box is None:
         return None
     (a, b, c), (d, e, f) = box
     corners = product((a, d), (b, e), (c, f))
-    places = [dot(along, wheel.pose.transform(corner)) for corner in corners]
+    places = [compute_dot(along, wheel.pose.transform(corner)) for corner in corners]
     return min(places), max(places)

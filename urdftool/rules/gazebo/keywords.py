@@ -7,14 +7,14 @@ SDF.
 
 from __future__ import annotations
 
-from ..words import words
+from ..words import split_words
 
-LINK_KEYWORDS = words(
+LINK_KEYWORDS = split_words(
     "material turnGravityOff mu1 mu2 fdir1 kp kd minDepth maxVel maxContacts selfCollide "
     "laserRetro dampingFactor collision visual canonicalBody"
 )
 
-JOINT_KEYWORDS = words(
+JOINT_KEYWORDS = split_words(
     "springReference springStiffness provideFeedback implicitSpringDamper cfmDamping stopCfm "
     "stopErp fudgeFactor preserveFixedJoint disableFixedJointLumping"
 )
@@ -23,21 +23,21 @@ ROBOT_KEYWORDS = frozenset(("static",))
 
 KEYWORDS = LINK_KEYWORDS | JOINT_KEYWORDS | ROBOT_KEYWORDS
 
-NUMBERS = words(
+NUMBERS = split_words(
     "mu1 mu2 kp kd maxVel minDepth laserRetro dampingFactor stopCfm stopErp fudgeFactor "
     "springReference springStiffness maxContacts"
 )
 """Keywords read with ``std::stod`` or ``std::stoi``, which throw if the text is not a number."""
 
-FLAGS = words(
+FLAGS = split_words(
     "turnGravityOff selfCollide static provideFeedback implicitSpringDamper cfmDamping "
     "preserveFixedJoint disableFixedJointLumping"
 )
 
-SURFACE = words("mu1 mu2 fdir1 kp kd minDepth maxVel maxContacts laserRetro")
+SURFACE = split_words("mu1 mu2 fdir1 kp kd minDepth maxVel maxContacts laserRetro")
 """Keywords written into the collisions of a link."""
 
-NOT_IN_GZ = words(
+NOT_IN_GZ = split_words(
     "kp kd minDepth maxVel maxContacts dampingFactor laserRetro selfCollide provideFeedback "
     "implicitSpringDamper cfmDamping stopCfm stopErp fudgeFactor"
 )

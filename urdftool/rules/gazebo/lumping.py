@@ -10,15 +10,15 @@ from ..fix import (
     FixContext,
     Proposal,
     append_child,
-    attribute_at,
-    element_at,
+    find_attribute,
+    find_element,
     remove_element,
     set_attribute,
     set_text,
     unsafe,
 )
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
-from ..words import quoted
+from ..words import quote
 from .keywords import JOINT_KEYWORDS, SURFACE, is_true
 
 APPLIES_TO = ("gazebo",)
@@ -32,7 +32,7 @@ def is_kept(robot: Robot, joint: Joint) -> bool:
     return any(is_true(block.value(word)) for block in blocks for word in _KEEPERS)
 
 
-def keeps_joint(element: Element) -> bool:
+def is_preserving(element: Element) -> bool:
     """Tell whether an element in a block of a joint preserves a fixed joint."""
     return element.tag in _KEEPERS and is_true(element.get("value") or element.text)
 
@@ -49,7 +49,7 @@ def is_lumped(robot: Robot, link: str) -> bool:
     )
 
 
-def body_of(robot: Robot, link: str) -> str:
+def get_lumped_body(robot: Robot, link: str) -> str:
     """Get the link into which a link is lumped, or the link itself."""
     seen = set()
     while is_lumped(robot, link) and link not in seen:
@@ -68,7 +68,7 @@ def remove_words(block: Element, words: frozenset[str]) -> Proposal:
     return unsafe("remove it", *map(remove_element, gone))
 
 
-def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
+def _iterate_link_blocks(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
     for block in robot.gazebo:
         if block.reference and block.reference in robot.link:
             yield block.reference, block
@@ -103,7 +103,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
             child.tag not in JOINT_KEYWORDS and not child.children for child in lost
         ):
             continue
-        what = quoted(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
+        what = quote(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
         settles = all(child.tag in JOINT_KEYWORDS for child in lost)
         remedy = "add <preserveFixedJoint>true</preserveFixedJoint>"
         child = robot.link.get(joint.child)
@@ -147,18 +147,18 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
     that it is lumped into. A camera frame without mass can turn gravity off for the whole robot. A
     flag of the heaviest link of the body is taken as intended.
     """
-    for name, block in _blocks_of_links(robot):
+    for name, block in _iterate_link_blocks(robot):
         if not is_lumped(robot, name):
             continue
         for word, what in (("turnGravityOff", "gravity is off"), ("selfCollide", "it collides")):
             child = block.element.child(word)
-            body = body_of(robot, name)
+            body = get_lumped_body(robot, name)
             if child is None or not is_true(block.value(word)):
                 continue
             if any(is_true(other.value(word)) for other in robot.extensions.get(body, [])):
                 continue
             links = (robot.link[other] for other in robot.link if other != name)
-            others = [other for other in links if body_of(robot, other.name) == body]
+            others = [other for other in links if get_lumped_body(robot, other.name) == body]
             if sum(other.mass for other in others) <= robot.link[name].mass:
                 continue
             means = "with itself" if word == "selfCollide" else ""
@@ -176,7 +176,7 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
 @lumped_flag_leaks.fix(UNSAFE)
 def remove_flag(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the flag, or the block if it has no others."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None:
         return None
     return remove_words(problem.element, frozenset((element.tag,)))
@@ -201,8 +201,8 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
         for side in (joint.child, joint.parent):
             if side not in robot.link or side == "world":
                 continue
-            body = body_of(robot, side)
-            links = [name for name in robot.link if body_of(robot, name) == body]
+            body = get_lumped_body(robot, side)
+            links = [name for name in robot.link if get_lumped_body(robot, name) == body]
             if all(robot.link[name].mass <= 0 for name in links):
                 yield Problem(
                     joint,
@@ -216,7 +216,7 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
 @preserved_joint_massless.fix(UNSAFE)
 def add_inertial_of_kept_link(problem: Problem, context: FixContext) -> Proposal | None:
     """Add a small inertial to the child, if it is the link without mass."""
-    child = context.robot.link.get(context.joint(problem).child)
+    child = context.robot.link.get(context.get_joint(problem).child)
     if child is None or problem.data["link"] != child.name:
         return None
     from ..inertia.corrections import give_small_inertial
@@ -268,8 +268,8 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
 @named_geometry_loses_extensions.fix(UNSAFE)
 def prefix_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Prefix the name with that of the link, if nothing refers to it; its settings then apply."""
-    found = attribute_at(problem)
-    link = context.link(problem)
+    found = find_attribute(problem)
+    link = context.get_link(problem)
     if found is None:
         return None
     element, attribute = found
@@ -296,7 +296,7 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
     adds ``fixed_joint_lump`` to its name. The ``<contact>`` of a sensor keeps the old name, so the
     sensor reports no contact.
     """
-    for name, block in _blocks_of_links(robot):
+    for name, block in _iterate_link_blocks(robot):
         for sensor in block.sensors:
             contact = sensor.element.child("contact")
             collision = contact.child("collision") if contact is not None else None
@@ -305,7 +305,7 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
             for link in robot.links:
                 text = collision.text.strip()
                 if text == f"{link.name}_collision" and is_lumped(robot, link.name):
-                    body = body_of(robot, link.name)
+                    body = get_lumped_body(robot, link.name)
                     new = f"{body}_fixed_joint_lump__{link.name}_collision"
                     yield Problem(
                         block.element,
@@ -320,7 +320,7 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
 @lumped_link_referenced.fix(UNSAFE)
 def write_merged_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the name of the collision in Gazebo."""
-    element = element_at(problem)
+    element = find_element(problem)
     new = problem.data["write"]
     if element is None:
         return None
@@ -340,12 +340,12 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
     Gazebo writes friction and contact settings into the collisions of a link, and drops them if
     there is none. The collision may be missing.
     """
-    for name, block in _blocks_of_links(robot):
+    for name, block in _iterate_link_blocks(robot):
         if robot.link[name].collisions:
             continue
         children = [child for child in block.element.children if child.tag in SURFACE]
         if children:
-            words = quoted(dict.fromkeys(c.tag for c in children)).replace("'", "")
+            words = quote(dict.fromkeys(c.tag for c in children)).replace("'", "")
             have = "has" if len(children) == 1 else "have"
             yield Problem(
                 block.element,

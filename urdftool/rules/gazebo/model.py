@@ -19,11 +19,11 @@ from ..fix import (
     unsafe,
 )
 from ..joint.range import is_locked
-from ..renaming import part_of, rename_part
+from ..renaming import get_part, rename_part
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
-from ..words import quoted
+from ..words import quote
 from .keywords import is_true
-from .wheel_pair import wheel_pair
+from .wheel_pair import find_wheel_pair
 
 
 @rule(
@@ -124,7 +124,7 @@ _REPORTS = re.compile(r"joint[-_]?state", re.IGNORECASE)
 @reserved_name.fix(UNSAFE, renames=True)
 def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the underscores; write ``world_link`` for a ``world`` that is not the root."""
-    part = part_of(problem)
+    part = get_part(problem)
     if part is None:
         return None
     return rename_part(
@@ -162,18 +162,18 @@ def missing_control_plugin(
         f"{plugin.filename} {plugin.name}" for block in robot.gazebo for plugin in block.plugins
     ]
     plugins += robot.old_plugins
-    if not plugins and _has_a_part_for_gazebo(description):
+    if not plugins and _has_gazebo_part(description):
         return
     acting = [text for text in plugins if _DRIVES.search(text)]
     reported = any(_REPORTS.search(text) for text in acting)
     if any(not _REPORTS.search(text) for text in acting):
         return
-    pair = wheel_pair(robot) if "gz" in targets else None
+    pair = find_wheel_pair(robot) if "gz" in targets else None
     if reported and pair is None:
         return
     if pair is not None:
         joints = [pair.left, pair.right]
-    names = quoted(joint.name for joint in joints)
+    names = quote(joint.name for joint in joints)
     which, verb = ("joints", "move") if len(joints) > 1 else ("joint", "moves")
     if pair is None:
         remedy = "one, such as ros2_control or a joint state publisher"
@@ -213,7 +213,7 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
         ' name="gz::sim::systems::JointStatePublisher"/>'
     )
     reported = any("joint-state-publisher" in one.filename for one in context.robot.plugins)
-    pair = wheel_pair(context.robot)
+    pair = find_wheel_pair(context.robot)
     systems = [] if reported else [report]
     what = "" if reported else "a joint state publisher"
     if pair is not None:
@@ -234,7 +234,7 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
 _FOR_GAZEBO = re.compile(r"gazebo|(?<![a-z])(gz|ign|sim)(?![a-z])", re.IGNORECASE)
 
 
-def _has_a_part_for_gazebo(description: Description) -> bool:
+def _has_gazebo_part(description: Description) -> bool:
     """Tell whether a xacro condition contains an include or element for Gazebo."""
     if description.expansion is None:
         return False

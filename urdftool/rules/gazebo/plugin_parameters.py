@@ -5,9 +5,9 @@ The list is not complete, so an unknown parameter is only reported if it is simi
 
 from __future__ import annotations
 
-from ..words import words
+from ..words import split_words
 
-PARAMETERS = words(
+PARAMETERS = split_words(
     # gazebo_ros for ROS 1
     "alwaysOn updateRate robotNamespace robotSimType robotParam controlPeriod legacyModeNS "
     "eStopTopic bodyName linkName frameName frameId topicName serviceName gaussianNoise "

@@ -6,26 +6,26 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Plugin, Robot
-from ...model.gazebo_plugins import SYSTEM_PLUGINS, carried, class_of, file_of
-from ...model.gazebo_plugins import library as library_of
+from ...model.gazebo_plugins import SYSTEM_PLUGINS, convert_parameters, get_class, get_file
+from ...model.gazebo_plugins import get_library as library_of
 from ...source.document import Element
 from ..fix import (
     FixContext,
     Proposal,
     append_number,
-    element_at,
     escape_attribute,
+    find_element,
+    get_suggestion,
     replace_element,
     safe,
     set_attribute,
     set_text,
     substitute,
-    suggestion_of,
     unsafe,
 )
 from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest, quoted
+from ..words import nearest, quote, suggest_name
 from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
 
 APPLIES_TO = ("plugin",)
@@ -105,7 +105,7 @@ def load_counterpart(problem: Problem, context: FixContext) -> Proposal | None:
     lines: list[str] = []
     left: set[str] | None = None
     for system in systems:
-        taken, lost = carried(plugin, system)
+        taken, lost = convert_parameters(plugin, system)
         joints = "left_joint" not in system.parameters.values() or "left_joint" in dict(taken)
         if system.missing or not joints:
             return None
@@ -113,11 +113,11 @@ def load_counterpart(problem: Problem, context: FixContext) -> Proposal | None:
         inside = [f"<{tag}>{escape_attribute(v)}</{tag}>" for tag, v in taken if isinstance(v, str)]
         if len(inside) != len(taken):
             return None
-        start = f'<plugin filename="{file_of(system)}" name="{class_of(system)}"'
+        start = f'<plugin filename="{get_file(system)}" name="{get_class(system)}"'
         indented = (f"\t{line}" for line in inside)
         lines += [f"{start}>", *indented, "</plugin>"] if inside else [f"{start}/>"]
     dropped = f"; it has no {', '.join(sorted(left))}" if left else ""
-    names = "' and '".join(file_of(system) for system in systems)
+    names = "' and '".join(get_file(system) for system in systems)
     return unsafe(f"load '{names}'{dropped}", replace_element(plugin, tuple(lines)))
 
 
@@ -283,18 +283,18 @@ def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
                     data={"kind": kind, "names": parts},
                 )
             elif missing:
-                yield _unknown(plugin, child, missing, kind, known, len(names) > 1)
+                yield _report_unknown_entities(plugin, child, missing, kind, known, len(names) > 1)
 
 
-def _unknown(
+def _report_unknown_entities(
     plugin: Plugin, at: Element, missing: list[str], kind: str, known: list[str], of_list: bool
 ) -> Problem:
     verb = "lists" if of_list else "is"
     kinds = f"no such {kind}s" if len(missing) > 1 else f"no such {kind}"
     return Problem(
         plugin.element,
-        f"<{at.tag}> of plugin '{plugin.name}' {verb} {quoted(missing)}, but the robot has {kinds}"
-        + did_you_mean(missing[0], known),
+        f"<{at.tag}> of plugin '{plugin.name}' {verb} {quote(missing)}, but the robot has {kinds}"
+        + suggest_name(missing[0], known),
         at=at,
         data={"kind": kind, "missing": missing, "suggestion": nearest(missing[0], known)},
     )
@@ -303,13 +303,13 @@ def _unknown(
 @plugin_unknown_entity.fix(UNSAFE)
 def write_names(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested name, or one element for each of several names."""
-    element = element_at(problem)
+    element = find_element(problem)
     names: list[str] = problem.data.get("names", [])
     if element is not None and names:
         tag = element.tag
         blocks = [(f"<{tag}>{escape_attribute(name)}</{tag}>",) for name in names]
         return unsafe(f"write {len(names)} <{tag}>", replace_element(element, *blocks))
-    name = suggestion_of(problem, element.text.strip()) if element is not None else ""
+    name = get_suggestion(problem, element.text.strip()) if element is not None else ""
     if element is None or not name or re.search(r"[,\s]", element.text.strip()):
         return None
     return unsafe(f"write {name}", set_text(element, name))

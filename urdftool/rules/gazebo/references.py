@@ -10,20 +10,20 @@ from ..fix import (
     FixContext,
     Proposal,
     escape_attribute,
+    get_suggestion,
+    get_written_lines,
     insert_after,
     is_computed,
     remove_element,
     set_attribute,
-    suggestion_of,
     unsafe,
-    written_lines,
 )
 from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest, quoted
-from .kept import joints_of_sdf
+from ..words import nearest, quote, suggest_name
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
-from .lumping import body_of, is_lumped, keeps_joint, remove_words
+from .lumped_model import find_sdf_joints
+from .lumping import get_lumped_body, is_lumped, is_preserving, remove_words
 
 _OF_BLOCK = "gz, gazebo-classic"
 _OF_JOINT = "gz, gazebo-classic (a joint of SDF)"
@@ -46,10 +46,10 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
     ``<joint>`` that closes a loop also requires existing links; without them Gazebo rejects the
     model, and sdformat 12.3 does not find a link that it lumps.
     """
-    yield from _loops(robot)
+    yield from _check_loops(robot)
     names = {*robot.link, *robot.joint}
     stripped = {name.strip() for name in names}
-    of_sdf = set(_names_of_sdf(robot, "link"))
+    of_sdf = set(_get_sdf_names(robot, "link"))
     for block in robot.gazebo:
         name = block.reference
         if not name or name.strip() in stripped or is_unexpanded(name):
@@ -63,30 +63,32 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
                 data={"name": name},
             )
             continue
-        known = [one for one in _meant_by(block, robot) if not _has_settings_of(block, one, robot)]
+        known = [
+            one for one in _get_candidates(block, robot) if not _has_settings_of(block, one, robot)
+        ]
         yield Problem(
             block.element,
             f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
-            + did_you_mean(name, known, _LIKE),
+            + suggest_name(name, known, _MIN_SIMILARITY),
             at=block.element.attribute_place("reference"),
-            data={"name": name, "suggestion": nearest(name, known, _LIKE)},
+            data={"name": name, "suggestion": nearest(name, known, _MIN_SIMILARITY)},
         )
 
 
-_LIKE = 0.8
+_MIN_SIMILARITY = 0.8
 """Minimum similarity of a suggested name; high, because parts of an arm have similar names."""
 
 
 @dangling_reference.fix(UNSAFE)
 def write_reference(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested name of a link or joint."""
-    name = suggestion_of(problem, problem.element.get("reference") or "")
+    name = get_suggestion(problem, problem.element.get("reference") or "")
     if not name:
         return None
     return unsafe(f"write '{name}'", set_attribute(problem.element, "reference", name))
 
 
-def _meant_by(block: GazeboExtension, robot: Robot) -> Collection[str]:
+def _get_candidates(block: GazeboExtension, robot: Robot) -> Collection[str]:
     """Get the possible names of a reference: joints for settings of joints, links for others."""
     tags = {child.tag for child in block.element.children}
     of_joint = not tags.isdisjoint(JOINT_KEYWORDS)
@@ -106,7 +108,7 @@ def _has_settings_of(block: GazeboExtension, name: str, robot: Robot) -> bool:
     )
 
 
-def _names_of_sdf(robot: Robot, *tags: str) -> Iterator[str]:
+def _get_sdf_names(robot: Robot, *tags: str) -> Iterator[str]:
     """Yield the names of SDF elements with certain tags in the blocks of a robot."""
     for block in robot.gazebo:
         for element in block.element.walk():
@@ -114,9 +116,9 @@ def _names_of_sdf(robot: Robot, *tags: str) -> Iterator[str]:
                 yield element.get("name") or ""
 
 
-def _loops(robot: Robot) -> Iterator[Problem]:
-    of_sdf = {*_names_of_sdf(robot, "link", "frame")}
-    for joint in joints_of_sdf(robot):
+def _check_loops(robot: Robot) -> Iterator[Problem]:
+    of_sdf = {*_get_sdf_names(robot, "link", "frame")}
+    for joint in find_sdf_joints(robot):
         for end in (joint.child("parent"), joint.child("child")):
             name = end.text.strip() if end is not None else ""
             if end is None or not name or name in {"world", *of_sdf}:
@@ -128,21 +130,23 @@ def _loops(robot: Robot) -> Iterator[Problem]:
                 continue
             what = f"<{end.tag}> of joint '{joint.get('name') or ''}' is '{name}', which is "
             if lumped:
-                what += f"lumped into '{body_of(robot, name)}', because its joint is fixed; "
+                what += (
+                    f"lumped into '{get_lumped_body(robot, name)}', because its joint is fixed; "
+                )
                 what += "write that, or add preserveFixedJoint to the joint"
             else:
-                what += f"not a link{did_you_mean(name, robot.link)}"
+                what += f"not a link{suggest_name(name, robot.link)}"
             yield Problem(
-                _block_of(joint),
+                _get_block(joint),
                 what,
                 at=end,
-                data={"name": name} | ({"body": body_of(robot, name)} if lumped else {}),
+                data={"name": name} | ({"body": get_lumped_body(robot, name)} if lumped else {}),
                 severity=WARNING if lumped else None,
                 effects=(_OF_JOINT,),
             )
 
 
-def _block_of(joint: Element) -> Element:
+def _get_block(joint: Element) -> Element:
     return joint if joint.parent is None else joint.parent
 
 
@@ -177,13 +181,13 @@ def misplaced_extension(robot: Robot) -> Iterator[Problem]:
             continue
         children = [child for child in block.element.children if child.tag in wrong]
         if children:
-            yield _misplaced(robot, block, children, where)
+            yield _report_misplaced(robot, block, children, where)
 
 
-def _misplaced(
+def _report_misplaced(
     robot: Robot, block: GazeboExtension, children: list[Element], where: str
 ) -> Problem:
-    tags = quoted(dict.fromkeys(child.tag for child in children)).replace("'", "")
+    tags = quote(dict.fromkeys(child.tag for child in children)).replace("'", "")
     name = block.reference or ""
     right = "a link" if children[0].tag in LINK_KEYWORDS | {"sensor"} else "a joint"
     if name in robot.joint and robot.joint[name].child:
@@ -193,7 +197,7 @@ def _misplaced(
         right = f"joint '{joint.name}'" if joint is not None else right
     verb = "has" if len(children) == 1 else "have"
     remedy, change = f"write it for {right}", "move"
-    if name in robot.link and is_lumped(robot, name) and not any(map(keeps_joint, children)):
+    if name in robot.link and is_lumped(robot, name) and not any(map(is_preserving, children)):
         remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} is fixed"
         remedy, change = f"{remedy} and lumped", "remove a lumped one"
     elif name and _is_repeated(robot, block.element, children):
@@ -237,7 +241,7 @@ def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
             return None
         right, wrong = joint.name, JOINT_KEYWORDS
         children = [child for child in block.children if child.tag in wrong]
-        if children and is_lumped(robot, name) and not any(map(keeps_joint, children)):
+        if children and is_lumped(robot, name) and not any(map(is_preserving, children)):
             return remove_words(block, JOINT_KEYWORDS)
     elif name in robot.joint:
         right, wrong = robot.joint[name].child, LINK_KEYWORDS
@@ -254,7 +258,7 @@ def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
         return unsafe(f"write it for '{right}'", set_attribute(block, "reference", right))
     lines = (
         f'<gazebo reference="{escape_attribute(right)}">',
-        *(f"\t{line}" for child in moved for line in written_lines(child)),
+        *(f"\t{line}" for child in moved for line in get_written_lines(child)),
         "</gazebo>",
     )
     return unsafe(

@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.attached import attached_links
+from ...model.attached import find_attached_links
 from ...model.elements import GazeboExtension, Link, Robot, Sensor
-from ...model.pose import IDENTITY, Pose, rotation_of_rpy
-from ...model.read import numbers
+from ...model.pose import IDENTITY, Pose, rotation_from_rpy
+from ...model.read import parse_numbers
 from ..fix import (
     Change,
     FixContext,
@@ -18,30 +18,30 @@ from ..fix import (
     append_child,
     append_number,
     escape_attribute,
+    get_suggestion,
+    get_written_value,
     insert_after,
     is_computed,
     remove_element,
     rename_element,
     safe,
     set_attribute,
-    suggestion_of,
     unsafe,
-    written_value,
 )
 from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import did_you_mean, nearest, words
-from .lumping import body_of
+from ..words import nearest, split_words, suggest_name
+from .lumping import get_lumped_body
 
 APPLIES_TO = ("gazebo",)
 
-TYPES = words(
+TYPES = split_words(
     "air_pressure air_speed altimeter boundingbox_camera camera contact depth depth_camera "
     "force_torque gps gpu_lidar gpu_ray imu lidar logical_camera magnetometer multicamera navsat "
     "ray rfid rfidtag rgbd rgbd_camera segmentation segmentation_camera boundingbox sonar thermal "
     "thermal_camera wireless_receiver wireless_transmitter wideanglecamera wide_angle_camera custom"
 )
 
-_WITH_FRAME = words(
+_WITH_FRAME = split_words(
     "camera depth depth_camera rgbd rgbd_camera gpu_lidar gpu_ray lidar ray imu thermal "
     "thermal_camera segmentation segmentation_camera boundingbox boundingbox_camera"
 )
@@ -50,7 +50,7 @@ _OPTICS = ("camera", "lidar", "ray")
 """Elements of a sensor that may have their own pose."""
 
 
-def _sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
+def _iterate_sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
     for block in robot.gazebo:
         for sensor in block.sensors:
             yield block, sensor
@@ -70,10 +70,10 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
     sdformat reports that the sensor type is missing or invalid, and Gazebo does not create the
     sensor.
     """
-    for _, sensor in _sensors(robot):
+    for _, sensor in _iterate_sensors(robot):
         if sensor.type not in TYPES:
             what = f"'{sensor.type}' is not a sensor type" if sensor.type else "no sensor type"
-            near = did_you_mean(sensor.type, TYPES) if sensor.type else ""
+            near = suggest_name(sensor.type, TYPES) if sensor.type else ""
             name = f"sensor '{sensor.name}': " if sensor.name else ""
             yield Problem(
                 sensor.element,
@@ -86,7 +86,7 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
 @unknown_sensor_type.fix(UNSAFE)
 def write_sensor_type(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested type."""
-    name = suggestion_of(problem, problem.element.get("type") or "")
+    name = get_suggestion(problem, problem.element.get("type") or "")
     return unsafe(f"write {name}", set_attribute(problem.element, "type", name)) if name else None
 
 
@@ -105,7 +105,7 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """
     if "gazebo-classic" in targets:
         return
-    for _, sensor in _sensors(robot):
+    for _, sensor in _iterate_sensors(robot):
         if sensor.type in ("ray", "lidar"):
             yield Problem(
                 sensor.element,
@@ -141,7 +141,7 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
     """
     if "gazebo-classic" in targets:
         return
-    for _, sensor in _sensors(robot):
+    for _, sensor in _iterate_sensors(robot):
         for plugin in sensor.plugins:
             if plugin.filename.rpartition("/")[2].startswith("libgazebo_ros_"):
                 yield Problem(
@@ -192,7 +192,9 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
     ``together`` sensors of a kind are one finding.
     """
     for placed in (True, False):
-        found = [one for one in without_frame(robot) if (one.frame is not None) is placed]
+        found = [
+            one for one in find_sensors_without_frame(robot) if (one.frame is not None) is placed
+        ]
         many = len(found) > together
         for sensor in found[:1] if many else found:
             others = f" (and {len(found) - 1} more)" if many else ""
@@ -217,12 +219,12 @@ def write_frame_id(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the link at the pose of each sensor of the finding."""
     if "frame" not in problem.data:
         return None
-    found = [one for one in without_frame(context.robot) if one.frame is not None]
+    found = [one for one in find_sensors_without_frame(context.robot) if one.frame is not None]
     if len(problem.data["sensors"]) == 1:
         found = [one for one in found if one.sensor.element is problem.element]
     changes = []
     for one in found:
-        name = _name_of_frame(one)
+        name = _get_frame_name(one)
         if name is None:
             return None
         line = f"<gz_frame_id>{escape_attribute(name)}</gz_frame_id>"
@@ -233,19 +235,19 @@ def write_frame_id(problem: Problem, context: FixContext) -> Proposal | None:
     return safe(f"write {changes[0].blocks[0][0]}{more}", *changes)
 
 
-def _name_of_frame(one: Frameless) -> str | None:
+def _get_frame_name(one: SensorWithoutFrame) -> str | None:
     """Get the frame of a sensor as written in the source; None if another file computes it."""
     block, frame = one.sensor.element.parent, one.frame
     if frame is None or block is None:
         return None
     if frame is one.link:
-        return written_value(block, "reference") or None
+        return get_written_value(block, "reference") or None
     if is_computed(frame.element) and frame.element.calls != one.sensor.element.calls:
         return None
-    return written_value(frame.element, "name") or None
+    return get_written_value(frame.element, "name") or None
 
 
-class Frameless(NamedTuple):
+class SensorWithoutFrame(NamedTuple):
     """A sensor without a frame for new Gazebo.
 
     Attributes:
@@ -259,44 +261,44 @@ class Frameless(NamedTuple):
     frame: Link | None
 
 
-def without_frame(robot: Robot) -> Iterator[Frameless]:
+def find_sensors_without_frame(robot: Robot) -> Iterator[SensorWithoutFrame]:
     """Yield the sensors of links that have no frame."""
-    for block, sensor in _sensors(robot):
+    for block, sensor in _iterate_sensors(robot):
         if sensor.type in _WITH_FRAME and block.reference in robot.link:
             tags = {child.tag for child in sensor.element.walk()}
             if not tags & {"gz_frame_id", "ignition_frame_id", "optical_frame_id"}:
                 link = robot.link[block.reference]
-                yield Frameless(sensor, link, _frame_at(robot, link, sensor))
+                yield SensorWithoutFrame(sensor, link, _find_link_at(robot, link, sensor))
 
 
-def _frame_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:
+def _find_link_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:
     """Find the link at the pose of a sensor; None if there is none."""
-    pose = pose_in_link(sensor)
+    pose = get_pose_in_link(sensor)
     if pose is None:
         return None
     found = (
         other
-        for other, at in attached_links(robot, link)
+        for other, at in find_attached_links(robot, link)
         if math.dist(at.translation, pose.translation) < 1e-4
         and all(math.dist(a, b) < 2e-3 for a, b in zip(at.rotation, pose.rotation, strict=True))
     )
     return next(found, None)
 
 
-def pose_in_link(sensor: Sensor) -> Pose | None:
+def get_pose_in_link(sensor: Sensor) -> Pose | None:
     """Read the pose of a sensor in its link; None if it is in a different form."""
     element = sensor.element
     inner = [child.child("pose") for child in element.children if child.tag in _OPTICS]
-    if any(one is not None and any(numbers(one.text, 6) or (1.0,)) for one in inner):
+    if any(one is not None and any(parse_numbers(one.text, 6) or (1.0,)) for one in inner):
         return None  # the camera has a pose in its sensor
     pose = element.child("pose")
     if pose is None:
         return IDENTITY
-    values = numbers(pose.text, 6)
+    values = parse_numbers(pose.text, 6)
     if values is None or pose.attributes:
         return None
     x, y, z, roll, pitch, yaw = values
-    return Pose(rotation_of_rpy((roll, pitch, yaw)), (x, y, z))
+    return Pose(rotation_from_rpy((roll, pitch, yaw)), (x, y, z))
 
 
 @rule(
@@ -313,10 +315,10 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
     the links into one body.
     """
     seen: dict[tuple[str, str], str] = {}
-    for block, sensor in _sensors(robot):
+    for block, sensor in _iterate_sensors(robot):
         if block.reference not in robot.link or not sensor.name:
             continue
-        body = body_of(robot, block.reference)
+        body = get_lumped_body(robot, block.reference)
         other = seen.get((body, sensor.name))
         seen.setdefault((body, sensor.name), block.reference)
         if other is not None:
@@ -333,7 +335,7 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
 @duplicate_sensor_name.fix(UNSAFE)
 def number_sensor(problem: Problem, context: FixContext) -> Proposal | None:
     """Append a number to the duplicate name."""
-    return append_number(problem, {sensor.name for _, sensor in _sensors(context.robot)})
+    return append_number(problem, {sensor.name for _, sensor in _iterate_sensors(context.robot)})
 
 
 _SENSOR_LINK = re.compile(r"camera|lidar|laser|(^|_)(scan|imu|gps)(_|$)", re.IGNORECASE)
@@ -353,11 +355,13 @@ def missing_sensor_tag(robot: Robot) -> Iterator[Problem]:
     A link without a ``<sensor>`` measures nothing. It is not reported if a link that is fixed to it
     has the sensor.
     """
-    sensing = {body_of(robot, block.reference or "") for block, _ in _sensors(robot)}
+    sensing = {
+        get_lumped_body(robot, block.reference or "") for block, _ in _iterate_sensors(robot)
+    }
     for link in robot.links:
         if not _SENSOR_LINK.search(link.name) or "optical" in link.name:
             continue
-        if (link.visuals or link.collisions) and body_of(robot, link.name) not in sensing:
+        if (link.visuals or link.collisions) and get_lumped_body(robot, link.name) not in sensing:
             yield Problem(
                 link,
                 f"link '{link.name}' has no <sensor>; write one into a "
@@ -365,7 +369,7 @@ def missing_sensor_tag(robot: Robot) -> Iterator[Problem]:
             )
 
 
-_RENDERED = words(
+_RENDERED = split_words(
     "boundingbox boundingbox_camera camera depth depth_camera gpu_lidar gpu_ray lidar multicamera "
     "rgbd rgbd_camera segmentation segmentation_camera thermal thermal_camera wide_angle_camera "
     "wideanglecamera"
@@ -404,7 +408,7 @@ def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
     """
     loaded = [plugin.filename for block in robot.gazebo for plugin in block.plugins]
     found: dict[str, Sensor] = {}
-    for _, sensor in _sensors(robot):
+    for _, sensor in _iterate_sensors(robot):
         system = _SYSTEM_OF.get(sensor.type)
         if system is not None and not any(f"-{system}-system" in name for name in loaded):
             found.setdefault(system, sensor)

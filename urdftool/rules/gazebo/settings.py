@@ -11,20 +11,20 @@ from ..fix import (
     Change,
     FixContext,
     Proposal,
-    element_at,
     escape_attribute,
+    find_element,
+    get_written_value,
     insert_after,
     remove_element,
     rename_element,
     safe,
     unsafe,
-    written_value,
 )
 from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import quoted
-from .contact import contact_role
+from ..words import quote
+from .contact import get_contact_role
 from .keywords import NOT_IN_GZ
-from .tags import material_lines
+from .tags import format_material
 
 
 @rule(
@@ -57,7 +57,7 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
 @deprecated_cfm_damping.fix(SAFE)
 def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Proposal | None:
     """Write ``implicitSpringDamper``, if the block does not have it."""
-    element = element_at(problem)
+    element = find_element(problem)
     parent = element.parent if element is not None else None
     if element is None or parent is None or parent.child("implicitSpringDamper") is not None:
         return None
@@ -88,7 +88,7 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
                 found.setdefault(child.tag, []).append((block.element, child))
     if found:
         block_, first = next(iter(found.values()))[0]
-        words = quoted(found, 6).replace("'", "")
+        words = quote(found, 6).replace("'", "")
         count = sum(map(len, found.values()))
         times = f" ({count} times)" if count > 1 else ""
         have = "have" if len(found) > 1 else "has"
@@ -176,7 +176,7 @@ def remove_script(problem: Problem, context: FixContext) -> Proposal | None:
                 named = element.tag == "material" and value == name
             if not named:
                 continue
-            if link is None or material_lines(link, context.robot) is None:
+            if link is None or format_material(link, context.robot) is None:
                 return None
             changes.append(remove_element(element))
     return safe("use the color of the URDF", *changes) if changes else None
@@ -197,7 +197,7 @@ def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
     ``kp`` of 1e6 N/m, a ``kd`` of 100 N s/m and a ``minDepth`` of 1 mm.
     """
     for link in robot.links:
-        role = contact_role(robot, link)
+        role = get_contact_role(robot, link)
         if not role:
             continue
         words = {
@@ -214,13 +214,13 @@ def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
 @missing_contact_parameters.fix(UNSAFE)
 def write_contact_parameters(problem: Problem, context: FixContext) -> Proposal | None:
     """Write a stiffness of 1e6 N/m, a damping of 100 N s/m and a depth of 1 mm."""
-    link = context.link(problem)
+    link = context.get_link(problem)
     lines = (("<kp>1e6</kp>",), ("<kd>100</kd>",), ("<minDepth>0.001</minDepth>",))
     blocks = context.robot.extensions.get(link.name)
     if blocks:
         return unsafe("write them", Change("insert", blocks[0].element, blocks=lines))
     block = (
-        f'<gazebo reference="{escape_attribute(written_value(link.element, "name"))}">',
+        f'<gazebo reference="{escape_attribute(get_written_value(link.element, "name"))}">',
         *(f"\t{line}" for one in lines for line in one),
         "</gazebo>",
     )

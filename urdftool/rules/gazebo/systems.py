@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...model.gazebo_plugins import CONTROL_PLUGINS, SYSTEM_PLUGINS, file_of
+from ...model.gazebo_plugins import CONTROL_PLUGINS, SYSTEM_PLUGINS, get_file
 
 CLASSIC = (
     *("libgazebo_ros", "libhector_gazebo", "libhector_", "libroboticsgroup_", "libgazebo_"),
@@ -54,7 +54,7 @@ SYSTEMS = {
 """Class by library, for libraries with one class."""
 
 REPLACEMENTS = {
-    **{old: file_of(systems[0]) for old, systems in SYSTEM_PLUGINS.items()},
+    **{old: get_file(systems[0]) for old, systems in SYSTEM_PLUGINS.items()},
     **dict.fromkeys(CONTROL_PLUGINS, "gz_ros2_control-system"),
     "gazebo_ros_tricycle_drive": "gz-sim-ackermann-steering-system",
     "gazebo_ros_force": "gz-sim-apply-link-wrench-system",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from ...model.bounds import size_of
+from ...model.bounds import compute_size
 from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
 from ..fix import (
     Change,
@@ -13,16 +13,16 @@ from ..fix import (
     append_child,
     depends_on_arguments,
     escape_attribute,
+    get_written_value,
     insert_after,
     safe,
     unsafe,
-    written_value,
 )
-from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, holding, rule
+from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from ..words import nearest
-from .contact import contact_role, has_friction
-from .lumping import body_of
+from .contact import get_contact_role, has_friction
+from .lumping import get_lumped_body
 
 _FRICTION = {
     "wheel": "<mu1> and <mu2> for its friction",
@@ -60,16 +60,16 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     """
     if targets.isdisjoint(GAZEBO) or _is_unclear(robot):
         return
-    colors = _colors(robot)
+    colors = _collect_materials(robot)
     names = {*robot.link, *robot.joint}
     meant = {nearest(name, names) for name in robot.extensions if name and name not in names}
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = None if _has_by_name(robot, link, has_friction) else contact_role(robot, link)
+        role = None if _has_from_body(robot, link, has_friction) else get_contact_role(robot, link)
         needs = [_FRICTION[role]] if role else []
         cases = ["without friction"] if role else []
-        if "gazebo-classic" in targets and _lacks_material(robot, link, colors):
+        if "gazebo-classic" in targets and _is_shown_gray(robot, link, colors):
             needs.append("<material>, because Gazebo Classic ignores the colors of a URDF")
             cases.append("without a color")
         if needs:
@@ -81,7 +81,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
                 severity=None if role else INFO,
                 data={"role": role or ""},
                 alike=(role == "caster", *cases),
-                effects=holding(_WITHOUT_BLOCK, *cases),
+                effects=select_holding(_WITHOUT_BLOCK, *cases),
                 group="{count} links have no <gazebo> block, and need "
                 f"{needed.replace(' its ', ' their ')}: {{names}}",
             )
@@ -94,18 +94,20 @@ def add_block(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     link, robot = problem.subject, context.robot
     inside: list[str] = []
-    role = contact_role(robot, link)
+    role = get_contact_role(robot, link)
     if role:
-        mu = _coefficient(role)
+        mu = _get_coefficient(role)
         inside += [f"<mu1>{mu}</mu1>", f"<mu2>{mu}</mu2>"]
-    if "gazebo-classic" in context.targets and _lacks_material(robot, link, _colors(robot)):
-        lines = material_lines(link, robot)
+    if "gazebo-classic" in context.targets and _is_shown_gray(
+        robot, link, _collect_materials(robot)
+    ):
+        lines = format_material(link, robot)
         if lines is not None:
             inside += ["<visual>", *(f"\t{line}" for line in lines), "</visual>"]
     if not inside:
         return None
     block = (
-        f'<gazebo reference="{escape_attribute(written_value(link.element, "name"))}">',
+        f'<gazebo reference="{escape_attribute(get_written_value(link.element, "name"))}">',
         *(f"\t{line}" for line in inside),
         "</gazebo>",
     )
@@ -135,10 +137,10 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
     """
     if _is_unclear(robot):
         return
-    colors = _colors(robot)
+    colors = _collect_materials(robot)
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not _has_material(blocks) and _lacks_material(robot, link, colors):
+        if blocks and not _has_material(blocks) and _is_shown_gray(robot, link, colors):
             yield Problem(
                 link,
                 f"link '{link.name}' has a color that Gazebo Classic ignores; write "
@@ -152,8 +154,8 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
 @missing_gazebo_material.fix(SAFE)
 def write_material(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the color of the URDF into the block."""
-    link = context.link(problem)
-    lines = material_lines(link, context.robot)
+    link = context.get_link(problem)
+    lines = format_material(link, context.robot)
     blocks = context.robot.extensions.get(link.name)
     if lines is None or not blocks:
         return None
@@ -165,9 +167,9 @@ def write_material(problem: Problem, context: FixContext) -> Proposal | None:
     return safe("write its color", append_child(block, *inside))
 
 
-def material_lines(link: Link, robot: Robot) -> tuple[str, ...] | None:
+def format_material(link: Link, robot: Robot) -> tuple[str, ...] | None:
     """Format the color of a link's visuals as SDF; None if they have several colors."""
-    colors = _colors(robot)
+    colors = _collect_materials(robot)
     found = set()
     for visual in link.visuals:
         material = visual.material
@@ -187,7 +189,7 @@ def material_lines(link: Link, robot: Robot) -> tuple[str, ...] | None:
     )
 
 
-def _has_by_name(
+def _has_from_body(
     robot: Robot, link: Link, is_there: Callable[[list[GazeboExtension]], bool]
 ) -> bool:
     """Tell whether sdformat gives a lumped link the settings of the link that it is lumped into.
@@ -195,7 +197,7 @@ def _has_by_name(
     It applies the blocks of that link to each part whose name begins with its name (run: sdformat
     12.3, friction and material).
     """
-    body = body_of(robot, link.name)
+    body = get_lumped_body(robot, link.name)
     return (
         body != link.name
         and link.name.startswith(body)
@@ -222,8 +224,8 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
         return
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not has_friction(blocks) and not _has_by_name(robot, link, has_friction):
-            role = contact_role(robot, link)
+        if blocks and not has_friction(blocks) and not _has_from_body(robot, link, has_friction):
+            role = get_contact_role(robot, link)
             if role:
                 yield Problem(
                     link,
@@ -241,24 +243,24 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
 @missing_friction.fix(UNSAFE)
 def write_friction(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the friction of rubber, or 0 for a caster."""
-    link = context.link(problem)
-    role = contact_role(context.robot, link)
+    link = context.get_link(problem)
+    role = get_contact_role(context.robot, link)
     blocks = context.robot.extensions.get(link.name)
     if not role or not blocks:
         return None
-    mu = _coefficient(role)
+    mu = _get_coefficient(role)
     change = Change(
         "insert", blocks[0].element, blocks=((f"<mu1>{mu}</mu1>",), (f"<mu2>{mu}</mu2>",))
     )
     return unsafe(f"write mu1 and mu2 of {mu}", change)
 
 
-def _coefficient(role: str) -> str:
+def _get_coefficient(role: str) -> str:
     """Get the friction coefficient of a link by its role."""
     return "0.0" if role == "caster" else "1.0"
 
 
-def _colors(robot: Robot) -> dict[str, Material]:
+def _collect_materials(robot: Robot) -> dict[str, Material]:
     """Collect all materials by name."""
     found = {m.name: m for m in robot.materials if m.name}
     for link in robot.links:
@@ -269,12 +271,12 @@ def _colors(robot: Robot) -> dict[str, Material]:
     return found
 
 
-def _lacks_material(robot: Robot, link: Link, colors: dict[str, Material]) -> bool:
+def _is_shown_gray(robot: Robot, link: Link, colors: dict[str, Material]) -> bool:
     """Tell whether Gazebo Classic shows a link without its color."""
-    return _shows_color(link, colors) and not _has_by_name(robot, link, _has_material)
+    return _has_visible_color(link, colors) and not _has_from_body(robot, link, _has_material)
 
 
-def _shows_color(link: Link, colors: dict[str, Material]) -> bool:
+def _has_visible_color(link: Link, colors: dict[str, Material]) -> bool:
     """Tell whether a visual has a URDF color that is not gray, and is not a marker."""
     for visual in link.visuals:
         material, shape = visual.material, visual.geometry
@@ -282,7 +284,7 @@ def _shows_color(link: Link, colors: dict[str, Material]) -> bool:
             continue
         if isinstance(shape, Mesh) and not shape.filename.lower().endswith(".stl"):
             continue  # such meshes have their own colors
-        size = size_of(shape)
+        size = compute_size(shape)
         if size is not None and max(size) <= _MARKER:
             continue
         if material.color is None and material.texture is None:

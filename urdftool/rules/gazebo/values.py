@@ -11,8 +11,8 @@ from ...source.document import Element
 from ..fix import (
     FixContext,
     Proposal,
-    element_at,
     escape_attribute,
+    find_element,
     insert_after,
     safe,
     set_attribute,
@@ -20,16 +20,16 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..simulation.mujoco_values import required_attribute_value, setting_elements
+from ..simulation.mujoco_values import describe_required_setting, find_setting_elements
 from ..unexpanded import is_unexpanded
 from .block_values import (
     OF_JOINT,
-    kind_of_value,
-    required_keyword_value,
-    required_value,
-    value_of,
+    describe_required_keyword_value,
+    describe_required_value,
+    get_kind,
+    get_value,
 )
-from .contact import contact_role
+from .contact import get_contact_role
 from .keywords import NUMBERS
 
 APPLIES_TO = ("gazebo",)
@@ -81,7 +81,7 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
 
 
 @bad_extension_number.full
-def every_bad_extension_value(robot: Robot) -> Iterator[Problem]:
+def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
     """Report each value of an extension that the reader of the extension rejects.
 
     ``Problem.data`` has the ``holder``: a ``keyword`` of a link or joint, with the ``kind`` of its
@@ -93,24 +93,27 @@ def every_bad_extension_value(robot: Robot) -> Iterator[Problem]:
         parts = [part for part in (robot.link.get(name), robot.joint.get(name)) if part is not None]
         for element in block.element.children:
             of_joint = element.tag in OF_JOINT
-            required = required_keyword_value(element)
+            required = describe_required_keyword_value(element)
             for part in parts if required else ():
                 if isinstance(part, Joint) == of_joint:
-                    text = f"<{element.tag}> of '{name}' is '{value_of(element)}', not {required}"
-                    kind = kind_of_value(element.tag)
+                    text = f"<{element.tag}> of '{name}' is '{get_value(element)}', not {required}"
+                    kind = get_kind(element.tag)
                     yield Problem(part, text, at=element, data={"holder": "keyword", "kind": kind})
-        for element in _sdf_elements(block.element):
-            if required := required_value(element):
+        for element in _iterate_sdf_elements(block.element):
+            if required := describe_required_value(element):
                 above = element.parent.tag if element.parent is not None else block.element.tag
                 yield Problem(
                     parts[0] if parts else block.element,
                     f"<{element.tag}> of <{above}> is '{element.text.strip()}', not {required}",
                     at=element,
-                    data={"holder": "element", "is_loop": _places_loop(block.element, element)},
+                    data={
+                        "holder": "element",
+                        "is_loop": _is_loop_placement(block.element, element),
+                    },
                 )
-    for element in setting_elements(robot):
+    for element in find_setting_elements(robot):
         for attribute, value in element.attributes.items():
-            if required := required_attribute_value(element, attribute):
+            if required := describe_required_setting(element, attribute):
                 yield Problem(
                     element,
                     f'{attribute}="{value}" of <{element.tag}> in <mujoco> is not {required}',
@@ -119,7 +122,7 @@ def every_bad_extension_value(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-def _sdf_elements(block: Element) -> Iterator[Element]:
+def _iterate_sdf_elements(block: Element) -> Iterator[Element]:
     """Yield the elements of a block that are not in plugins, in document order."""
     todo = [*reversed(block.children)]
     while todo:
@@ -129,7 +132,7 @@ def _sdf_elements(block: Element) -> Iterator[Element]:
             todo.extend(reversed(element.children))
 
 
-def _places_loop(block: Element, element: Element) -> bool:
+def _is_loop_placement(block: Element, element: Element) -> bool:
     """Tell whether an element is the pose or the axis of a joint in a block."""
     above = element.parent
     if element.tag == "xyz" and above is not None and above.tag == "axis":
@@ -142,7 +145,7 @@ def _places_loop(block: Element, element: Element) -> bool:
 @bad_extension_number.fix(SAFE)
 def write_leading_number(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the leading number, which Gazebo reads."""
-    element = element_at(problem)
+    element = find_element(problem)
     number = problem.data.get("write", "")
     if not number or element is None:
         return None
@@ -185,7 +188,7 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
 @half_friction.fix(UNSAFE)
 def write_other_friction(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the same friction in the other direction."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None or element.tag not in ("mu1", "mu2"):
         return None
     other = "mu2" if element.tag == "mu1" else "mu1"
@@ -206,10 +209,10 @@ def _is_alike(block: GazeboExtension) -> bool:
     return one is not None and one == other
 
 
-def _holds(robot: Robot, name: str | None) -> bool:
+def _is_gripping(robot: Robot, name: str | None) -> bool:
     """Tell whether a link grips, by its name or shape: a finger, a wheel or a foot."""
     link = robot.link.get(name or "")
-    return link is not None and bool(_HOLDS.search(link.name) or contact_role(robot, link))
+    return link is not None and bool(_HOLDS.search(link.name) or get_contact_role(robot, link))
 
 
 @rule(
@@ -230,7 +233,7 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
     reported: set[tuple[str, float]] = set()
     for block in robot.gazebo:
         found: dict[tuple[bool, bool], tuple[str, list[Element], list[str]]] = {}
-        meant = _holds(robot, block.reference) and _is_alike(block)
+        meant = _is_gripping(robot, block.reference) and _is_alike(block)
         for child in block.element.children:
             if child.tag not in ("mu1", "mu2", "kp"):
                 continue

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
-from ..fix import FixContext, Proposal, element_at, rename_element, unsafe
+from ..fix import FixContext, Proposal, find_element, rename_element, unsafe
 from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..words import fold, nearest
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS, ROBOT_KEYWORDS
@@ -15,7 +15,7 @@ from .sdf_names import SDF_CHILDREN
 
 APPLIES_TO = ("gazebo",)
 
-_INSTEAD = {
+_REMEDIES = {
     "mu": "write <mu1> and <mu2>",
     "friction": "write <mu1> and <mu2>, or <collision><surface><friction>…",
     "surface": "write it inside <collision>",
@@ -49,17 +49,17 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
     """
     unknown: dict[str, list[tuple[str, GazeboExtension, Element]]] = {}
     for block in robot.gazebo:
-        known, parent = _known(robot, block)
+        known, parent = _get_known_elements(robot, block)
         for child in block.element.children:
             tag = child.tag
             if tag == "sensor":
-                yield from _in_sdf(child)
+                yield from _check_sdf(child)
             elif tag == "plugin":
-                yield from _in_plugin(child)
+                yield from _check_plugin(child)
             elif tag == "ros2_control":
                 continue  # ros2-control-nested reports it
             elif parent and tag not in known and tag not in KEYWORDS and ":" not in tag:
-                problem = _misspelt(block, child, known, parent)
+                problem = _report_misspelled(block, child, known, parent)
                 if problem is not None:
                     yield problem
                 else:
@@ -79,7 +79,7 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
 @unknown_extension.fix(UNSAFE)
 def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the element that Gazebo reads."""
-    element, word = element_at(problem), problem.data.get("write", "")
+    element, word = find_element(problem), problem.data.get("write", "")
     if element is None or not word.replace("_", "").isalnum():
         return None
     if element.parent is None or element.parent.child(word) is not None:
@@ -87,7 +87,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     return unsafe(f"write <{word}>", rename_element(element, word))
 
 
-def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
+def _get_known_elements(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
     """Get the elements that a block may contain, and the SDF element that it is copied to."""
     name = block.reference
     if not name:
@@ -101,14 +101,14 @@ def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
     return frozenset(), ""
 
 
-def _misspelt(
+def _report_misspelled(
     block: GazeboExtension, child: Element, known: frozenset[str], parent: str
 ) -> Problem | None:
     """Report a misspelled element; None if no similar element is known."""
     tag = child.tag
-    instead, right = _INSTEAD.get(tag, ""), _RENAMED.get(tag, "")
+    instead, right = _REMEDIES.get(tag, ""), _RENAMED.get(tag, "")
     if not instead and not right:
-        right = _near(tag, known | KEYWORDS)
+        right = _suggest_element(tag, known | KEYWORDS)
     if not instead and not right:
         return None
     return Problem(
@@ -120,15 +120,15 @@ def _misspelt(
     )
 
 
-def _in_sdf(element: Element) -> Iterator[Problem]:
+def _check_sdf(element: Element) -> Iterator[Problem]:
     """Report misspelled elements in a sensor and its descendants."""
     known = SDF_CHILDREN.get(element.tag)
     for child in element.children:
         if child.tag == "plugin":
-            yield from _in_plugin(child)
+            yield from _check_plugin(child)
             continue
         if known is not None and child.tag not in known and ":" not in child.tag:
-            near = _near(child.tag, known)
+            near = _suggest_element(child.tag, known)
             if near:
                 yield Problem(
                     element,
@@ -138,10 +138,10 @@ def _in_sdf(element: Element) -> Iterator[Problem]:
                     data={"write": near},
                 )
                 continue
-        yield from _in_sdf(child)
+        yield from _check_sdf(child)
 
 
-def _in_plugin(plugin: Element) -> Iterator[Problem]:
+def _check_plugin(plugin: Element) -> Iterator[Problem]:
     library = (plugin.get("filename") or "").rpartition("/")[2]
     if not library.startswith(LIBRARIES):
         return
@@ -150,7 +150,7 @@ def _in_plugin(plugin: Element) -> Iterator[Problem]:
         if tag in PARAMETERS or ":" in tag or len(tag) < 5:
             continue
         near = nearest(tag, PARAMETERS, 0.86)
-        if near and fold(near) != fold(tag) and not _variant(tag, near):
+        if near and fold(near) != fold(tag) and not _is_variant(tag, near):
             yield Problem(
                 plugin,
                 f"plugin '{plugin.get('name') or library}' has the unknown parameter <{tag}>; "
@@ -160,7 +160,7 @@ def _in_plugin(plugin: Element) -> Iterator[Problem]:
             )
 
 
-def _variant(tag: str, near: str) -> bool:
+def _is_variant(tag: str, near: str) -> bool:
     """Tell whether two words differ by a number, a plural or an additional word."""
     a, b = fold(tag), fold(near)
     letters = "".join(c for c in a if not c.isdigit()), "".join(c for c in b if not c.isdigit())
@@ -169,7 +169,7 @@ def _variant(tag: str, near: str) -> bool:
     return a.endswith(b) or b.endswith(a) or abs(len(a) - len(b)) > 1
 
 
-def _near(tag: str, known: frozenset[str]) -> str:
+def _suggest_element(tag: str, known: frozenset[str]) -> str:
     near = nearest(tag, known, 0.8)
     if near and fold(near) != fold(tag) and (len(tag) < 4 or abs(len(tag) - len(near)) > 2):
         return ""

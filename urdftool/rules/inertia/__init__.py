@@ -6,7 +6,7 @@ FILES = (
     "mass",
     "density",
     "tensor",
-    "slips",
+    "typing_mistakes",
     "size",
     "center",
     "frame",

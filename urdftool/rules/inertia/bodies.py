@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine_links
-from ...model.attached import attached_links
+from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot
 from ..gazebo.lumping import is_lumped
 
@@ -19,7 +19,7 @@ _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 _TRUE = ("true", "1", "yes")
 
 
-def bodies(robot: Robot) -> dict[str, list[Link]]:
+def find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     """Group the links by rigid body; the key is the name of the body's topmost link.
 
     Gazebo lumps a link into its parent over a fixed joint, unless the joint's ``<gazebo>`` says to
@@ -43,7 +43,7 @@ def bodies(robot: Robot) -> dict[str, list[Link]]:
     return found
 
 
-def massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
+def find_massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
     """List links without mass that sdformat 12.3 lumps, each with the link it is lumped into.
 
     It lumps the children of a link in the order of the names of their joints, each after its own
@@ -63,16 +63,21 @@ def massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
                     pairs.append((link, robot.link[joint.child]))
         lumps[name] = mass, has_inertial
     if pairs:
-        kept = {one.name for links in bodies(robot).values() if mass_of(links) > 0 for one in links}
+        kept = {
+            one.name
+            for links in find_rigid_bodies(robot).values()
+            if compute_mass(links) > 0
+            for one in links
+        }
         yield from (pair for pair in reversed(pairs) if pair[0].name in kept)
 
 
-def mass_of(links: list[Link]) -> float:
+def compute_mass(links: list[Link]) -> float:
     """Add up the mass of the links of a rigid body [kg]."""
     return sum(link.mass for link in links)
 
 
-def body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
+def compute_body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
     """Add up the mass properties of the links of one body, in the frame of its first link.
 
     Args:
@@ -81,27 +86,27 @@ def body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
     """
     members = list(links)
     names = {link.name for link in members}
-    around = attached_links(robot, members[0])
+    around = find_attached_links(robot, members[0])
     return combine_links([(link, pose) for link, pose in around if link.name in names])
 
 
-def negligible(robot: Robot, light: float) -> set[str]:
+def find_negligible_links(robot: Robot, light: float) -> set[str]:
     """Find the links that hardly influence the center of mass of the robot or of their body."""
-    least = light * mass_of(robot.links)
+    least = light * compute_mass(robot.links)
     return {
         link.name
-        for links in bodies(robot).values()
+        for links in find_rigid_bodies(robot).values()
         for link in links
-        if link.mass < max(least, 10 * light * mass_of(links))
+        if link.mass < max(least, 10 * light * compute_mass(links))
     }
 
 
-def slight_parts(robot: Robot) -> set[str]:
+def find_slight_parts(robot: Robot) -> set[str]:
     """Find the links whose inertia is negligible compared with that of their rigid body."""
     found: set[str] = set()
-    for links in bodies(robot).values():
+    for links in find_rigid_bodies(robot).values():
         if len(links) > 1:
-            whole = body_inertia(robot, links)
+            whole = compute_body_inertia(robot, links)
             most = 10 * LIGHT * sum(whole.tensor[i] for i in (0, 3, 5))
             most = max(most, whole.mass * _SMALL_RADIUS**2)
             found.update(

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from ...mechanics.mass_bounds import MARGIN, Misfit, misfit_of_com, shapes_in_words
+from ...mechanics.mass_bounds import MARGIN, Misfit, check_com, name_shapes
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.gltf_axes import is_gltf
-from ...model.pose import pose_of
+from ...model.pose import make_pose
 from ..fix import (
     FixContext,
     Proposal,
@@ -19,14 +19,14 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..mesh.outlines import reaches
+from ..mesh.link_extents import get_extents
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
-from .bodies import LIGHT, negligible
+from .bodies import LIGHT, find_negligible_links
 from .corrections import write_tensor
-from .frame import about_center
-from .proposals import attributes_text
+from .frame import compute_tensor_about_center
+from .proposals import format_tensor
 from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
-from .solids import box_of, centre_of_solids
+from .solids import compute_box, compute_solid_center
 from .tensors import is_zero
 
 
@@ -56,28 +56,28 @@ def com_outside_geometry(
     skipped because they hardly influence it.
     """
     remarks: list[tuple[Link, Misfit, list[str]]] = []
-    reach = reaches(robot)
-    skipped = negligible(robot, light)
+    reach = get_extents(robot)
+    skipped = find_negligible_links(robot, light)
     for link in robot.links:
         inertial = link.inertial
-        if inertial is None or not inertial.mass or link.name in skipped or _is_turned(link):
+        if inertial is None or not inertial.mass or link.name in skipped or _has_gltf(link):
             continue
-        box = reach.link(link)
+        box = reach.get_link_box(link)
         if box is None:
             continue
-        com, of_mesh = pose_of(inertial.origin).translation, has_mesh(link)
-        if misfit_of_com(box, com, of_mesh, margin=margin) is None:
+        com, of_mesh = make_pose(inertial.origin).translation, has_mesh(link)
+        if check_com(box, com, of_mesh, margin=margin) is None:
             continue
-        box = reach.meant(link, box)
+        box = reach.get_inertial_box(link, box)
         if box is None:
             continue
-        attached = [other.name for other, _ in reach.counted(link)]
-        shapes = shapes_in_words(attached)
-        found = misfit_of_com(box, com, of_mesh, margin=margin, shapes=shapes)
+        attached = [other.name for other, _ in reach.get_counted(link)]
+        shapes = name_shapes(attached)
+        found = check_com(box, com, of_mesh, margin=margin, shapes=shapes)
         if found is None:
             continue
         if found.certain:
-            yield _outside(link, found, attached)
+            yield _report_outside(link, found, attached)
         else:
             remarks.append((link, found, attached))
     also = ""
@@ -88,10 +88,10 @@ def com_outside_geometry(
         )
         also = f"; also outside: {', '.join(others)}"
         del remarks[1:]
-    yield from (_outside(*one, also) for one in remarks)
+    yield from (_report_outside(*one, also) for one in remarks)
 
 
-def _outside(link: Link, found: Misfit, attached: Sequence[str], also: str = "") -> Problem:
+def _report_outside(link: Link, found: Misfit, attached: Sequence[str], also: str = "") -> Problem:
     return Problem(
         link,
         f"center of mass of link '{link.name}' {found.sentence}{also}",
@@ -124,27 +124,27 @@ def inertial_not_at_com_suspect(
     add mass × distance² a second time. Links with less than ``light`` of the robot's mass, or ten
     times that part of the mass of their rigid body, are skipped because they hardly influence it.
     """
-    reach = reaches(robot)
-    skipped = negligible(robot, light)
+    reach = get_extents(robot)
+    skipped = find_negligible_links(robot, light)
     for link in robot.links:
         inertial = link.inertial
-        if inertial is None or not inertial.mass or link.name in skipped or _is_turned(link):
+        if inertial is None or not inertial.mass or link.name in skipped or _has_gltf(link):
             continue
         if inertial.origin is not None and any(inertial.origin.xyz):
             continue
         if inertial.inertia is not None and is_placeholder(link, inertial.inertia.six):
             continue  # placeholder-inertia reports it
-        box = reach.link(link)
-        if box is None or not _is_off_centre(link, box, far):
+        box = reach.get_link_box(link)
+        if box is None or not _is_off_center(link, box, far):
             continue
-        around = reach.meant(link, box)
-        if around is None or not _is_off_centre(link, around, far):
+        around = reach.get_inertial_box(link, box)
+        if around is None or not _is_off_center(link, around, far):
             continue
         noise = 1e-3 * math.dist(*box)
         digits = 1 - math.floor(math.log10(noise))
         center = [0.0 if abs(value) < noise else round(value, digits) for value in box.centre]
         shown = " ".join(f"{value:g}" for value in center)
-        remedy, of_inertia = _remedy(link, inertial, box)
+        remedy, of_inertia = _describe_remedy(link, inertial, box)
         yield Problem(
             link,
             f"mass of link '{link.name}' is at the origin of its frame, but its geometry is "
@@ -155,7 +155,7 @@ def inertial_not_at_com_suspect(
         )
 
 
-def _remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
+def _describe_remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
     """Describe what to write, depending on the point that the inertia is about.
 
     Returns:
@@ -164,14 +164,14 @@ def _remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
     remedy = "write its center of mass as the <origin> of its <inertial>"
     if inertial.inertia is None or is_zero(inertial.inertia.six, link.mass):
         return remedy, ""
-    right = about_center(link, inertial, box.centre, box)
+    right = compute_tensor_about_center(link, inertial, box.centre, box)
     if right is None:
         return f"{remedy}, and the inertia about that point", "unknown"
     if right == inertial.inertia.six:
         return remedy, ""
     return (
         f"{remedy}, and the inertia about that point, because the written one fits only about "
-        f"the link frame: {attributes_text(right)}",
+        f"the link frame: {format_tensor(right)}",
         "known",
     )
 
@@ -179,13 +179,13 @@ def _remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, str]:
 @inertial_not_at_com_suspect.fix(UNSAFE)
 def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the center of the geometry, and the inertia about it if it is about the frame."""
-    link = context.link(problem)
-    box, inertial = box_of(link), link.inertial
+    link = context.get_link(problem)
+    box, inertial = compute_box(link), link.inertial
     if box is None or inertial is None or inertial.inertia is None:
         return None
     if depends_on_arguments(link.element):
         return None
-    right = about_center(link, inertial, box.centre, box)
+    right = compute_tensor_about_center(link, inertial, box.centre, box)
     if right is None:
         return None
     if right != inertial.inertia.six:
@@ -198,18 +198,18 @@ def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | No
     return unsafe(f"move the center of mass to the center of the geometry, {center}", change)
 
 
-def _is_turned(link: Link) -> bool:
+def _has_gltf(link: Link) -> bool:
     """Tell whether a mesh of a link is glTF, which only some readers rotate from Y-up to Z-up."""
     return any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
 
 
-def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:
+def _is_off_center(link: Link, box: Bounds, far: float) -> bool:
     """Tell whether the origin of a link is inside its bounding box, far from the center."""
     lower, upper = box
     slack = 0.02 * math.dist(lower, upper)
     if max(lower) - slack > 0 or min(upper) + slack < 0:
         return False  # com-outside-geometry reports it
-    solid = centre_of_solids(link)
+    solid = compute_solid_center(link)
     if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
         return False  # the part to one side is thin
     return math.hypot(*box.centre) > far * math.dist(lower, upper)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Inertial, Robot
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..rule import ERROR, UNSAFE, Problem, rule
-from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
+from ..xml.vocabulary_table import find_misspelled_attributes, find_misspelled_children
 from .tensors import SIX
 
 
@@ -38,19 +38,19 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         if link.inertial is None:
             continue
-        missing, at = _missing(link.inertial)
+        missing, at = _find_missing(link.inertial)
         if missing:
             yield Problem(
                 link,
                 f"<inertial> of link '{link.name}' lacks {', '.join(missing)}; add what is missing",
                 at=at,
-                effects=_effects_of(link.inertial),
+                effects=_select_effects(link.inertial),
                 data={"missing": missing},
             )
 
 
 @incomplete_inertial.full
-def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
+def report_every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
     """Report each inertial that lacks an element or a number, even if one is misspelled."""
     for link in robot.links:
         if link.inertial is None or link.inertial.xml is None:
@@ -66,7 +66,7 @@ def every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
             yield Problem(link, text, at=link.inertial, data=data)
 
 
-def _effects_of(inertial: Inertial) -> set[str]:
+def _select_effects(inertial: Inertial) -> set[str]:
     mass, inertia = inertial.element.child("mass"), inertial.element.child("inertia")
     has_mass = mass is not None and "value" in mass.attributes
     has = "with" if has_mass else "without"
@@ -78,7 +78,7 @@ def _effects_of(inertial: Inertial) -> set[str]:
     return keys
 
 
-def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
+def _find_missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
     element = inertial.element
     missing: list[str] = []
     mass, inertia = element.child("mass"), element.child("inertia")
@@ -89,11 +89,11 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
     if inertia is None:
         missing.append("<inertia>")
     if mass is None or inertia is None:
-        if missing and (meant := misspelt_children(element)):
+        if missing and (meant := find_misspelled_children(element)):
             missing = [name for name in missing if name.strip("<>") not in meant.values()]
     if inertia is not None:
         lacking = [name for name in SIX if name not in inertia.attributes]
-        if lacking and (meant := misspelt_attributes(inertia)):
+        if lacking and (meant := find_misspelled_attributes(inertia)):
             lacking = [name for name in lacking if name not in meant.values()]
         if lacking and not missing:
             return lacking, Inertial(inertia)
@@ -104,7 +104,7 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
 @incomplete_inertial.fix(UNSAFE)
 def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | None:
     """Write 0 for missing products of inertia."""
-    inertial = context.link(problem).inertial
+    inertial = context.get_link(problem).inertial
     inertia = inertial.element.child("inertia") if inertial is not None else None
     if inertial is None or inertia is None or inertial.element.child("mass") is None:
         return None

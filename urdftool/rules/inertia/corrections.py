@@ -7,7 +7,7 @@ import math
 from ...mechanics.tensor import COMPONENTS, SymmetricTensor, rotate_tensor
 from ...mechanics.typo_detection import is_consistent
 from ...model.elements import Inertia, Inertial, Link, Vector
-from ...model.pose import pose_of, transpose
+from ...model.pose import make_pose, transpose
 from ..fix import (
     Change,
     FixContext,
@@ -21,14 +21,14 @@ from ..fix import (
     unsafe,
 )
 from ..rule import Problem
-from .proposals import attributes_text, proposal_of
-from .solids import DENSITY, box_of, only_shape, solid_tensor, solid_volume
+from .proposals import find_proposal, format_tensor
+from .solids import DENSITY, compute_box, compute_solid_tensor, compute_volume, get_only_shape
 
 _SMALL = (0.01, 1e-6)
 """Mass [kg] and moments [kg·m²] for a frame to which a simulator requires a mass."""
 
 
-def inertial_of_shapes(link: Link, context: FixContext) -> tuple[float, Lines] | None:
+def make_inertial(link: Link, context: FixContext) -> tuple[float, Lines] | None:
     """Compute the ``<inertial>`` of a link from its geometry, at the density of water.
 
     Returns:
@@ -36,25 +36,25 @@ def inertial_of_shapes(link: Link, context: FixContext) -> tuple[float, Lines] |
     """
     if depends_on_arguments(link.element, "visual", "collision"):
         return None
-    shape = only_shape(link)
-    volume = solid_volume(shape.geometry) if shape is not None else 0.0
+    shape = get_only_shape(link)
+    volume = compute_volume(shape.geometry) if shape is not None else 0.0
     if shape is not None and volume > 0:
-        mass, pose = DENSITY * volume, pose_of(shape.origin)
+        mass, pose = DENSITY * volume, make_pose(shape.origin)
         made = Link(link.element, link.name, visuals=link.visuals, collisions=link.collisions)
         made.inertial = Inertial(link.element, shape.origin, mass)
-        six = solid_tensor(made)
+        six = compute_solid_tensor(made)
         if six is None:
             return None
         rpy = format_numbers(shape.origin.rpy) if shape.origin is not None else ""
         is_turned = shape.origin is not None and any(shape.origin.rpy)
         is_alike = max(six[0], six[3], six[5]) == min(six[0], six[3], six[5])
         rpy = rpy if is_turned and not is_alike else ""
-        return mass, _inertial_lines(mass, format_numbers(pose.translation), six, rpy)
-    found = _weigh(link, context)
+        return mass, _format_inertial(mass, format_numbers(pose.translation), six, rpy)
+    found = _compute_mass_properties(link, context)
     if found is None:
         return None
     mass, center, six = found
-    return mass, _inertial_lines(mass, format_numbers(center, 6), six)
+    return mass, _format_inertial(mass, format_numbers(center, 6), six)
 
 
 def give_small_inertial(link: Link) -> Proposal | None:
@@ -62,22 +62,24 @@ def give_small_inertial(link: Link) -> Proposal | None:
     if link.inertial is not None or not link.is_frame:
         return None
     mass, moment = _SMALL
-    lines = _inertial_lines(mass, "0 0 0", (moment, 0.0, 0.0, moment, 0.0, moment))
+    lines = _format_inertial(mass, "0 0 0", (moment, 0.0, 0.0, moment, 0.0, moment))
     return unsafe(f"add a mass of {mass * 1000:g} g", prepend_child(link.element, *lines))
 
 
-def _inertial_lines(mass: float, center: str, six: SymmetricTensor, rpy: str = "") -> Lines:
+def _format_inertial(mass: float, center: str, six: SymmetricTensor, rpy: str = "") -> Lines:
     turn = f' rpy="{rpy}"' if rpy else ""
     return (
         "<inertial>",
         *([f'\t<origin xyz="{center}"{turn}/>'] if center != "0 0 0" or turn else []),
         f'\t<mass value="{mass:.6g}"/>',
-        f"\t<inertia {attributes_text(six)}/>",
+        f"\t<inertia {format_tensor(six)}/>",
         "</inertial>",
     )
 
 
-def _weigh(link: Link, context: FixContext) -> tuple[float, Vector, SymmetricTensor] | None:
+def _compute_mass_properties(
+    link: Link, context: FixContext
+) -> tuple[float, Vector, SymmetricTensor] | None:
     """Compute mass [kg], center of mass [m] and tensor [kg·m²] of a link from its meshes."""
     if context.compute_inertia is None:
         return None
@@ -86,22 +88,24 @@ def _weigh(link: Link, context: FixContext) -> tuple[float, Vector, SymmetricTen
 
 def write_meant_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the probably intended inertia; otherwise that of the geometry at the link's mass."""
-    link = context.link(problem)
+    link = context.get_link(problem)
     inertial = link.inertial
     if inertial is None or inertial.inertia is None:
         return None
-    return undo_slip(link, inertial, inertial.inertia) or write_inertia_of_shapes(problem, context)
+    return correct_slip(link, inertial, inertial.inertia) or write_inertia_of_shapes(
+        problem, context
+    )
 
 
-def undo_slip(link: Link, inertial: Inertial, inertia: Inertia) -> Proposal | None:
+def correct_slip(link: Link, inertial: Inertial, inertia: Inertia) -> Proposal | None:
     """Write the tensor that a single mistake explains."""
-    slip = proposal_of(link, inertial, inertia.six)
+    slip = find_proposal(link, inertial, inertia.six)
     return None if slip is None else write_tensor(link, slip.tensor)
 
 
 def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the inertia of the geometry at the link's mass, and the center if none is written."""
-    link = context.link(problem)
+    link = context.get_link(problem)
     inertial = link.inertial
     if inertial is None or not inertial.mass or inertial.mass <= 0 or inertial.inertia is None:
         return None
@@ -109,20 +113,20 @@ def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal |
         return None  # avoids reading meshes in vain
     if depends_on_arguments(link.element):
         return None
-    shape = only_shape(link)
-    six = solid_tensor(link)
+    shape = get_only_shape(link)
+    six = compute_solid_tensor(link)
     if six is not None and shape is not None and shape.geometry is not None:
         what = f"of a solid {shape.geometry.element.tag}"
         why = f"write the inertia {what} of {inertial.mass:g} kg"
-        return write_tensor(link, six, why, pose_of(shape.origin).translation)
-    found = _weigh(link, context)
+        return write_tensor(link, six, why, make_pose(shape.origin).translation)
+    found = _compute_mass_properties(link, context)
     if found is None:
         return None
     mass, center, tensor = found
     scale = inertial.mass / mass
     here = rotate_tensor(
         tuple(value * scale for value in tensor),  # type: ignore[arg-type]
-        transpose(pose_of(inertial.origin).rotation),
+        transpose(make_pose(inertial.origin).rotation),
     )
     return write_tensor(
         link, here, f"write the inertia of its geometry at {inertial.mass:g} kg", center
@@ -132,7 +136,7 @@ def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal |
 def write_proposed_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the inertia that the rule proposes, ``data["inertia"]``."""
     xx, xy, xz, yy, yz, zz = problem.data["inertia"]
-    return write_tensor(context.link(problem), (xx, xy, xz, yy, yz, zz))
+    return write_tensor(context.get_link(problem), (xx, xy, xz, yy, yz, zz))
 
 
 def write_tensor(
@@ -149,7 +153,7 @@ def write_tensor(
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or not is_consistent(six):
         return None
-    why = why or f"write {attributes_text(six)}"
+    why = why or f"write {format_tensor(six)}"
     element = inertial.inertia.element
     least = 1e-12 * max(map(abs, six))
     changes = [
@@ -173,8 +177,8 @@ def _move_center(link: Link, inertial: Inertial, center: Vector) -> list[Change]
     Returns:
         None if the current one comes from an expression.
     """
-    now = pose_of(inertial.origin).translation
-    box = box_of(link)
+    now = make_pose(inertial.origin).translation
+    box = compute_box(link)
     inside = box is not None and all(
         low <= value <= high for low, value, high in zip(box.low, now, box.high, strict=True)
     )

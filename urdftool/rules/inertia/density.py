@@ -8,9 +8,9 @@ from statistics import median
 from typing import NamedTuple
 
 from ...model.elements import Link, Robot
-from ..mesh.outlines import reaches
+from ..mesh.link_extents import get_extents
 from ..rule import WARNING, Problem, rule
-from .tensors import is_zero, tensors
+from .tensors import get_tensors, is_zero
 
 DENSER, DENSEST, FILLED, FITS, OTHERS = 3.0, 1.2, 0.35, 3.0, 4.0
 """Thresholds of :func:`mass_out_of_line`."""
@@ -50,7 +50,7 @@ def mass_out_of_line(
     solid box, are less than ``filled`` times the median of the others; the density that fits the
     inertia is within a factor ``fits`` of the others; and there are at least ``others`` links.
     """
-    found = outlier(robot, denser, densest, filled, fits, others)
+    found = find_outlier(robot, denser, densest, filled, fits, others)
     if found is None:
         return
     link = found.link
@@ -74,7 +74,7 @@ class Outlier(NamedTuple):
     """The mass that fits its inertia, at the usual ratio of the other links [kg]."""
 
 
-def outlier(
+def find_outlier(
     robot: Robot,
     denser: float = DENSER,
     densest: float = DENSEST,
@@ -86,7 +86,7 @@ def outlier(
 
     The arguments are those of :func:`mass_out_of_line`.
     """
-    bodies = list(_bodies(robot))
+    bodies = list(_get_bodies(robot))
     if len(bodies) <= others:
         return None
     body = max(bodies, key=lambda one: one.density)
@@ -104,13 +104,13 @@ def outlier(
     return Outlier(body.link, factor, body.link.mass * body.filled / usual_filled)
 
 
-def _bodies(robot: Robot) -> Iterator[_Body]:
+def _get_bodies(robot: Robot) -> Iterator[_Body]:
     """Get links with known mass, inertia and size; placeholders are skipped."""
-    reach = reaches(robot)
-    for link, _, six in tensors(robot):
+    reach = get_extents(robot)
+    for link, _, six in get_tensors(robot):
         if link.mass <= 0 or is_zero(six, link.mass) or six[0] == six[3] == six[5]:
             continue
-        box = reach.link(link)
+        box = reach.get_link_box(link)
         if box is None or min(box.size) <= _THINNEST:
             continue
         solid = link.mass / 12 * sum(length * length for length in box.size)

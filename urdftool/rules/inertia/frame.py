@@ -10,14 +10,14 @@ from ...mechanics.tensor import SymmetricTensor, rotate_tensor, shift_to_com
 from ...mechanics.typo_detection import is_consistent
 from ...model.bounds import Bounds
 from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Vector, Visual
-from ...model.pose import pose_of, transpose
+from ...model.pose import make_pose, transpose
 from ..fix import FixContext, Proposal
-from ..mesh.outlines import reaches
+from ..mesh.link_extents import get_extents
 from ..rule import UNSAFE, WARNING, Problem, rule
 from .corrections import write_proposed_inertia
-from .proposals import attributes_text, proposal_of
-from .solids import solid_tensor
-from .tensors import is_zero, tensors
+from .proposals import find_proposal, format_tensor
+from .solids import compute_solid_tensor
+from .tensors import get_tensors, is_zero
 
 HOLLOW = 1.7
 """Second moment of a body, relative to that of a solid box of its size, above which it is
@@ -55,13 +55,13 @@ def inertia_about_link_frame(robot: Robot) -> Iterator[Problem]:
     above that of a solid box of the link's size and requires mass outside of the geometry, or has
     products of inertia that the parallel axis theorem explains.
     """
-    for link, inertial, six in tensors(robot):
-        right = about_com(link, inertial, six, reaches(robot).link(link))
+    for link, inertial, six in get_tensors(robot):
+        right = compute_tensor_about_com(link, inertial, six, get_extents(robot).get_link_box(link))
         if right is not None:
             yield Problem(
                 link,
                 f"inertia of link '{link.name}' fits its geometry only about the link frame, but "
-                f"readers take it about the center of mass; write {attributes_text(right)}",
+                f"readers take it about the center of mass; write {format_tensor(right)}",
                 at=inertial.inertia,
                 data={"inertia": list(right)},
             )
@@ -73,7 +73,7 @@ def write_inertia_about_center(problem: Problem, context: FixContext) -> Proposa
     return write_proposed_inertia(problem, context)
 
 
-def about_com(
+def compute_tensor_about_com(
     link: Link, inertial: Inertial, six: SymmetricTensor, box: Bounds | None
 ) -> SymmetricTensor | None:
     """Compute the tensor about the center of mass, if the written one is about the link frame.
@@ -88,7 +88,7 @@ def about_com(
         The tensor [kg·m²] along the axes of the inertial; None if the written one may be correct,
         or is wrong in another way.
     """
-    mass, pose = link.mass, pose_of(inertial.origin)
+    mass, pose = link.mass, make_pose(inertial.origin)
     if box is None or mass <= 0 or not any(pose.translation) or is_zero(six, mass):
         return None
     tensor = rotate_tensor(six, pose.rotation)
@@ -96,13 +96,16 @@ def about_com(
     right = rotate_tensor(shifted, transpose(pose.rotation))
     if not is_consistent(shifted):
         return None
-    other = proposal_of(link, inertial, six)
+    other = find_proposal(link, inertial, six)
     if other is not None and other.kind != "origin":
         return None
-    solid = solid_tensor(link)
+    solid = compute_solid_tensor(link)
     if solid is not None and not _has_mesh(link):
-        size = _norm(solid)
-        if _distance(right, solid) <= UNIFORM * size and _distance(six, solid) >= 0.3 * size:
+        size = _compute_norm(solid)
+        if (
+            _compute_distance(right, solid) <= UNIFORM * size
+            and _compute_distance(six, solid) >= 0.3 * size
+        ):
             return right
     whole = mass / 12 * sum(length * length for length in box.size)
     if whole <= 0:  # the product of tiny numbers underflows
@@ -116,7 +119,7 @@ def about_com(
     return None
 
 
-def about_center(
+def compute_tensor_about_center(
     link: Link, inertial: Inertial, center: Vector, box: Bounds
 ) -> SymmetricTensor | None:
     """Compute the tensor about a center of mass that only the geometry determines.
@@ -133,13 +136,13 @@ def about_center(
     """
     if inertial.inertia is None:
         return None
-    six, rotation, mass = inertial.inertia.six, pose_of(inertial.origin).rotation, link.mass
+    six, rotation, mass = inertial.inertia.six, make_pose(inertial.origin).rotation, link.mass
     shifted = shift_to_com(rotate_tensor(six, rotation), mass, center)
     right = rotate_tensor(shifted, transpose(rotation))
-    solid = solid_tensor(link)
+    solid = compute_solid_tensor(link)
     if solid is not None and not _has_mesh(link):
         for one in (six, right):
-            if _distance(one, solid) <= UNIFORM * _norm(solid):
+            if _compute_distance(one, solid) <= UNIFORM * _compute_norm(solid):
                 return one
     whole = mass / 12 * sum(length * length for length in box.size)
     if whole <= 0:
@@ -164,12 +167,12 @@ def _has_mesh(link: Link) -> bool:
     return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
 
-def _distance(one: SymmetricTensor, other: SymmetricTensor) -> float:
+def _compute_distance(one: SymmetricTensor, other: SymmetricTensor) -> float:
     a, b, c, d, e, f = (x - y for x, y in zip(one, other, strict=True))
-    return _norm((a, b, c, d, e, f))
+    return _compute_norm((a, b, c, d, e, f))
 
 
-def _norm(six: SymmetricTensor) -> float:
+def _compute_norm(six: SymmetricTensor) -> float:
     """Compute the Frobenius norm of a symmetric matrix."""
     xx, xy, xz, yy, yz, zz = six
     return math.sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz))

@@ -7,7 +7,7 @@ from ...model.elements import Joint, Robot
 from ...model.pose import Pose, rotate
 
 
-def joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
+def compute_joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
     """Compute the inertia that a torque of a joint accelerates, all other joints being locked.
 
     The result is the inertia of everything below the joint, about its axis, in series with that
@@ -23,14 +23,16 @@ def joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
         has one.
     """
     carried = {joint.child, *robot.tree.descendants(joint.child)}
-    one = _about(robot, joint, poses, carried & set(poses))
-    other = _about(robot, joint, poses, set(poses) - carried)
+    one = _compute_about_axis(robot, joint, poses, carried & set(poses))
+    other = _compute_about_axis(robot, joint, poses, set(poses) - carried)
     if one <= 0:
         return 0.0
     return one * other / (one + other) if other > 0 else one
 
 
-def _about(robot: Robot, joint: Joint, poses: dict[str, Pose], links: set[str]) -> float:
+def _compute_about_axis(
+    robot: Robot, joint: Joint, poses: dict[str, Pose], links: set[str]
+) -> float:
     """Compute the inertia of links about the axis of a joint, or their mass if it slides."""
     masses = [(robot.link[name], poses[name]) for name in links if robot.link[name].mass > 0]
     if joint.type == "prismatic":
@@ -40,7 +42,7 @@ def _about(robot: Robot, joint: Joint, poses: dict[str, Pose], links: set[str]) 
     if not any(axis):
         return 0.0
     return sum(
-        link_inertia(link).moved(pose).moment_about(frame.translation, axis)
+        link_inertia(link).transform(pose).compute_moment_about(frame.translation, axis)
         for link, pose in masses
         if link.inertial is not None and link.inertial.inertia is not None
     )

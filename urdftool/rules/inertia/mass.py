@@ -6,17 +6,17 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.attached import attached_links
+from ...model.attached import find_attached_links
 from ...model.bounds import Bounds
 from ...model.elements import Link, Robot
-from ...model.millimeters import shapes_in_millimeters
+from ...model.millimeters import find_shapes_in_millimeters
 from ...source.location import Place
 from ..fix import FixContext, Proposal, remove_sign
-from ..mesh.outlines import Reaches, reaches
+from ..mesh.link_extents import LinkExtents, get_extents
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
-from ..words import some_of
-from .bodies import bodies, mass_of, massless_pairs
-from .solids import solid_volume
+from ..words import join_some
+from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
+from .solids import compute_volume
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
 _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
@@ -53,8 +53,8 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
     if not zero:
         return
-    yield from _pairs_without_mass(robot, targets)
-    body = {link.name: links for links in bodies(robot).values() for link in links}
+    yield from _report_massless_pairs(robot, targets)
+    body = {link.name: links for links in find_rigid_bodies(robot).values() for link in links}
     for link in zero:
         if link.name == "world" or link.inertial is None:
             continue
@@ -62,7 +62,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         joint = robot.tree.parent_joint(links[0].name)
         mass = link.inertial.child_xml("mass")
         at = mass.attribute_place("value") if mass is not None else None
-        if mass_of(links) > 0:
+        if compute_mass(links) > 0:
             tensor = link.inertial.inertia
             if tensor is not None and any(tensor.six):
                 yield Problem(
@@ -104,17 +104,17 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 
 
 @zero_mass.full
-def every_zero_mass(robot: Robot) -> Iterator[Problem]:
+def report_every_zero_mass(robot: Robot) -> Iterator[Problem]:
     """Report each link with mass 0, even if it is part of a body with a mass.
 
     A part without inertia is harmless, and so is a body on no moving joint.
     """
-    for link, value, place in _masses(robot):
+    for link, value, place in _get_masses(robot):
         if value != 0.0 or link.name == "world" or link.inertial is None:
             continue
-        members = [one for one, _ in attached_links(robot, link)]
+        members = [one for one, _ in find_attached_links(robot, link)]
         tensor, what = link.inertial.inertia, "; write its mass"
-        if mass_of(members) > 0:
+        if compute_mass(members) > 0:
             is_harmless = tensor is None or not any(tensor.six)
             what = "; the links that it is fixed to have a mass"
             if not is_harmless:
@@ -132,8 +132,8 @@ def every_zero_mass(robot: Robot) -> Iterator[Problem]:
         )
 
 
-def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    for parent, link in massless_pairs(robot):
+def _report_massless_pairs(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    for parent, link in find_massless_pairs(robot):
         if link.inertial is None:
             continue
         yield Problem(
@@ -163,7 +163,7 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
 
     The link accelerates against the force. Gazebo and MuJoCo reject it, PyBullet simulates it.
     """
-    for link, mass, place in _masses(robot):
+    for link, mass, place in _get_masses(robot):
         if mass < 0:
             yield Problem(
                 link,
@@ -195,9 +195,12 @@ def implausible_mass(
     are one metric ton and 10 mg. Frames without geometry may be lighter, because simulators
     require a mass even for them.
     """
-    reach = reaches(robot)
-    for link, mass, place in _masses(robot):
-        if not lightest <= mass <= heaviest and _density(reach.link(link), link, mass)[0]:
+    reach = get_extents(robot)
+    for link, mass, place in _get_masses(robot):
+        if (
+            not lightest <= mass <= heaviest
+            and _compute_density(reach.get_link_box(link), link, mass)[0]
+        ):
             continue  # implausible-density reports it more precisely
         if mass > heaviest:
             what = f"{mass:g} kg; if the unit is grams, write {mass / 1000:g}"
@@ -251,20 +254,20 @@ def implausible_density(
     """
     bounds = _DensityBounds(least, most, least_possible, most_possible, small, dummy, most_of_box)
     found = list(_find_densities(robot, bounds))
-    yield from (_of_density(one) for one in found if one.impossible)
+    yield from (_report_density(one) for one in found if one.impossible)
     remarks = [one for one in found if not one.impossible]
     also = ""
     if len(remarks) > together:
         names = [f"'{one.link.name}' {one.density:.3g}" for one in remarks[1:]]
-        also = f"; also implausible [kg/m³]: {some_of(names, 'links')}"
+        also = f"; also implausible [kg/m³]: {join_some(names, 'links')}"
         del remarks[1:]
-    yield from (_of_density(one, also) for one in remarks)
+    yield from (_report_density(one, also) for one in remarks)
 
 
 @implausible_density.full
-def every_implausible_density(robot: Robot) -> Iterator[Problem]:
+def report_every_implausible_density(robot: Robot) -> Iterator[Problem]:
     """Report each link whose mass does not fit its own size, without a limit on their number."""
-    return map(_of_density, _find_densities(robot, _DensityBounds(), of_body=False))
+    return map(_report_density, _find_densities(robot, _DensityBounds(), of_body=False))
 
 
 class _DensityBounds(NamedTuple):
@@ -305,22 +308,24 @@ def _find_densities(
         bounds: The thresholds.
         of_body: Whether to ignore a mass that is plausible for the rigid body of its link.
     """
-    reach = reaches(robot)
-    for link, mass, place in _masses(robot):
-        density, in_box = _density(reach.link(link), link, mass)
-        if any(shapes_in_millimeters(link)) or _is_incomplete(link):
+    reach = get_extents(robot)
+    for link, mass, place in _get_masses(robot):
+        density, in_box = _compute_density(reach.get_link_box(link), link, mass)
+        if any(find_shapes_in_millimeters(link)) or _is_incomplete(link):
             continue
         most = bounds.most_of_box if in_box else bounds.most
         if density is None or bounds.least <= density <= most:
             continue
         if in_box and bounds.least_possible <= density < bounds.least:
             continue
-        if of_body and _is_right_for_body(reach, link, density, bounds.least, bounds.most_of_box):
+        if of_body and _is_plausible_in_body(
+            reach, link, density, bounds.least, bounds.most_of_box
+        ):
             continue
-        if density > bounds.most and _is_mark(reach, link, mass, bounds.small):
+        if density > bounds.most and _is_marker(reach, link, mass, bounds.small):
             continue
         impossible = density > bounds.most_possible or density < bounds.least_possible
-        box = reach.link(link)
+        box = reach.get_link_box(link)
         if box is None or max(box.size) < bounds.small:
             impossible = False
         if density < bounds.least and mass <= bounds.dummy and _is_fixed(robot, link):
@@ -328,7 +333,7 @@ def _find_densities(
         yield _Density(link, place, density, in_box, impossible, density > most)
 
 
-def _of_density(found: _Density, also: str = "") -> Problem:
+def _report_density(found: _Density, also: str = "") -> Problem:
     link, where = found.link, " in its bounding box" if found.in_box else ""
     return Problem(
         link,
@@ -341,12 +346,12 @@ def _of_density(found: _Density, also: str = "") -> Problem:
     )
 
 
-def _is_mark(reach: Reaches, link: Link, mass: float, small: float) -> bool:
+def _is_marker(reach: LinkExtents, link: Link, mass: float, small: float) -> bool:
     """Tell whether a link is smaller than ``small`` [m] and fixed to much heavier links."""
-    box = reach.link(link)
+    box = reach.get_link_box(link)
     if box is None or max(box.size) >= small:
         return False
-    return sum(other.mass for other, _ in reach.attached(link)[1:]) >= 10 * mass
+    return sum(other.mass for other, _ in reach.get_attached(link)[1:]) >= 10 * mass
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:
@@ -354,26 +359,26 @@ def _is_fixed(robot: Robot, link: Link) -> bool:
     return joint is not None and joint.is_fixed
 
 
-def _is_right_for_body(
-    reach: Reaches, link: Link, density: float, least: float, most: float
+def _is_plausible_in_body(
+    reach: LinkExtents, link: Link, density: float, least: float, most: float
 ) -> bool:
     """Tell whether a link of implausible density is part of a body with a plausible one.
 
     Either its mass includes that of attached links without one, or another link of the body has
     most of the mass.
     """
-    attached = reach.attached(link)[1:]
+    attached = reach.get_attached(link)[1:]
     if not attached:
         return False
     if density < least:
         return any(other.mass >= link.mass for other, _ in attached)
-    own = reach.link(link)
-    box = reach.meant(link, own) if own is not None else None
+    own = reach.get_link_box(link)
+    box = reach.get_inertial_box(link, own) if own is not None else None
     volume = math.prod(box.size) if box is not None else 0.0
     return box is not own and (volume <= 0 or link.mass / volume <= most)
 
 
-def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:
+def _compute_density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:
     """Compute the density [kg/m³] of a link, and whether it is that in its bounding box.
 
     A single primitive counts as solid. For a mesh, and for several shapes, which may overlap, the
@@ -385,8 +390,8 @@ def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None,
     if mass <= 0:
         return None, False
     if len(link.visuals) <= 1 and len(link.collisions) <= 1:
-        volumes = [solid_volume(visual.geometry) for visual in link.visuals]
-        volumes += [solid_volume(collision.geometry) for collision in link.collisions]
+        volumes = [compute_volume(visual.geometry) for visual in link.visuals]
+        volumes += [compute_volume(collision.geometry) for collision in link.collisions]
         if volumes and min(volumes) > 0:
             return mass / max(volumes), False
     if box is None:
@@ -400,7 +405,7 @@ def _is_incomplete(link: Link) -> bool:
     return link.inertial is not None and link.inertial.inertia is None
 
 
-def _masses(robot: Robot) -> Iterator[tuple[Link, float, Place]]:
+def _get_masses(robot: Robot) -> Iterator[tuple[Link, float, Place]]:
     """Yield links with a readable mass, each with the mass [kg] and its location."""
     for link in robot.links:
         if link.inertial is not None and link.inertial.mass is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.attached import attached_links, is_fixed_to_world
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import MOVING_TYPES, Joint, Link, Robot
 from ..fix import (
     Change,
@@ -16,11 +16,11 @@ from ..fix import (
     remove_element,
     unsafe,
 )
-from ..gazebo.kept import kept_links
+from ..gazebo.lumped_model import find_kept_links
 from ..rule import ERROR, GAZEBO, INFO, ROS, UNSAFE, WARNING, Problem, rule
-from ..xml.vocabulary_table import misspelt_children
-from .bodies import bodies, mass_of
-from .solids import DENSITY, solid_volume
+from ..xml.vocabulary_table import find_misspelled_children
+from .bodies import compute_mass, find_rigid_bodies
+from .solids import DENSITY, compute_volume
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _MARKER = 1e-3  # [kg]
@@ -57,16 +57,16 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
     tops: dict[str, Link] | None = None
-    kept = kept_links(robot)
+    kept = find_kept_links(robot)
     for link in robot.links:
         if link.inertial is not None or link.is_frame or link.name == "world":
             continue
-        if link.xml is not None and "inertial" in misspelt_children(link.xml).values():
+        if link.xml is not None and "inertial" in find_misspelled_children(link.xml).values():
             continue
         if tops is None:
-            found = bodies(robot).values()
+            found = find_rigid_bodies(robot).values()
             tops = {one.name: links[0] for links in found for one in links}
-            heavy = {one.name for links in found if mass_of(links) > 0 for one in links}
+            heavy = {one.name for links in found if compute_mass(links) > 0 for one in links}
         joint = robot.tree.parent_joint(tops.get(link.name, link).name)
         moves = joint is not None and not joint.is_fixed
         held = is_fixed_to_world(robot, link)
@@ -81,7 +81,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             so = "; MuJoCo computes a mass at the density of water"
             several = "; MuJoCo computes their masses at the density of water"
         elif link.name in heavy:
-            others = [one for one, _ in attached_links(robot, link) if one.mass > 0]
+            others = [one for one, _ in find_attached_links(robot, link) if one.mass > 0]
             outcome, severity = "part", INFO
             so = f", and is fixed to link '{others[0].name}', which has one"
             several = ", and are fixed to links that have one"
@@ -105,13 +105,13 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             hint=_HINT if needs_mass else "",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
-            effects=_effects_without_inertial(robot, link, case),
+            effects=_select_effects(robot, link, case),
             alike=outcome,
         )
 
 
 @missing_inertial.full
-def every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
+def report_every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
     """Report each link with geometry and no inertial, regardless of what it is fixed to."""
     for link in robot.links:
         if link.inertial is None and not link.is_frame and link.name != "world":
@@ -119,7 +119,7 @@ def every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
             yield Problem(link, text, hint=_HINT)
 
 
-def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
+def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
     """Select the effects on a link without mass; MuJoCo welds the root to the world.
 
     Args:
@@ -127,7 +127,7 @@ def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[s
         link: Its link without an ``<inertial>``.
         in_gazebo: Case of the effect in Gazebo; empty for the effect without a case.
     """
-    body = [one for one, _ in attached_links(robot, link)]
+    body = [one for one, _ in find_attached_links(robot, link)]
     tops = [robot.tree.parent_joint(one.name) for one in body]
     keys = {"pybullet", "pinocchio, KDL, drake"}
     keys |= {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
@@ -143,7 +143,7 @@ def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[s
 def _is_marker(link: Link) -> bool:
     """Tell whether a link is so small that at the density of water its mass is below 1 g."""
     shapes = link.collisions or link.visuals
-    volumes = [solid_volume(shape.geometry) for shape in shapes]
+    volumes = [compute_volume(shape.geometry) for shape in shapes]
     return all(volumes) and 1000 * sum(volumes) < _MARKER
 
 
@@ -154,12 +154,12 @@ _LIGHTEST = 1e-5
 @missing_inertial.fix(UNSAFE)
 def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the inertial of the geometry at the density of water."""
-    link = context.link(problem)
+    link = context.get_link(problem)
     if problem.severity is INFO:
         return None  # the body has a mass, or does not need one
-    from .corrections import inertial_of_shapes
+    from .corrections import make_inertial
 
-    found = inertial_of_shapes(link, context)
+    found = make_inertial(link, context)
     if found is None or found[0] < _LIGHTEST:
         return None
     change = prepend_child(link.element, *found[1])
@@ -187,28 +187,28 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
     body is reported only if it is the only one, because then its ``<inertial>`` was probably lost.
     """
     bare, heavy = [], 0
-    for joint, name, links in moved_bodies(robot):
+    for joint, name, links in find_moved_bodies(robot):
         if _is_bare(links):
             bare.append((joint, name, links[0]))
-        heavy += mass_of(links) > 0
+        heavy += compute_mass(links) > 0
     if targets.isdisjoint(_SIMULATED) and (len(bare) > 1 or heavy < 3):
         return
-    yield from (_of_moved_body(robot, joint, name, link) for joint, name, link in bare)
+    yield from (_report_moved_body(robot, joint, name, link) for joint, name, link in bare)
 
 
 @massless_moving_body.full
-def every_massless_moving_body(robot: Robot) -> Iterator[Problem]:
+def report_every_massless_moving_body(robot: Robot) -> Iterator[Problem]:
     """Report each body without mass that a joint moves, also one with geometry."""
-    for joint, name, links in moved_bodies(robot):
-        if mass_of(links) <= 0:
-            yield _of_moved_body(robot, joint, name, links[0])
+    for joint, name, links in find_moved_bodies(robot):
+        if compute_mass(links) <= 0:
+            yield _report_moved_body(robot, joint, name, links[0])
 
 
-def _of_moved_body(robot: Robot, joint: Joint, name: str, link: Link) -> Problem:
+def _report_moved_body(robot: Robot, joint: Joint, name: str, link: Link) -> Problem:
     return Problem(
         link,
         f"joint '{joint.name}' moves link '{name}', which has no mass"
-        f"{_below(robot, name)}; add a small <inertial>, or make the joint fixed",
+        f"{_describe_descendants(robot, name)}; add a small <inertial>, or make the joint fixed",
         data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
     )
 
@@ -218,12 +218,12 @@ def add_small_inertial(problem: Problem, context: FixContext) -> Proposal | None
     """Add an inertial of 10 g to the frame."""
     from .corrections import give_small_inertial
 
-    return give_small_inertial(context.link(problem))
+    return give_small_inertial(context.get_link(problem))
 
 
-def moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
+def find_moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
     """List the rigid bodies on moving joints, each as joint, name of the topmost link and links."""
-    for name, links in bodies(robot).items():
+    for name, links in find_rigid_bodies(robot).items():
         joint = robot.tree.parent_joint(name)
         if joint is not None and not joint.is_fixed:
             yield joint, name, links
@@ -231,11 +231,11 @@ def moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
 
 def has_bare_moved_body(robot: Robot) -> bool:
     """Tell whether a joint moves a body without mass and geometry, which MuJoCo rejects."""
-    moved = (links for joint, _, links in moved_bodies(robot) if joint.type in MOVING_TYPES)
+    moved = (links for joint, _, links in find_moved_bodies(robot) if joint.type in MOVING_TYPES)
     return any(map(_is_bare, moved))
 
 
-def _below(robot: Robot, name: str) -> str:
+def _describe_descendants(robot: Robot, name: str) -> str:
     count = sum(1 for _ in robot.tree.descendants(name))
     if not count:
         return ""
@@ -245,7 +245,7 @@ def _below(robot: Robot, name: str) -> str:
 def _is_bare(links: list[Link]) -> bool:
     """Tell whether no link of a body has an inertial, nor geometry that requires one."""
     for link in links:
-        misspelled = {} if link.xml is None else misspelt_children(link.xml)
+        misspelled = {} if link.xml is None else find_misspelled_children(link.xml)
         if not link.is_frame or "inertial" in misspelled.values():
             return False
     return True
@@ -264,27 +264,27 @@ def massless_root_body(robot: Robot) -> Iterator[Problem]:
     Gazebo begins at the root: it omits a root without mass and all its descendants, so that no
     link remains. Only a root named ``world`` may have no mass.
     """
-    for name, links in bodies(robot).items():
+    for name, links in find_rigid_bodies(robot).items():
         joint = robot.tree.parent_joint(name)
         if name == "world" or (joint is not None and joint.parent != "world"):
             continue
         if joint is not None and not joint.is_fixed:
             continue
-        if not _is_bare(links) or not _moves_something(robot, links):
+        if not _is_bare(links) or not _has_moving_joint(robot, links):
             continue
-        yield _of_root(links[0])
+        yield _report_root(links[0])
 
 
 @massless_root_body.full
-def every_massless_root_body(robot: Robot) -> Iterator[Problem]:
+def report_every_massless_root_body(robot: Robot) -> Iterator[Problem]:
     """Report a root without mass, also one with geometry or without moving joints."""
     for root in robot.tree.roots:
-        links = [link for link, _ in attached_links(robot, root)]
-        if root.name != "world" and mass_of(links) <= 0:
-            yield _of_root(root)
+        links = [link for link, _ in find_attached_links(robot, root)]
+        if root.name != "world" and compute_mass(links) <= 0:
+            yield _report_root(root)
 
 
-def _of_root(root: Link) -> Problem:
+def _report_root(root: Link) -> Problem:
     return Problem(
         root,
         f"root link '{root.name}' and all links fixed to it have no mass; add an <inertial>, or "
@@ -292,7 +292,7 @@ def _of_root(root: Link) -> Problem:
     )
 
 
-def _moves_something(robot: Robot, links: list[Link]) -> bool:
+def _has_moving_joint(robot: Robot, links: list[Link]) -> bool:
     return any(not joint.is_fixed for link in links for joint in robot.tree.child_joints(link.name))
 
 
@@ -359,13 +359,13 @@ def is_needless(robot: Robot, root: Link) -> bool:
     """
     if root.mass >= _SLIGHT or root.visuals or root.collisions:
         return False
-    return any(link.mass > 0 for link, _ in attached_links(robot, root)[1:])
+    return any(link.mass > 0 for link, _ in find_attached_links(robot, root)[1:])
 
 
 @root_link_has_inertia.fix(UNSAFE)
 def add_root_link(problem: Problem, context: FixContext) -> Proposal | None:
     """Add a link without inertial above the root, on a fixed joint; or remove a needless one."""
-    robot, link = context.robot, context.link(problem)
+    robot, link = context.robot, context.get_link(problem)
     if link.element.parent is not robot.element or link.inertial is None:
         return None
     if link.name == "world" or (is_needless(robot, link) and "pybullet" not in context.targets):
@@ -411,7 +411,7 @@ def mass_without_geometry(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         if link.mass <= 0 or link.visuals or link.collisions:
             continue
-        if not any(one.visuals or one.collisions for one, _ in attached_links(robot, link)):
+        if not any(one.visuals or one.collisions for one, _ in find_attached_links(robot, link)):
             yield Problem(
                 link, f"link '{link.name}' has a mass of {link.mass:g} kg but no geometry"
             )

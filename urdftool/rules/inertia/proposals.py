@@ -5,16 +5,16 @@ from __future__ import annotations
 from ...mechanics.tensor import COMPONENTS, SymmetricTensor
 from ...mechanics.typo_detection import Proposal, infer_intended_tensor
 from ...model.elements import Inertial, Link, Robot
-from ...model.pose import UPRIGHT, pose_of, rotate, transpose
-from ..mesh.outlines import reaches
-from .solids import box_of, solid_kind, solid_tensor, solid_text
+from ...model.pose import IDENTITY_ROTATION, make_pose, rotate, transpose
+from ..mesh.link_extents import get_extents
+from .solids import compute_box, compute_solid_tensor, describe_solid, get_solid_kind
 
 
-def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposal | None:
+def find_proposal(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposal | None:
     """Find the one simple mistake that explains a tensor, along the axes it is written in."""
-    pose = pose_of(inertial.origin)
-    upright = pose.rotation == UPRIGHT
-    com, box = pose.translation, box_of(link)
+    pose = make_pose(inertial.origin)
+    upright = pose.rotation == IDENTITY_ROTATION
+    com, box = pose.translation, compute_box(link)
     if not upright:
         back = transpose(pose.rotation)
         com = rotate(back, com)
@@ -23,41 +23,41 @@ def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposa
         link.mass,
         com,
         six,
-        solid=solid_tensor(link),
+        solid=compute_solid_tensor(link),
         box=box,
         rotation=None if upright else pose.rotation,
     )
 
 
-def recomputing_hint(robot: Robot, link: Link) -> str:
+def get_recompute_hint(robot: Robot, link: Link) -> str:
     """Get the command that replaces the inertia of a link.
 
     Returns:
         An empty text if the size of the link is unknown, or if only ``lint`` reads the file.
     """
     source = robot.source
-    if (source is not None and source.repaired) or reaches(robot).link(link) is None:
+    if (source is not None and source.repaired) or get_extents(robot).get_link_box(link) is None:
         return ""
     return "'urdftool inertia robot --write --all --link LINK' writes that of its geometry"
 
 
-def remedy_text(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
+def describe_remedy(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
     """Describe the intended tensor; if it is not clear, that of a solid shape; or nothing."""
-    proposal = proposal_of(link, inertial, six)
+    proposal = find_proposal(link, inertial, six)
     if proposal is None:
-        return solid_text(link)
+        return describe_solid(link)
     if proposal.kind in ("decimal", "sign", "copied"):
         return f"; {proposal.sentence}"
-    return f"; {proposal.sentence}; write {attributes_text(proposal.tensor)}"
+    return f"; {proposal.sentence}; write {format_tensor(proposal.tensor)}"
 
 
-def remedy_kind(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
+def get_remedy_kind(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
     """Name the kind of the remedy of :func:`remedy_text`; empty if there is none."""
-    proposal = proposal_of(link, inertial, six)
-    return solid_kind(link) if proposal is None else proposal.kind
+    proposal = find_proposal(link, inertial, six)
+    return get_solid_kind(link) if proposal is None else proposal.kind
 
 
-def attributes_text(six: SymmetricTensor) -> str:
+def format_tensor(six: SymmetricTensor) -> str:
     """Format the six numbers as attributes: ``ixx="1" ixy="0" …``, without ``-0``."""
     return " ".join(
         f'{name}="{value + 0.0:.6g}"' for name, value in zip(COMPONENTS, six, strict=True)

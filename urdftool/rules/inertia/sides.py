@@ -6,14 +6,14 @@ import math
 from collections.abc import Iterator
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine_links
-from ...mechanics.tensor import principal_moments
-from ...model.attached import attached_links
+from ...mechanics.tensor import compute_principal_moments
+from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot, Vector
-from ...model.pose import norm, rotate, transpose
+from ...model.pose import compute_norm, rotate, transpose
 from ..fix import FixContext, Proposal, set_attribute, unsafe
-from ..mesh.outlines import reaches
+from ..mesh.link_extents import get_extents
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
-from ..sides import Pair, Sides, family_of, sides, twin_links
+from ..symmetry import Pair, Sides, get_family, get_sides, map_twin_links
 from .tensors import is_accepted, is_zero
 
 _CHECKING = "gz, gazebo-classic, mujoco, drake"
@@ -49,69 +49,71 @@ def left_right_asymmetry(
     ``inertia_difference`` are the tolerated relative differences. Parts of rigid bodies that
     mirror each other as a whole are not reported.
     """
-    twins = twin_links(robot)
+    twins = map_twin_links(robot)
     for link in robot.links:
         other = robot.link.get(twins.get(link.name, ""))
         if other is None or link.inertial is None or other.inertial is None:
             continue
         if link.mass <= 0 or other.mass <= 0:
             continue
-        bodies = _bodies(robot, link, other)
+        bodies = _compute_bodies(robot, link, other)
         if bodies is not None and not (
-            _differ(bodies[0].mass, bodies[1].mass, mass_difference)
-            or _differ(norm(bodies[0].com), norm(bodies[1].com), com_difference)
-            or _differ(_trace(bodies[0]), _trace(bodies[1]), inertia_difference)
+            _is_different(bodies[0].mass, bodies[1].mass, mass_difference)
+            or _is_different(
+                compute_norm(bodies[0].com), compute_norm(bodies[1].com), com_difference
+            )
+            or _is_different(_trace(bodies[0]), _trace(bodies[1]), inertia_difference)
         ):
             continue  # their rigid bodies mirror each other
-        if _differ(link.mass, other.mass, mass_difference):
+        if _is_different(link.mass, other.mass, mass_difference):
             yield Problem(
                 other,
                 f"mass of link '{other.name}' is {other.mass:g} kg, but that of its mirror image "
                 f"'{link.name}' is {link.mass:g} kg; make them equal",
                 at=other.inertial,
                 data={"twin": link.name, "mass": other.mass, "mass_of_twin": link.mass},
-                effects=[*_readers_of(link, other), "pybullet"],
+                effects=[*_select_readers(link, other), "pybullet"],
             )
             continue
-        here, there = _com(link), _com(other)
-        if _differ(here, there, com_difference) and abs(here - there) > 0.002:
+        here, there = _compute_com_distance(link), _compute_com_distance(other)
+        if _is_different(here, there, com_difference) and abs(here - there) > 0.002:
             yield Problem(
                 other,
                 f"center of mass of link '{other.name}' is {there:.3g} m from its frame, but that "
                 f"of its mirror image '{link.name}' {here:.3g} m; make the distances equal",
                 at=other.inertial.origin or other.inertial,
                 data={"twin": link.name, "distance": there, "distance_of_twin": here},
-                effects=[*_readers_of(link, other), "pybullet"],
+                effects=[*_select_readers(link, other), "pybullet"],
             )
             continue
         if not (_has_moments(link) and _has_moments(other)):
             continue  # zero-inertia and others report it
-        if _differ(_spread(link), _spread(other), inertia_difference):
+        if _is_different(_spread(link), _spread(other), inertia_difference):
             yield Problem(
                 other,
                 f"principal moments of inertia of link '{other.name}', in ascending order, are "
-                f"{_factors(other, link)} times those of its mirror image '{link.name}'",
+                f"{_compute_factors(other, link)} times those of its mirror image '{link.name}'",
                 at=other.inertial.inertia or other.inertial,
                 data={"twin": link.name},
-                effects=_readers_of(link, other),
+                effects=_select_readers(link, other),
             )
 
 
-def _factors(link: Link, other: Link) -> str:
+def _compute_factors(link: Link, other: Link) -> str:
     """Divide the principal moments of a link by those of another: ``2``, or ``0.5 to 3``."""
-    mine, its = (_moments_of_link(one) for one in (link, other))
+    mine, its = (_compute_moments(one) for one in (link, other))
     factors = sorted(one / two for one, two in zip(mine, its, strict=True))
     least, most = (f"{factor:.2g}" for factor in (factors[0], factors[-1]))
     return least if least == most else f"{least} to {most}"
 
 
-def _moments_of_link(link: Link) -> Vector:
+def _compute_moments(link: Link) -> Vector:
     assert link.inertial is not None
     assert link.inertial.inertia is not None
-    return principal_moments(link.inertial.inertia.six)
+    return compute_principal_moments(link.inertial.inertia.six)
 
 
-def _readers_of(link: Link, other: Link) -> list[str]:
+def _select_readers(link: Link, other: Link) -> list[str]:
     """Get the keys of effects for the readers that take the tensors of two links as written."""
     accepted = all(
         one.inertial is not None
@@ -128,12 +130,14 @@ def _has_moments(link: Link) -> bool:
     if inertia is None:
         return False
     six = inertia.six
-    return not is_zero(six, link.mass) and principal_moments(six)[0] > 0
+    return not is_zero(six, link.mass) and compute_principal_moments(six)[0] > 0
 
 
-def _bodies(robot: Robot, link: Link, other: Link) -> tuple[SpatialInertia, SpatialInertia] | None:
+def _compute_bodies(
+    robot: Robot, link: Link, other: Link
+) -> tuple[SpatialInertia, SpatialInertia] | None:
     """Add up the bodies of two links; None if they are one body, or only the two links."""
-    first, second = attached_links(robot, link), attached_links(robot, other)
+    first, second = find_attached_links(robot, link), find_attached_links(robot, other)
     if len(first) == len(second) == 1 or any(one is other for one, _ in first):
         return None
     return combine_links(first), combine_links(second)
@@ -144,11 +148,11 @@ def _trace(body: SpatialInertia) -> float:
     return body.tensor[0] + body.tensor[3] + body.tensor[5]
 
 
-def _differ(one: float, other: float, part: float) -> bool:
+def _is_different(one: float, other: float, part: float) -> bool:
     return abs(one - other) > part * max(abs(one), abs(other))
 
 
-def _com(link: Link) -> float:
+def _compute_com_distance(link: Link) -> float:
     """Compute the distance of the center of mass from the frame of the link [m]."""
     origin = link.inertial.origin if link.inertial is not None else None
     return math.hypot(*origin.xyz) if origin is not None else 0.0
@@ -184,11 +188,11 @@ def com_not_mirrored(
     of two equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
     to one side.
     """
-    found = sides(robot)
+    found = get_sides(robot)
     if found.normal is None:
         return
     off = {id(pair.left) for pair, _ in found.off}
-    pairs = [(pair, *coms) for pair in found.pairs if (coms := _coms(found, pair))]
+    pairs = [(pair, *coms) for pair in found.pairs if (coms := _compute_com_vectors(found, pair))]
     for pair, left, right in pairs:
         if id(pair.left) in off:
             continue
@@ -212,9 +216,9 @@ def com_not_mirrored(
             continue
         axis, sign = wrong[0], signs[wrong[0]]
         others = [(one, a, b) for one, a, b in pairs if one is not pair]
-        shown = _shown_by_shapes(robot, found, pair, axis, sign, similar, clear)
-        shown = shown or _shown_by_joints(robot, found, pair, axis, sign, similar, 5 * least)
-        shown = shown or _shown_by_likes(pair, left[axis], axis, sign, others, similar)
+        shown = _find_side_by_shapes(robot, found, pair, axis, sign, similar, clear)
+        shown = shown or _find_side_by_joints(robot, found, pair, axis, sign, similar, 5 * least)
+        shown = shown or _find_side_by_similar_links(pair, left[axis], axis, sign, others, similar)
         if shown is None:
             continue
         side, why = shown
@@ -243,14 +247,14 @@ def mirror_image(found: Sides, link: Link, com: Vector) -> str:
 @com_not_mirrored.fix(UNSAFE)
 def write_mirror_image(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the mirror image of the center of mass of the other side."""
-    inertial = context.link(problem).inertial
+    inertial = context.get_link(problem).inertial
     if inertial is None or inertial.origin is None:
         return None
     image = problem.data["write"]
     return unsafe(f'write xyz="{image}"', set_attribute(inertial.origin.element, "xyz", image))
 
 
-def _coms(found: Sides, pair: Pair) -> tuple[Vector, Vector] | None:
+def _compute_com_vectors(found: Sides, pair: Pair) -> tuple[Vector, Vector] | None:
     """Compute the vectors from the links' frames to their centers of mass, in root axes [m]."""
     vectors = []
     for link in (pair.left, pair.right):
@@ -265,7 +269,7 @@ def _is_near(one: float, other: float, part: float) -> bool:
     return abs(one - other) <= part * abs(other)
 
 
-def _shown_by_shapes(
+def _find_side_by_shapes(
     robot: Robot, found: Sides, pair: Pair, axis: int, sign: int, similar: float, clear: float
 ) -> tuple[float, str] | None:
     """Find the side of the left frame that has the geometry, if the pair mirrors each other.
@@ -275,7 +279,7 @@ def _shown_by_shapes(
     """
     sides_of: list[float] = []
     for link in (pair.left, pair.right):
-        box = reaches(robot).link(link)
+        box = get_extents(robot).get_link_box(link)
         if box is None:
             return None
         side = rotate(found.poses[link.name].rotation, box.centre)[axis]
@@ -288,7 +292,7 @@ def _shown_by_shapes(
     return left, "the geometry of the two links is mirrored"
 
 
-def _shown_by_joints(
+def _find_side_by_joints(
     robot: Robot, found: Sides, pair: Pair, axis: int, sign: int, similar: float, least: float
 ) -> tuple[float, str] | None:
     """Find the side of the left frame that has the child joint, if the pair mirrors each other."""
@@ -308,7 +312,7 @@ def _shown_by_joints(
     return left, "the joints of their children are mirrored"
 
 
-def _shown_by_likes(
+def _find_side_by_similar_links(
     pair: Pair,
     left: float,
     axis: int,
@@ -317,9 +321,9 @@ def _shown_by_likes(
     similar: float,
 ) -> tuple[float, str] | None:
     """Find the side of the center of mass of the left link at the other end of the robot."""
-    family = family_of(pair.left.name)
+    family = get_family(pair.left.name)
     for other, one, two in others:
-        if family_of(other.left.name) != family or family_of(other.right.name) != family:
+        if get_family(other.left.name) != family or get_family(other.right.name) != family:
             continue
         if _is_near(two[axis], sign * one[axis], similar) and _is_near(
             abs(one[axis]), abs(left), similar

@@ -10,23 +10,23 @@ from ...mechanics.mass_bounds import (
     ALLOWED,
     CERTAIN,
     ROUNDING,
-    misfit_of_spread,
-    shapes_in_words,
+    check_spread,
+    name_shapes,
 )
-from ...mechanics.tensor import SymmetricTensor, principal_moments, rotate_tensor
-from ...model.attached import attached_links
+from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rotate_tensor
+from ...model.attached import find_attached_links
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
-from ...model.pose import pose_of
+from ...model.pose import make_pose
 from ..fix import FixContext, Proposal
-from ..mesh.outlines import reaches
+from ..mesh.link_extents import get_extents
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
-from .bodies import bodies, slight_parts
-from .corrections import undo_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
-from .density import outlier
-from .frame import about_com
-from .proposals import recomputing_hint, remedy_kind, remedy_text
-from .solids import is_dummy, solid_moments, solid_text
-from .tensors import is_accepted, is_positive, is_zero, tensors
+from .bodies import find_rigid_bodies, find_slight_parts
+from .corrections import correct_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
+from .density import find_outlier
+from .frame import compute_tensor_about_com
+from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
+from .solids import compute_solid_moments, describe_solid, is_dummy
+from .tensors import get_tensors, is_accepted, is_positive, is_zero
 
 SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
 _SINGULAR = 1e-9  # the part of the largest moment that counts as zero
@@ -51,9 +51,9 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
     millimeters, links without geometry, and links of up to ``tiny`` [m] that are fixed to a
     heavier link.
     """
-    slight = slight_parts(robot)
+    slight = find_slight_parts(robot)
     whole: dict[str, list[Link]] | None = None
-    for link, inertial, six in tensors(robot):
+    for link, inertial, six in get_tensors(robot):
         if not is_placeholder(link, six):
             continue
         if link.name in slight:
@@ -64,17 +64,19 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
         dummy = is_dummy(link)
         if not large:
             if whole is None:
-                whole = {one.name: links for links in bodies(robot).values() for one in links}
+                whole = {
+                    one.name: links for links in find_rigid_bodies(robot).values() for one in links
+                }
             if dummy or _is_frame(robot, link, whole.get(link.name, [link]), tiny):
                 continue
         far = f" ({link.mass:g} kg with a radius of gyration of {radius:.2g} m)" if large else ""
         yield Problem(
             link,
             f"inertia of link '{link.name}' is a placeholder: {moment:g} about every axis{far}"
-            f"{'' if dummy else solid_text(link)}",
+            f"{'' if dummy else describe_solid(link)}",
             at=inertial.inertia,
             severity=WARNING if large else INFO,
-            hint="" if dummy else recomputing_hint(robot, link),
+            hint="" if dummy else get_recompute_hint(robot, link),
             group="inertia of {count} links is a placeholder (the same power of ten about every "
             "axis): {names}",
             data={"moment": moment, "is_large": large},
@@ -94,7 +96,7 @@ def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
         return True
     if not any(other.mass > link.mass for other in body):
         return False
-    box = reaches(robot).link(link)
+    box = get_extents(robot).get_link_box(link)
     return box is not None and max(box.size) <= tiny
 
 
@@ -106,14 +108,16 @@ def is_placeholder(link: Link, six: SymmetricTensor) -> bool:
     power = math.log10(xx)
     if abs(power - round(power)) > 1e-9:
         return False
-    solid = solid_moments(link)
+    solid = compute_solid_moments(link)
     return solid is None or not all(0.5 <= moment / xx <= 2 for moment in solid)
 
 
 @placeholder_inertia.fix(UNSAFE)
 def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the inertia of the geometry, except for dummies, whose inertia is negligible."""
-    return None if is_dummy(context.link(problem)) else write_inertia_of_shapes(problem, context)
+    return (
+        None if is_dummy(context.get_link(problem)) else write_inertia_of_shapes(problem, context)
+    )
 
 
 @rule(
@@ -145,19 +149,19 @@ def inertia_exceeds_geometry(
     visual geometry, which may be markers. The geometry of attached links without a mass of their
     own counts too, and is named. ``urdftool inertia robot`` applies the same checks.
     """
-    reach = reaches(robot)
-    slight = slight_parts(robot)
-    for link, inertial, six in tensors(robot):
+    reach = get_extents(robot)
+    slight = find_slight_parts(robot)
+    for link, inertial, six in get_tensors(robot):
         if link.mass <= 0 or is_placeholder(link, six) or not is_positive(six):
             continue
         if link.name in slight:
             continue
-        low, middle, high = principal_moments(six)
+        low, middle, high = compute_principal_moments(six)
         if low + middle < high:
             continue  # physically inconsistent at any size
-        pose = pose_of(inertial.origin)
+        pose = make_pose(inertial.origin)
         judge = partial(
-            misfit_of_spread,
+            check_spread,
             mass=link.mass,
             tensor=rotate_tensor(six, pose.rotation),
             rough=has_mesh(link) or not link.collisions,
@@ -165,35 +169,35 @@ def inertia_exceeds_geometry(
             certain=certain,
             rounding=rounding,
         )
-        box = reach.link(link)
+        box = reach.get_link_box(link)
         if box is None or judge(box, com=pose.translation) is None:
             continue
-        if about_com(link, inertial, six, box) is not None:
+        if compute_tensor_about_com(link, inertial, six, box) is not None:
             continue
-        box = reach.meant(link, box)
+        box = reach.get_inertial_box(link, box)
         if box is None:
             continue
-        attached = [other.name for other, _ in reach.counted(link)]
-        shapes = shapes_in_words(attached)
+        attached = [other.name for other, _ in reach.get_counted(link)]
+        shapes = name_shapes(attached)
         found = judge(box, com=pose.translation, shapes=shapes)
         if found is not None:
             fits = judge(box, com=box.centre) is None
             is_own = _has_own_size(robot, link, found.certain)
-            remedy = remedy_text(link, inertial, six) if is_own else ""
-            kind = remedy_kind(link, inertial, six) if is_own else ""
+            remedy = describe_remedy(link, inertial, six) if is_own else ""
+            kind = get_remedy_kind(link, inertial, six) if is_own else ""
             yield Problem(
                 link,
                 f"inertia of link '{link.name}' {found.sentence}{remedy}",
                 at=inertial.inertia,
                 severity=None if found.certain else INFO,
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
-                effects=_readers_of(six),
+                effects=_select_readers(six),
                 alike=(found.axis, min(len(attached), 3), kind),
                 data={"certain": found.certain},
             )
 
 
-def _readers_of(six: SymmetricTensor) -> list[str]:
+def _select_readers(six: SymmetricTensor) -> list[str]:
     """Get the keys of effects for the readers that take a tensor as written."""
     return [*[_CHECKING] * is_accepted(six), "pinocchio"]
 
@@ -210,18 +214,18 @@ def _has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
         False if the size includes that of attached links, or comes from visuals alone, which may
         differ from the body.
     """
-    return not reaches(robot).counted(link) and (certain or bool(link.collisions))
+    return not get_extents(robot).get_counted(link) and (certain or bool(link.collisions))
 
 
 @inertia_exceeds_geometry.fix(UNSAFE)
 def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the intended inertia, or that of the geometry if it certainly is the body."""
-    link, certain = context.link(problem), problem.data["certain"]
+    link, certain = context.get_link(problem), problem.data["certain"]
     inertial = link.inertial
     if not _has_own_size(context.robot, link, certain):
         return None
     if not certain and inertial is not None and inertial.inertia is not None:
-        return undo_slip(link, inertial, inertial.inertia)
+        return correct_slip(link, inertial, inertial.inertia)
     return write_meant_inertia(problem, context)
 
 
@@ -251,17 +255,17 @@ def inertia_below_geometry(
     ``least`` is the smallest tolerated part of the box's inertia. Links with less than ``part`` of
     the mass of their rigid body change little, and are skipped.
     """
-    reach = reaches(robot)
-    heavy = outlier(robot)
-    for link, inertial, six in tensors(robot):
+    reach = get_extents(robot)
+    heavy = find_outlier(robot)
+    for link, inertial, six in get_tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or not is_positive(six):
             continue
         if heavy is not None and link is heavy.link:
             continue  # mass-out-of-line reports it
-        if mass < part * sum(other.mass for other, _ in attached_links(robot, link)):
+        if mass < part * sum(other.mass for other, _ in find_attached_links(robot, link)):
             continue
-        box = reach.link(link)
+        box = reach.get_link_box(link)
         if box is None:
             continue
         if is_placeholder(link, six):
@@ -276,7 +280,7 @@ def inertia_below_geometry(
                 f"of its mass ({mass:g} kg) and size ({x} × {y} × {z} m); check mass and inertia "
                 "for a wrong power of ten",
                 at=inertial.inertia,
-                effects=_readers_of(six),
+                effects=_select_readers(six),
                 data={"part": written / solid, "size": list(box.size)},
             )
 
@@ -304,21 +308,21 @@ def radius_of_gyration(
     size are checked by ``inertia-exceeds-geometry``; tensors that are zero or negative about an
     axis by other rules.
     """
-    reach = reaches(robot)
-    slight = slight_parts(robot)
-    for link, inertial, six in tensors(robot):
+    reach = get_extents(robot)
+    slight = find_slight_parts(robot)
+    for link, inertial, six in get_tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or is_placeholder(link, six):
             continue
         if link.name in slight:
             continue
-        if inertial.mass is None or reach.link(link) is not None:
+        if inertial.mass is None or reach.get_link_box(link) is not None:
             continue
-        low, _, high = principal_moments(six)
+        low, _, high = compute_principal_moments(six)
         if high <= 0 or low <= _SINGULAR * high:
             continue
         radius = math.sqrt(high / mass)
-        around = reach.body(link)
+        around = reach.get_body_box(link)
         if around is not None and radius <= math.dist(*around):
             continue  # the inertia is that of the whole body
         data: dict[str, object] = {"radius": radius}
@@ -336,7 +340,7 @@ def radius_of_gyration(
             f"radius of gyration of link '{link.name}' is {radius:.2g} m: largest moment of "
             f"inertia {high:.4g} kg·m², mass {mass:g} kg{remedy}",
             at=inertial.inertia,
-            effects=_readers_of(six),
+            effects=_select_readers(six),
             data=data,
         )
 
@@ -353,7 +357,7 @@ _OF_A_LINK = (0.01, 1.0)
 @radius_of_gyration.fix(UNSAFE)
 def write_inertia_in_kg_m2(problem: Problem, context: FixContext) -> Proposal | None:
     """Convert the inertia from kg·mm² to kg·m²."""
-    link = context.link(problem)
+    link = context.get_link(problem)
     if "inertia" not in problem.data:
         return None
     xx, xy, xz, yy, yz, zz = problem.data["inertia"]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from ...mechanics.tensor import SymmetricTensor, rotate_tensor
-from ...model.bounds import Bounds, bounds_of
+from ...model.bounds import Bounds, compute_bounds
 from ...model.elements import (
     Box,
     Capsule,
@@ -18,39 +18,41 @@ from ...model.elements import (
     Vector,
     Visual,
 )
-from ...model.pose import matrix_product, pose_of, transpose
-from ...model.shapes import shape_name
+from ...model.pose import make_pose, multiply_matrices, transpose
+from ...model.shapes import get_shape_name
 
 DENSITY = 1000.0
 """Density [kg/m³] of links without a mass: that of water."""
 
 
-def box_of(link: Link) -> Bounds | None:
+def compute_box(link: Link) -> Bounds | None:
     """Compute the bounding box of a link in its frame; None if not all shapes are primitives."""
     found: Bounds | None = None
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     for shape in shapes:
-        bounds = bounds_of(shape)
+        bounds = compute_bounds(shape)
         if bounds is None:
             return None
         found = bounds if found is None else found.joined(bounds)
     return found if found is not None and any(found.size) else None
 
 
-def solid_volume(geometry: Geometry | None) -> float:
+def compute_volume(geometry: Geometry | None) -> float:
     """Compute the volume [m³]; 0 if it is not a primitive."""
     if isinstance(geometry, Box):
         return abs(math.prod(geometry.size))
     if isinstance(geometry, Sphere):
-        return 4 / 3 * _ball(geometry.radius)
+        return 4 / 3 * _compute_ball_volume(geometry.radius)
     if isinstance(geometry, Cylinder):
-        return _disc(geometry.radius) * geometry.length
+        return _compute_disc_area(geometry.radius) * geometry.length
     if isinstance(geometry, Capsule):
-        return _disc(geometry.radius) * geometry.length + 4 / 3 * _ball(geometry.radius)
+        return _compute_disc_area(geometry.radius) * geometry.length + 4 / 3 * _compute_ball_volume(
+            geometry.radius
+        )
     return 0.0
 
 
-def centre_of_solids(link: Link) -> Vector | None:
+def compute_solid_center(link: Link) -> Vector | None:
     """Compute the center of mass [m] in the link frame, as if all shapes were solid and alike.
 
     Collision geometry counts, or visual geometry if there is none.
@@ -59,11 +61,11 @@ def centre_of_solids(link: Link) -> Vector | None:
         None if not all are primitives.
     """
     shapes: list[Visual | Collision] = [*(link.collisions or link.visuals)]
-    volumes = [solid_volume(shape.geometry) for shape in shapes]
+    volumes = [compute_volume(shape.geometry) for shape in shapes]
     whole = sum(volumes)
     if not whole or not all(volumes):
         return None
-    places = [pose_of(shape.origin).translation for shape in shapes]
+    places = [make_pose(shape.origin).translation for shape in shapes]
     x, y, z = (
         sum(volume * place[i] for volume, place in zip(volumes, places, strict=True)) / whole
         for i in range(3)
@@ -71,15 +73,15 @@ def centre_of_solids(link: Link) -> Vector | None:
     return x, y, z
 
 
-def _disc(radius: float) -> float:
+def _compute_disc_area(radius: float) -> float:
     return math.pi * radius * radius  # ** raises OverflowError where * returns infinity
 
 
-def _ball(radius: float) -> float:
-    return _disc(radius) * radius
+def _compute_ball_volume(radius: float) -> float:
+    return _compute_disc_area(radius) * radius
 
 
-def solid_moments(link: Link) -> Vector | None:
+def compute_solid_moments(link: Link) -> Vector | None:
     """Compute the moments [kg·m²] of a link's only shape as a solid, along the inertial's axes.
 
     Returns:
@@ -87,40 +89,40 @@ def solid_moments(link: Link) -> Vector | None:
         ``<inertial>``.
     """
     inertial = link.inertial
-    shape = only_shape(link)
+    shape = get_only_shape(link)
     if inertial is None or shape is None or not inertial.mass:
         return None
-    if pose_of(inertial.origin).rotation != pose_of(shape.origin).rotation:
+    if make_pose(inertial.origin).rotation != make_pose(shape.origin).rotation:
         return None
-    return _moments(shape.geometry, inertial.mass)
+    return _compute_moments(shape.geometry, inertial.mass)
 
 
-def solid_tensor(link: Link) -> SymmetricTensor | None:
+def compute_solid_tensor(link: Link) -> SymmetricTensor | None:
     """Compute the tensor [kg·m²] of a link's only shape as a solid, along the inertial's axes.
 
     Returns:
         None if the link has several shapes, or no primitive.
     """
-    inertial, shape = link.inertial, only_shape(link)
+    inertial, shape = link.inertial, get_only_shape(link)
     if inertial is None or shape is None or not inertial.mass:
         return None
-    moments = _moments(shape.geometry, inertial.mass)
+    moments = _compute_moments(shape.geometry, inertial.mass)
     if moments is None:
         return None
     x, y, z = moments
-    there, here = pose_of(shape.origin).rotation, pose_of(inertial.origin).rotation
+    there, here = make_pose(shape.origin).rotation, make_pose(inertial.origin).rotation
     if there == here:
         return x, 0.0, 0.0, y, 0.0, z
-    return rotate_tensor((x, 0.0, 0.0, y, 0.0, z), matrix_product(transpose(here), there))
+    return rotate_tensor((x, 0.0, 0.0, y, 0.0, z), multiply_matrices(transpose(here), there))
 
 
-def only_shape(link: Link) -> Visual | Collision | None:
+def get_only_shape(link: Link) -> Visual | Collision | None:
     """Get the link's only collision, or else its only visual; None if there are several."""
     shapes: Sequence[Visual | Collision] = link.collisions or link.visuals
     return shapes[0] if len(shapes) == 1 else None
 
 
-def _moments(geometry: Geometry | None, mass: float) -> Vector | None:
+def _compute_moments(geometry: Geometry | None, mass: float) -> Vector | None:
     if isinstance(geometry, Box):
         x, y, z = (side * side for side in geometry.size)
         return mass / 12 * (y + z), mass / 12 * (x + z), mass / 12 * (x + y)
@@ -139,23 +141,23 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
 
     The inertia of a solid of that size is so small that no joint should move it alone.
     """
-    box = box_of(link)
+    box = compute_box(link)
     return box is not None and max(box.size) <= largest
 
 
-def solid_kind(link: Link) -> str:
+def get_solid_kind(link: Link) -> str:
     """Name the element of the solid that :func:`solid_text` describes; empty if there is none."""
-    shape = only_shape(link)
-    if solid_moments(link) is None or shape is None or shape.geometry is None:
+    shape = get_only_shape(link)
+    if compute_solid_moments(link) is None or shape is None or shape.geometry is None:
         return ""
     return shape.geometry.element.tag
 
 
-def solid_text(link: Link) -> str:
+def describe_solid(link: Link) -> str:
     """Describe the inertia to write: ``; a solid box of 2 kg has ixx 1, …``; may be empty."""
-    moments, shape = solid_moments(link), only_shape(link)
+    moments, shape = compute_solid_moments(link), get_only_shape(link)
     if moments is None or shape is None or shape.geometry is None:
         return ""
     x, y, z = moments
-    tag = shape_name(shape.geometry)
+    tag = get_shape_name(shape.geometry)
     return f"; a solid {tag} of {link.mass:g} kg has ixx {x:.4g}, iyy {y:.4g}, izz {z:.4g}"

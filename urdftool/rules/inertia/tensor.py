@@ -5,30 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...mechanics.tensor import SymmetricTensor, principal_moments
-from ...model.attached import attached_links, is_fixed_to_world
+from ...mechanics.tensor import SymmetricTensor, compute_principal_moments
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import Inertial, Link, Robot, Vector
-from ...model.kinematics import MOVABLE, limits_of, link_poses
+from ...model.kinematics import MOVABLE, get_limits, link_poses
 from ...model.pose import Pose
 from ...source.location import Place
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .bodies import bodies, body_inertia, mass_of
+from .bodies import compute_body_inertia, compute_mass, find_rigid_bodies
 from .corrections import write_inertia_of_shapes, write_meant_inertia
-from .joint_inertia import joint_inertia
-from .proposals import recomputing_hint, remedy_text
-from .slips import slip_of
-from .solids import solid_kind, solid_text
+from .joint_inertia import compute_joint_inertia
+from .proposals import describe_remedy, get_recompute_hint
+from .solids import describe_solid, get_solid_kind
 from .tensors import (
     EXACT,
     SIX,
+    compute_rounding,
+    get_tensors,
     is_positive,
     is_rejected_by_gazebo,
     is_rejected_by_mujoco,
     is_zero,
-    rounding_of,
-    tensors,
 )
+from .typing_mistakes import find_slip
 
 _GAZEBO = "gz, gazebo-classic"
 _PART = "gz, gazebo-classic (part)"
@@ -51,18 +51,18 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     About that axis the body would rotate against the torque. A sign is wrong, or a product of
     inertia is too large for the moments of its axes.
     """
-    for link, inertial, six in tensors(robot):
-        moments = principal_moments(six)
+    for link, inertial, six in get_tensors(robot):
+        moments = compute_principal_moments(six)
         if is_zero(six, link.mass) or is_positive(six, tolerance):
             continue
-        if slip_of(link, inertial, six, robot) is not None:
+        if find_slip(link, inertial, six, robot) is not None:
             continue
-        remedy = remedy_text(link, inertial, six)
+        remedy = describe_remedy(link, inertial, six)
         yield Problem(
             link,
             f"inertia of link '{link.name}' has a negative principal moment "
-            f"({_shown(moments)}); all three must be positive{remedy}",
-            at=_component(inertial, six, min(six[0], six[3], six[5])),
+            f"({_format_moments(moments)}); all three must be positive{remedy}",
+            at=_find_component(inertial, six, min(six[0], six[3], six[5])),
             effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             data={"moments": list(moments)},
         )
@@ -89,16 +89,16 @@ def inertia_triangle_inequality(
     ``rounding`` (relative) that the written digits explain is reported by
     ``inertia-triangle-inequality-rounding`` instead.
     """
-    for link, inertial, six in tensors(robot):
-        moments = low, middle, high = principal_moments(six)
+    for link, inertial, six in get_tensors(robot):
+        moments = low, middle, high = compute_principal_moments(six)
         excess = high - low - middle
         if excess <= EXACT * high or not is_positive(six, tolerance):
             continue
         if inertial.inertia is None:
             continue
-        if excess <= min(rounding * high, rounding_of(inertial.inertia)):
+        if excess <= min(rounding * high, compute_rounding(inertial.inertia)):
             continue
-        if is_zero(six, link.mass) or slip_of(link, inertial, six, robot) is not None:
+        if is_zero(six, link.mass) or find_slip(link, inertial, six, robot) is not None:
             continue
         shown = [f"{value:.4g}" for value in (high, low, middle)]
         if float(shown[0]) <= float(shown[1]) + float(shown[2]):
@@ -107,8 +107,8 @@ def inertia_triangle_inequality(
             link,
             f"inertia of link '{link.name}' is physically inconsistent: principal moment "
             f"{shown[0]} is larger than {shown[1]} + {shown[2]}"
-            f"{remedy_text(link, inertial, six)}",
-            at=_component(inertial, six, max(six[0], six[3], six[5])),
+            f"{describe_remedy(link, inertial, six)}",
+            at=_find_component(inertial, six, max(six[0], six[3], six[5])),
             effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             data={"moments": list(moments)},
         )
@@ -143,12 +143,12 @@ def inertia_triangle_inequality_rounding(
     it larger. Gazebo and MuJoCo have no tolerance for that. The number of written digits decides
     which excess is rounding; a larger one is reported as ``inertia-triangle-inequality``.
     """
-    for link, inertial, six in tensors(robot):
-        moments = low, middle, high = principal_moments(six)
+    for link, inertial, six in get_tensors(robot):
+        moments = low, middle, high = compute_principal_moments(six)
         excess = high - low - middle
         if inertial.inertia is None or low < 0 or excess <= tolerance * high:
             continue
-        if excess <= min(rounding * high, rounding_of(inertial.inertia)):
+        if excess <= min(rounding * high, compute_rounding(inertial.inertia)):
             yield Problem(
                 link,
                 f"principal moment {high:.9g} of link '{link.name}' exceeds the sum of the others "
@@ -165,7 +165,7 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
 
     PyBullet replaces any tensor that violates the inequality by zero, however small the excess.
     """
-    inertial = context.link(problem).inertial
+    inertial = context.get_link(problem).inertial
     if inertial is None or inertial.inertia is None:
         return None
     xx, xy, xz, yy, yz, zz = inertial.inertia.six
@@ -174,7 +174,7 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
         more = factor * (excess + 1e-9 * high)
         moments = [float(f"{value + more:.10g}") for value in (xx, yy, zz)]
         shown = [float(f"{value:.10g}") for value in (xy, xz, yz)]
-        a, b, c = principal_moments(
+        a, b, c = compute_principal_moments(
             (moments[0], shown[0], shown[1], moments[1], shown[2], moments[2])
         )
         if c <= a + b:
@@ -213,14 +213,14 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
     before it merges them: it then treats six zeros as no inertia, and rejects nonzero moments below
     1e-14 kg·m².
     """
-    zero = [found for found in tensors(robot) if is_zero(found[2], found[0].mass)]
+    zero = [found for found in get_tensors(robot) if is_zero(found[2], found[0].mass)]
     if not zero:
         return
-    whole = {link.name: links for links in bodies(robot).values() for link in links}
+    whole = {link.name: links for links in find_rigid_bodies(robot).values() for link in links}
     for link, inertial, six in zero:
         links = whole.get(link.name, [link])
-        is_part = len(links) > 1 and not body_inertia(robot, links).is_thin
-        if (is_part and link.mass < part * mass_of(links)) or is_fixed_to_world(robot, link):
+        is_part = len(links) > 1 and not compute_body_inertia(robot, links).is_thin
+        if (is_part and link.mass < part * compute_mass(links)) or is_fixed_to_world(robot, link):
             continue
         amount = "almost zero" if any(six) else "zero"
         joint = robot.tree.parent_joint(links[0].name)
@@ -231,32 +231,32 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {amount} with a mass of {link.mass:g} kg"
-            f"{solid_text(link)}",
+            f"{describe_solid(link)}",
             at=inertial.inertia,
-            hint=recomputing_hint(robot, link),
+            hint=get_recompute_hint(robot, link),
             severity=None if rejected and "mujoco" in targets else mild,
             effects=[
                 f"gz, gazebo-classic ({in_gazebo})",
                 *["mujoco"] * rejected,
                 *["pinocchio"] * (not is_part),
             ],
-            alike=(any(six), solid_kind(link)),
+            alike=(any(six), get_solid_kind(link)),
         )
 
 
 @zero_inertia.full
-def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
+def report_every_zero_inertia(robot: Robot) -> Iterator[Problem]:
     """Report each link with a mass and no inertia, also if that is harmless.
 
     It is harmless for a link that is fixed to the world, or to links with an inertia.
     """
-    for link, inertial, six in tensors(robot):
+    for link, inertial, six in get_tensors(robot):
         if is_zero(six, link.mass):
             amount = "almost zero" if any(six) else "zero"
-            members = [one for one, _ in attached_links(robot, link)]
-            is_part = len(members) > 1 and not body_inertia(robot, members).is_thin
+            members = [one for one, _ in find_attached_links(robot, link)]
+            is_part = len(members) > 1 and not compute_body_inertia(robot, members).is_thin
             is_held = is_fixed_to_world(robot, link)
-            why = f" with a mass of {link.mass:g} kg{solid_text(link)}"
+            why = f" with a mass of {link.mass:g} kg{describe_solid(link)}"
             if is_part:
                 why = ", but the links that it is fixed to have one"
             elif is_held:
@@ -265,7 +265,7 @@ def every_zero_inertia(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"inertia of link '{link.name}' is {amount}{why}",
                 at=inertial.inertia,
-                hint="" if is_part or is_held else recomputing_hint(robot, link),
+                hint="" if is_part or is_held else get_recompute_hint(robot, link),
                 data={"is_harmless": is_part or is_held},
             )
 
@@ -292,7 +292,7 @@ def singular_inertia(
     infinitely. Parts that are fixed to a link with an inertia, or to the world, are not reported,
     except for MuJoCo, which rejects the file for any link with a moment below 1e-14 kg·m².
     """
-    for link, inertial, six in tensors(robot):
+    for link, inertial, six in get_tensors(robot):
         if not _is_singular(six, link.mass, smallest):
             continue
         rejected = is_rejected_by_mujoco(six)
@@ -300,24 +300,24 @@ def singular_inertia(
             continue
         yield Problem(
             link,
-            _of_singular(link, six),
+            _describe_singular(link, six),
             at=inertial.inertia,
             severity=None if rejected else WARNING,
             effects=[key for key in _SINGULAR if key != "mujoco" or rejected],
-            alike=solid_kind(link),
-            data={"moments": list(principal_moments(six))},
+            alike=get_solid_kind(link),
+            data={"moments": list(compute_principal_moments(six))},
         )
 
 
 @singular_inertia.full
-def every_singular_inertia(robot: Robot) -> Iterator[Problem]:
+def report_every_singular_inertia(robot: Robot) -> Iterator[Problem]:
     """Report each link whose inertia is zero about one axis, also if that is harmless."""
     smallest = singular_inertia.thresholds["smallest"]
-    for link, inertial, six in tensors(robot):
+    for link, inertial, six in get_tensors(robot):
         if _is_singular(six, link.mass, smallest):
             yield Problem(
                 link,
-                _of_singular(link, six),
+                _describe_singular(link, six),
                 at=inertial.inertia,
                 data={"is_harmless": _is_harmless(robot, link, smallest)},
             )
@@ -325,7 +325,7 @@ def every_singular_inertia(robot: Robot) -> Iterator[Problem]:
 
 def _is_singular(six: SymmetricTensor, mass: float, smallest: float) -> bool:
     """Tell whether a consistent tensor is almost zero about one axis."""
-    low, middle, high = principal_moments(six)
+    low, middle, high = compute_principal_moments(six)
     if is_zero(six, mass) or high <= 0 or low > smallest * high or not is_positive(six):
         return False
     return low + middle >= high * 0.99
@@ -333,20 +333,20 @@ def _is_singular(six: SymmetricTensor, mass: float, smallest: float) -> bool:
 
 def _is_harmless(robot: Robot, link: Link, smallest: float) -> bool:
     """Tell whether a link is fixed to the world, or part of a body with inertia."""
-    body = next((links for links in bodies(robot).values() if link in links), [link])
+    body = next((links for links in find_rigid_bodies(robot).values() if link in links), [link])
     return _is_fixed_to_more(robot, body, smallest) or is_fixed_to_world(robot, link)
 
 
-def _of_singular(link: Link, six: SymmetricTensor) -> str:
-    shown = _shown(principal_moments(six))
-    return f"inertia of link '{link.name}' is zero about one axis ({shown}){solid_text(link)}"
+def _describe_singular(link: Link, six: SymmetricTensor) -> str:
+    shown = _format_moments(compute_principal_moments(six))
+    return f"inertia of link '{link.name}' is zero about one axis ({shown}){describe_solid(link)}"
 
 
 def _is_fixed_to_more(robot: Robot, links: list[Link], smallest: float) -> bool:
     """Tell whether the body of several links has an inertia about every axis."""
     if len(links) == 1:
         return False
-    least, _, most = principal_moments(body_inertia(robot, links).tensor)
+    least, _, most = compute_principal_moments(compute_body_inertia(robot, links).tensor)
     return least > smallest * most
 
 
@@ -392,17 +392,17 @@ def tiny_moving_inertia(
         slides = joint.type == "prismatic"
         most = lightest if slides else smallest
         if poses is None:
-            whole = bodies(robot)
+            whole = find_rigid_bodies(robot)
         links = whole.get(joint.child, [])
         if not any(link.mass > 0 for link in links) or not _may_be_below(links, most, slides):
             continue
         poses = poses or link_poses(robot)
-        inertia = joint_inertia(robot, joint, poses) if joint.child in poses else 0.0
+        inertia = compute_joint_inertia(robot, joint, poses) if joint.child in poses else 0.0
         if not 0 < inertia < most:
             continue
         damping = (joint.dynamics.damping or 0.0) if joint.dynamics is not None else 0.0
         effort = (joint.limit.effort or 0.0) if joint.limit is not None else 0.0
-        lower, upper = limits_of(joint)
+        lower, upper = get_limits(joint)
         reach = min(upper - lower, math.inf if slides else 2 * math.pi)
         unit, force, way = ("kg", "N", "m") if slides else ("kg·m²", "N·m", "rad")
         quantity = "mass" if slides else "inertia"
@@ -435,18 +435,18 @@ def tiny_moving_inertia(
 def _may_be_below(links: list[Link], most: float, slides: bool) -> bool:
     """Tell whether the child body of a joint may have so little inertia, without its axis."""
     if slides:
-        return mass_of(links) < most
+        return compute_mass(links) < most
     tensors_of = [link.inertial.inertia for link in links if link.inertial is not None]
-    lows = [principal_moments(one.six)[0] for one in tensors_of if one is not None]
+    lows = [compute_principal_moments(one.six)[0] for one in tensors_of if one is not None]
     return min(lows, default=0.0) < most
 
 
-def _shown(moments: Vector) -> str:
+def _format_moments(moments: Vector) -> str:
     least = 1e-12 * max(map(abs, moments))  # smaller values are errors of the computation
     return ", ".join(f"{moment if abs(moment) > least else 0.0:.4g}" for moment in moments)
 
 
-def _component(inertial: Inertial, six: SymmetricTensor, moment: float) -> Place | None:
+def _find_component(inertial: Inertial, six: SymmetricTensor, moment: float) -> Place | None:
     """Find where a principal moment is written; the whole tensor if the axes are others."""
     if inertial.inertia is None:
         return None

@@ -9,18 +9,18 @@ from decimal import Decimal, InvalidOperation
 from ...mechanics.tensor import (
     COMPONENTS,
     SymmetricTensor,
-    consistency,
-    noise_of,
-    principal_moments,
+    compute_principal_moments,
+    get_noise,
+    measure_consistency,
 )
 from ...model.elements import Inertia, Inertial, Link, Robot
 from ...model.read import number
-from .bodies import bodies, body_inertia
+from .bodies import compute_body_inertia, find_rigid_bodies
 
 SIX = COMPONENTS
 
 
-def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
+def get_tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
     """Get links with mass and six readable components, each with its inertial and tensor.
 
     Missing or unreadable components, and tensors without mass, are left to other rules.
@@ -46,12 +46,12 @@ def is_zero(six: SymmetricTensor, mass: float) -> bool:
         six: The six numbers [kg·m²].
         mass: The body's mass [kg]; numbers below it times (10 µm)² are noise.
     """
-    return max(map(abs, six)) <= noise_of(mass)
+    return max(map(abs, six)) <= get_noise(mass)
 
 
 def is_positive(six: SymmetricTensor, tolerance: float = 1e-6) -> bool:
     """Tell whether no principal moment is negative, except for rounding."""
-    return consistency(six).negativity <= tolerance
+    return measure_consistency(six).negativity <= tolerance
 
 
 EXACT = 1e-12
@@ -60,7 +60,7 @@ EXACT = 1e-12
 
 def is_accepted(six: SymmetricTensor) -> bool:
     """Tell whether Gazebo and MuJoCo accept a tensor: positive, triangle inequality satisfied."""
-    found = consistency(six)
+    found = measure_consistency(six)
     return found.negativity < -EXACT and found.excess <= EXACT
 
 
@@ -77,7 +77,7 @@ def is_rejected_by_mujoco(six: SymmetricTensor) -> bool:
     Args:
         six: The six numbers [kg·m²].
     """
-    return any(six) and principal_moments(six)[0] < _LEAST_IN_MUJOCO
+    return any(six) and compute_principal_moments(six)[0] < _LEAST_IN_MUJOCO
 
 
 def has_inertia_that_mujoco_rejects(robot: Robot) -> bool:
@@ -91,28 +91,28 @@ def has_inertia_that_mujoco_rejects(robot: Robot) -> bool:
 
 def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
     """Tell whether Gazebo rejects the inertia of a link after lumping fixed joints."""
-    whole = next((links for links in bodies(robot).values() if link in links), None)
+    whole = next((links for links in find_rigid_bodies(robot).values() if link in links), None)
     if whole is None:
         joint = robot.tree.parent_joint(link.name)
         if joint is not None and joint.is_fixed:
             return False  # a broken tree does not determine the body
         whole = [link]
-    return consistency(body_inertia(robot, whole).tensor).excess > EXACT
+    return measure_consistency(compute_body_inertia(robot, whole).tensor).excess > EXACT
 
 
-def rounding_of(inertia: Inertia) -> float:
+def compute_rounding(inertia: Inertia) -> float:
     """Compute how far rounding may raise the largest moment above the others' sum [kg·m²].
 
     Each component may be off by half a unit of its last digit, and each moment by the norm of that.
     """
     written = {} if inertia.xml is None else inertia.xml.attributes
-    halves = [_half_a_digit(written.get(name, "")) for name in SIX]
+    halves = [_compute_half_digit(written.get(name, "")) for name in SIX]
     xx, xy, xz, yy, yz, zz = halves
     norm = math.hypot(xx, yy, zz, *(math.sqrt(2) * part for part in (xy, xz, yz)))
     return 2 * norm + xx + yy + zz
 
 
-def _half_a_digit(text: str) -> float:
+def _compute_half_digit(text: str) -> float:
     """Compute half a unit of the last digit of a number as written; 0 for exactly 0."""
     try:
         value = Decimal(text.strip())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ...model.pose import norm
+from ...model.pose import compute_norm
 from ..fix import (
     FixContext,
     Proposal,
@@ -37,7 +37,7 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
     zero.
     """
     for joint in robot.joints:
-        if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < shortest:
+        if joint.has_axis and joint.axis is not None and compute_norm(joint.axis.xyz) < shortest:
             yield Problem(
                 joint,
                 f"axis of joint '{joint.name}' is zero; write a direction such as 0 0 1",
@@ -65,7 +65,7 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
     for joint in robot.joints:
         if not joint.has_axis or joint.axis is None:
             continue
-        length = norm(joint.axis.xyz)
+        length = compute_norm(joint.axis.xyz)
         if length >= 1e-6 and abs(length - 1.0) > tolerance:
             yield Problem(
                 joint,
@@ -82,10 +82,10 @@ def write_unit_axis(problem: Problem, context: FixContext) -> Proposal | None:
     The fix is unsafe because PyBullet uses the written length: at length 2, a prismatic joint moves
     by twice its position.
     """
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if joint.axis is None:
         return None
-    length = norm(joint.axis.xyz)
+    length = compute_norm(joint.axis.xyz)
     unit = format_numbers((part / length for part in joint.axis.xyz), 17)
     return unsafe(f'write xyz="{unit}"', set_attribute(joint.axis.element, "xyz", unit))
 
@@ -116,7 +116,7 @@ def axis_omitted(robot: Robot) -> Iterator[Problem]:
 @axis_omitted.fix(SAFE)
 def write_default_axis(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the default axis, unless a xacro argument may set a different one."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     behind = joint.child_element or joint.parent_element
     if behind is None or may_vary(joint.element):
         return None
@@ -160,7 +160,7 @@ def axis_nearly_canonical(
 @axis_nearly_canonical.fix(UNSAFE)
 def write_canonical_axis(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the axis along x, y or z."""
-    axis, snapped = context.joint(problem).axis, problem.data["write"]
+    axis, snapped = context.get_joint(problem).axis, problem.data["write"]
     if axis is None:
         return None
     return unsafe(f'write xyz="{snapped}"', set_attribute(axis.element, "xyz", snapped))

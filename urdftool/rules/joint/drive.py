@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.actuation import actuated_joints, is_passive, measured_joints
+from ...model.actuation import find_actuated_joints, find_measured_joints, is_passive
 from ...model.elements import Joint, Limit, Robot
 from ...model.read import number
 from ..fix import (
@@ -21,8 +21,12 @@ from ..fix import (
 )
 from ..gazebo.contact import is_wheel
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import quoted
-from ..xml.vocabulary_table import is_for_another_reader, misspelt_attributes, misspelt_children
+from ..words import quote
+from ..xml.vocabulary_table import (
+    find_misspelled_attributes,
+    find_misspelled_children,
+    is_for_another_reader,
+)
 from .range import is_locked
 
 _UNITS = {"prismatic": ("N", "m/s")}
@@ -47,8 +51,8 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     and 0 is correct.
     """
     passive = "gz" not in targets and is_for_another_reader(robot.element)
-    actuated = actuated_joints(robot)
-    for joint, limit in _driven(robot):
+    actuated = find_actuated_joints(robot)
+    for joint, limit in _iterate_driven(robot):
         if limit.effort == 0.0 and not is_passive(joint, actuated):
             yield Problem(
                 joint,
@@ -76,25 +80,25 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
     Gazebo then does not allow the joint to move. MoveIt takes it as a missing limit and cannot time
     a trajectory.
     """
-    for joint, limit in _driven(robot):
+    for joint, limit in _iterate_driven(robot):
         if limit.velocity == 0.0:
             yield Problem(
                 joint,
                 f"velocity limit of joint '{joint.name}' is 0, so it must not move; "
-                f"write its maximum [{_units(joint)[1]}]",
+                f"write its maximum [{_get_units(joint)[1]}]",
                 at=limit.element.attribute_place("velocity"),
                 alike=joint.type == "prismatic",
             )
 
 
-def _driven(robot: Robot) -> Iterator[tuple[Joint, Limit]]:
+def _iterate_driven(robot: Robot) -> Iterator[tuple[Joint, Limit]]:
     for joint in robot.joints:
         if joint.limit is not None and joint.mimic is None:
             if joint.type in ("revolute", "continuous", "prismatic"):
                 yield joint, joint.limit
 
 
-def _units(joint: Joint) -> tuple[str, str]:
+def _get_units(joint: Joint) -> tuple[str, str]:
     return _UNITS.get(joint.type, ("N·m", "rad/s"))
 
 
@@ -148,18 +152,20 @@ def implausible_velocity(
     are one finding.
     """
     found = []
-    measured = measured_joints(robot)
-    for joint, limit in _driven(robot):
+    measured = find_measured_joints(robot)
+    for joint, limit in _iterate_driven(robot):
         if joint.type == "continuous" or limit.velocity is None or is_locked(joint):
             continue
         if limit.effort == 0.0 or joint.name in measured:
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
-            excess = _judged(limit.velocity, fastest)
-            what = f"{limit.velocity:g} {_units(joint)[1]}, {excess}"
-            found.append(_Large(joint, limit, limit.velocity, _is_endless(limit.velocity), what))
-    for one, more in _alike(found, together):
+            excess = _describe_excess(limit.velocity, fastest)
+            what = f"{limit.velocity:g} {_get_units(joint)[1]}, {excess}"
+            found.append(
+                _ImplausibleLimit(joint, limit, limit.velocity, _is_endless(limit.velocity), what)
+            )
+    for one, more in _deduplicate(found, together):
         yield Problem(
             one.joint,
             f"velocity limit of joint '{one.joint.name}'{more} is {one.what}; "
@@ -188,19 +194,19 @@ def implausible_effort(
     not reported. ``largest`` [N·m, N] is the highest plausible effort. Where more than ``together``
     joints have the same value, they are one finding.
     """
-    actuated = actuated_joints(robot)
+    actuated = find_actuated_joints(robot)
     found = [
-        _Large(
+        _ImplausibleLimit(
             joint,
             limit,
             limit.effort,
             _is_endless(limit.effort),
-            f"{limit.effort:g} {_units(joint)[0]}, {_judged(limit.effort, largest)}",
+            f"{limit.effort:g} {_get_units(joint)[0]}, {_describe_excess(limit.effort, largest)}",
         )
-        for joint, limit in _driven(robot)
+        for joint, limit in _iterate_driven(robot)
         if limit.effort is not None and limit.effort > largest and not is_passive(joint, actuated)
     ]
-    for one, more in _alike(found, together):
+    for one, more in _deduplicate(found, together):
         yield Problem(
             one.joint,
             f"effort limit of joint '{one.joint.name}'{more} is {one.what}; "
@@ -211,7 +217,7 @@ def implausible_effort(
         )
 
 
-def _judged(value: float, most: float) -> str:
+def _describe_excess(value: float, most: float) -> str:
     """Describe how a limit exceeds the largest plausible one; a power of ten means no limit."""
     return "in effect no limit" if _is_endless(value) else f"above {most:g}"
 
@@ -219,14 +225,14 @@ def _judged(value: float, most: float) -> str:
 def _is_endless(value: float) -> bool:
     """Tell whether a large limit means no limit."""
     power = math.log10(value)
-    return value >= _ENDLESS or abs(power - round(power)) < 1e-9
+    return value >= _NO_LIMIT or abs(power - round(power)) < 1e-9
 
 
-_ENDLESS = 1e6
+_NO_LIMIT = 1e6
 """Velocity [rad/s, m/s] or effort [N·m, N] from which a limit is a placeholder for no limit."""
 
 
-class _Large(NamedTuple):
+class _ImplausibleLimit(NamedTuple):
     """A limit that is implausibly large.
 
     Attributes:
@@ -249,7 +255,9 @@ class _Large(NamedTuple):
         return self.joint.type == "prismatic"
 
 
-def _alike(found: list[_Large], together: float) -> Iterator[tuple[_Large, str]]:
+def _deduplicate(
+    found: list[_ImplausibleLimit], together: float
+) -> Iterator[tuple[_ImplausibleLimit, str]]:
     """Yield each limit, or the first of more than ``together`` that are equal."""
     times = Counter((one.value, one.is_slide) for one in found)
     reported = set()
@@ -316,7 +324,7 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
         element = joint.dynamics.element
         if element.attributes.keys() & {"damping", "friction"} or element.children:
             continue
-        if not misspelt_attributes(element):
+        if not find_misspelled_attributes(element):
             yield Problem(
                 joint,
                 f"<dynamics> of joint '{joint.name}' has neither damping nor friction; "
@@ -328,7 +336,7 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
 @empty_dynamics.fix(SAFE)
 def remove_empty_dynamics(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the empty ``<dynamics>``."""
-    dynamics = context.joint(problem).dynamics
+    dynamics = context.get_joint(problem).dynamics
     if dynamics is None or dynamics.element.attributes:
         return None
     return safe("remove the empty <dynamics>", remove_element(dynamics.element))
@@ -369,7 +377,7 @@ def write_dynamics_attributes(problem: Problem, context: FixContext) -> Proposal
 
     The fix is unsafe because MuJoCo loads the robot without this damping and friction before it.
     """
-    dynamics = context.joint(problem).dynamics
+    dynamics = context.get_joint(problem).dynamics
     if dynamics is None:
         return None
     element = dynamics.element
@@ -406,11 +414,11 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
         if joint.type in _MOVING
         and not is_locked(joint)
         and _is_undamped(joint)
-        and not _turns_wheel(robot, joint)
+        and not _is_wheel_joint(robot, joint)
         and (joint.mimic is None or joint.mimic.joint not in robot.joint)
     ]
     if free:
-        names = quoted(joint.name for joint in free)
+        names = quote(joint.name for joint in free)
         which, verb = ("joint", "has") if len(free) == 1 else ("joints", "have")
         yield Problem(
             free[0],
@@ -423,13 +431,13 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
 _MOVING = ("revolute", "continuous", "prismatic")
 
 
-def _turns_wheel(robot: Robot, joint: Joint) -> bool:
+def _is_wheel_joint(robot: Robot, joint: Joint) -> bool:
     link = robot.link.get(joint.child)
     return joint.type == "continuous" and link is not None and is_wheel(robot, link)
 
 
 def _is_undamped(joint: Joint) -> bool:
-    if "dynamics" in misspelt_children(joint.element).values() or joint.element.child(
+    if "dynamics" in find_misspelled_children(joint.element).values() or joint.element.child(
         "joint_properties"
     ):
         return False

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Vector
-from ...model.pose import pose_of, rotate
+from ...model.pose import make_pose, rotate
 from ..rule import INFO, WARNING, Problem, rule
 
 APPLIES_TO = ("joint",)
@@ -63,7 +63,7 @@ def fingers_move_together(robot: Robot) -> Iterator[Problem]:
         if len(slides) != 2 or not all(map(_is_finger, slides)):
             continue
         one, other = slides
-        axes = (_axis_in_parent(one), _axis_in_parent(other))
+        axes = (_compute_axis_in_parent(one), _compute_axis_in_parent(other))
         if sum(a * b for a, b in zip(*axes, strict=True)) < 0.95:
             continue
         leader = {joint.mimic.joint: joint for joint in slides if joint.mimic is not None}
@@ -72,7 +72,7 @@ def fingers_move_together(robot: Robot) -> Iterator[Problem]:
             together = follower.mimic.multiplier > 0
             remedy = "write a negative multiplier, or reverse one axis"
         else:
-            ways = {_way(joint) for joint in slides}
+            ways = {_get_direction(joint) for joint in slides}
             together = len(ways) == 1 and None not in ways
             remedy = "reverse the axis of one of them"
         if together:
@@ -92,14 +92,14 @@ def _is_finger(joint: Joint) -> bool:
     return _FINGER.search(joint.name) is not None or _FINGER.search(joint.child) is not None
 
 
-def _axis_in_parent(joint: Joint) -> Vector:
+def _compute_axis_in_parent(joint: Joint) -> Vector:
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     length = math.hypot(*axis) or 1.0
-    x, y, z = rotate(pose_of(joint.origin).rotation, axis)
+    x, y, z = rotate(make_pose(joint.origin).rotation, axis)
     return x / length, y / length, z / length
 
 
-def _way(joint: Joint) -> int | None:
+def _get_direction(joint: Joint) -> int | None:
     """Get the direction of motion from 0: 1 along the axis, -1 against it; None for both."""
     if joint.limit is None or joint.limit.lower is None or joint.limit.upper is None:
         return None

@@ -8,18 +8,18 @@ from ...model.elements import BALL_TYPES, JOINT_TYPES, Joint, Robot
 from ..fix import (
     FixContext,
     Proposal,
-    element_at,
+    find_element,
     is_computed,
     remove_element,
     safe,
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, holding, rule
+from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
-from ..xml.vocabulary_table import meant
+from ..xml.vocabulary_table import suggest_word
 
-_ELSEWHERE = {
+_REMEDIES = {
     "spherical": "only MuJoCo and PyBullet read it; use three revolute joints",
     "ball": "only SDF and Drake's <drake:joint> have it; use three revolute joints",
     "universal": "only SDF and Drake's <drake:joint> have it; use two revolute joints",
@@ -54,25 +54,25 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
             continue
         names = joint.element.attributes
         if "type" in names or not any(name.lower() == "type" for name in names):
-            yield _unknown_type(joint, targets)
+            yield _report_unknown_type(joint, targets)
 
 
 @unknown_joint_type.full
-def every_unknown_type(robot: Robot) -> Iterator[Problem]:
+def report_unknown_types(robot: Robot) -> Iterator[Problem]:
     """Report each type that is not in URDF, also in capitals or unexpanded."""
     for joint in robot.joints:
         if joint.type not in JOINT_TYPES:
-            problem = _unknown_type(joint, frozenset())
+            problem = _report_unknown_type(joint, frozenset())
             problem.data = {"is_ball": joint.type in BALL_TYPES}
             yield problem
 
 
-def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
+def _report_unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
     kind, word = joint.type, None
     if joint.xml is None or "type" in joint.xml.attributes:
-        instead = _ELSEWHERE.get(kind)
+        instead = _REMEDIES.get(kind)
         if instead is None:
-            word = _SYNONYMS.get(kind) or meant(kind, JOINT_TYPES)
+            word = _SYNONYMS.get(kind) or suggest_word(kind, JOINT_TYPES)
             instead = f"write {word}" if word else f"the types are {', '.join(sorted(JOINT_TYPES))}"
         message = f"joint '{joint.name}' has the unknown type '{kind}'; {instead}"
     else:
@@ -93,7 +93,7 @@ def write_joint_type(problem: Problem, context: FixContext) -> Proposal | None:
     word: str | None = problem.data.get("write")
     if word is None:
         return None
-    element = context.joint(problem).element
+    element = context.get_joint(problem).element
     return unsafe(f"make it {word}", set_attribute(element, "type", word))
 
 
@@ -129,7 +129,7 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
                 "robot_state_publisher does not move it; use revolute and prismatic joints, or "
                 "leave the root free",
                 at=joint.attribute_place("type"),
-                effects=holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
+                effects=select_holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
             )
 
 
@@ -172,7 +172,7 @@ def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
 @redundant_on_fixed.fix(SAFE)
 def remove_from_fixed_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the element, unless a xacro argument sets the type of the joint."""
-    element = element_at(problem)
-    if element is None or is_computed(context.joint(problem).element, "type"):
+    element = find_element(problem)
+    if element is None or is_computed(context.get_joint(problem).element, "type"):
         return None
     return safe(f"remove the <{element.tag}>", remove_element(element))

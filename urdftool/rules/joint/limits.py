@@ -17,8 +17,8 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import BOTH, ERROR, INFO, UNSAFE, WARNING, Problem, holding, rule
-from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
+from ..rule import BOTH, ERROR, INFO, UNSAFE, WARNING, Problem, rule, select_holding
+from ..xml.vocabulary_table import find_misspelled_attributes, find_misspelled_children
 
 
 @rule(
@@ -38,20 +38,20 @@ def missing_limit(robot: Robot) -> Iterator[Problem]:
     for joint in robot.joints:
         if not joint.is_limited or joint.limit is not None:
             continue
-        if "limit" in misspelt_children(joint.element).values():
+        if "limit" in find_misspelled_children(joint.element).values():
             continue
-        yield _without_limit(joint)
+        yield _report_missing_limit(joint)
 
 
 @missing_limit.full
-def every_missing_limit(robot: Robot) -> Iterator[Problem]:
+def report_missing_limits(robot: Robot) -> Iterator[Problem]:
     """Report each joint that needs limits and has none, also where they are misspelled."""
     for joint in robot.joints:
         if joint.is_limited and joint.limit is None:
-            yield _without_limit(joint)
+            yield _report_missing_limit(joint)
 
 
-def _without_limit(joint: Joint) -> Problem:
+def _report_missing_limit(joint: Joint) -> Problem:
     or_type = ", or make it continuous" if joint.type == "revolute" else ""
     return Problem(
         joint,
@@ -64,7 +64,7 @@ def _without_limit(joint: Joint) -> Problem:
 @missing_limit.fix(UNSAFE)
 def make_continuous(problem: Problem, context: FixContext) -> Proposal | None:
     """Make a revolute joint without limits continuous."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if joint.type != "revolute":
         return None
     return unsafe("make it continuous", set_attribute(joint.element, "type", "continuous"))
@@ -86,7 +86,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
     MuJoCo and Drake load it, so the defect is only noticed in ROS. For a joint of an unknown type,
     ``unknown-joint-type`` is reported instead.
     """
-    if _version(robot) >= 1.2:
+    if _read_version(robot) >= 1.2:
         return
     for joint in robot.joints:
         limit = joint.limit
@@ -94,7 +94,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
             continue
         attributes = limit.element.attributes
         missing = [name for name in ("effort", "velocity") if name not in attributes]
-        if missing and (meant := misspelt_attributes(limit.element)):
+        if missing and (meant := find_misspelled_attributes(limit.element)):
             missing = [name for name in missing if name not in meant.values()]
         if missing:
             words = " and no ".join(missing)
@@ -106,7 +106,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
             )
 
 
-def _version(robot: Robot) -> float:
+def _read_version(robot: Robot) -> float:
     try:
         return float(robot.version or "1.0")
     except ValueError:
@@ -119,7 +119,7 @@ def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None
 
     The ``<limit>`` of a fixed joint is removed.
     """
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     limit = joint.limit
     if limit is None:
         return None
@@ -130,7 +130,7 @@ def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None
     changes, written = [], []
     for name in ("effort", "velocity"):
         if name not in limit.element.attributes:
-            value = _usual_value(context.robot, joint, name)
+            value = _get_usual_value(context.robot, joint, name)
             if value is None:
                 return None
             changes.append(set_attribute(limit.element, name, value))
@@ -140,7 +140,7 @@ def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None
     return unsafe(f"write {' and '.join(written)}, as in its other joints", *changes)
 
 
-def _usual_value(robot: Robot, joint: Joint, name: str) -> str | None:
+def _get_usual_value(robot: Robot, joint: Joint, name: str) -> str | None:
     """Get the most frequent limit of the other joints of the same type, as written."""
     counts: Counter[str] = Counter()
     for other in robot.joints:
@@ -185,7 +185,7 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             continue
         attributes = limit.element.attributes
         missing = [name for name in ("lower", "upper") if name not in attributes]
-        if missing and (meant := misspelt_attributes(limit.element)):
+        if missing and (meant := find_misspelled_attributes(limit.element)):
             missing = [name for name in missing if name not in meant.values()]
         if not missing:
             continue
@@ -205,7 +205,7 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             f"<limit> of joint '{joint.name}' has {what}",
             at=limit,
             severity=severity,
-            effects=holding(_WITHOUT_BOUNDS, case),
+            effects=select_holding(_WITHOUT_BOUNDS, case),
             alike=(case, joint.type == "revolute"),
             data={"missing": missing},
         )
@@ -222,7 +222,7 @@ def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | Non
     The fix is unsafe because readers differ: pinocchio and urdfdom take 0 for a missing bound,
     PyBullet takes -1 for a missing upper bound.
     """
-    limit = context.joint(problem).limit
+    limit = context.get_joint(problem).limit
     if limit is None:
         return None
     missing = [name for name in ("lower", "upper") if name not in limit.element.attributes]
@@ -269,7 +269,7 @@ def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
 @continuous_with_bounds.fix(UNSAFE)
 def remove_bounds(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the bounds."""
-    limit = context.joint(problem).limit
+    limit = context.get_joint(problem).limit
     if limit is None:
         return None
     names = [name for name in ("lower", "upper") if name in limit.element.attributes]

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Mimic, Robot
 from ...source.document import Element
-from ..fix import FixContext, Proposal, format_numbers, set_attribute, suggestion_of, unsafe
+from ..fix import FixContext, Proposal, format_numbers, get_suggestion, set_attribute, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest
-from ..xml.vocabulary_table import misspelt_attributes
-from .range import bounds_of_joint
+from ..words import nearest, suggest_name
+from ..xml.vocabulary_table import find_misspelled_attributes
+from .range import get_bounds
 
 APPLIES_TO = ("mimic",)
 
@@ -41,35 +41,35 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
     urdfdom rejects the robot, and so do all readers that use it: ROS, Gazebo and pinocchio.
     """
     stripped = {name.strip() for name in robot.joint}
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         name = mimic.joint
         if name in robot.joint or is_unexpanded(name):
             continue
         if not name.strip():
             if "joint" in mimic.element.attributes or not _is_misspelt(mimic.element):
-                yield Problem(joint, _without_leader(joint), at=mimic, alike="no name")
+                yield Problem(joint, _describe_missing_leader(joint), at=mimic, alike="no name")
         elif name.strip() not in stripped:
-            yield _unknown_leader(robot, joint, mimic)
+            yield _report_unknown_leader(robot, joint, mimic)
 
 
 @mimic_unknown_joint.full
-def every_unknown_leader(robot: Robot) -> Iterator[Problem]:
+def report_unknown_leaders(robot: Robot) -> Iterator[Problem]:
     """Report each mimic joint without an existing leader, also if the attribute is misspelled."""
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         if mimic.joint not in robot.joint:
             if mimic.joint.strip():
-                yield _unknown_leader(robot, joint, mimic)
+                yield _report_unknown_leader(robot, joint, mimic)
             else:
                 place = mimic.element.attribute_place("joint")
-                yield Problem(joint, _without_leader(joint), at=place)
+                yield Problem(joint, _describe_missing_leader(joint), at=place)
 
 
-def _without_leader(joint: Joint) -> str:
+def _describe_missing_leader(joint: Joint) -> str:
     return f"<mimic> of joint '{joint.name}' has no joint name; write joint=\"…\""
 
 
-def _unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
-    near = did_you_mean(mimic.joint, robot.joint)
+def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
+    near = suggest_name(mimic.joint, robot.joint)
     return Problem(
         joint,
         f"joint '{joint.name}' mimics '{mimic.joint}', but the robot has no such joint{near}",
@@ -81,16 +81,16 @@ def _unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
 
 def _is_misspelt(element: Element) -> bool:
     """Tell whether the attribute has a different name, which another rule reports."""
-    return "name" in element.attributes or "joint" in misspelt_attributes(element).values()
+    return "name" in element.attributes or "joint" in find_misspelled_attributes(element).values()
 
 
 @mimic_unknown_joint.fix(UNSAFE)
 def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the existing joint with the most similar name."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if joint.mimic is None:
         return None
-    name = suggestion_of(problem, joint.mimic.joint)
+    name = get_suggestion(problem, joint.mimic.joint)
     if not name or name == joint.name:
         return None
     return unsafe(f"mimic '{name}'", set_attribute(joint.mimic.element, "joint", name))
@@ -111,13 +111,13 @@ def mimic_cycle(robot: Robot) -> Iterator[Problem]:
     joints of the robot. Remove one ``<mimic>``.
     """
     done: set[str] = set()
-    for joint, _ in _mimics(robot):
+    for joint, _ in _iterate_mimic_joints(robot):
         names: list[str] = []
         follower: Joint | None = joint
         while follower is not None and follower.mimic is not None and follower.name not in done:
             if follower.name in names:
                 circle = names[names.index(follower.name) :]
-                yield _of_circle(robot.joint[circle[0]], circle)
+                yield _report_cycle(robot.joint[circle[0]], circle)
                 break
             names.append(follower.name)
             follower = robot.joint.get(follower.mimic.joint)
@@ -125,19 +125,19 @@ def mimic_cycle(robot: Robot) -> Iterator[Problem]:
 
 
 @mimic_cycle.full
-def every_joint_of_circle(robot: Robot) -> Iterator[Problem]:
+def report_joints_of_cycles(robot: Robot) -> Iterator[Problem]:
     """Report each mimic joint that follows itself, directly or through others."""
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         circle = [joint.name]
         leader = joint if mimic.joint == joint.name else robot.joint.get(mimic.joint)
         while leader is not None and leader.mimic is not None and leader.name not in circle:
             circle.append(leader.name)
             leader = robot.joint.get(leader.mimic.joint)
         if leader is not None and leader.mimic is not None and leader.name == joint.name:
-            yield _of_circle(joint, circle)
+            yield _report_cycle(joint, circle)
 
 
-def _of_circle(joint: Joint, circle: list[str]) -> Problem:
+def _report_cycle(joint: Joint, circle: list[str]) -> Problem:
     assert joint.mimic is not None  # callers pass mimic joints only
     if len(circle) == 1:
         message = f"joint '{joint.name}' mimics itself; it must follow another joint"
@@ -162,7 +162,7 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
     later, it publishes no transform for the joint, and the links below are missing in tf. Refer to
     the first leader, and multiply the multipliers.
     """
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         leader = robot.joint.get(mimic.joint)
         if leader is None or leader.mimic is None or leader is joint:
             continue
@@ -187,7 +187,7 @@ def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | Non
     The fix is unsafe because it changes which joints the MuJoCo constraint couples; the motion is
     the same.
     """
-    mimic, data = context.joint(problem).mimic, problem.data
+    mimic, data = context.get_joint(problem).mimic, problem.data
     if mimic is None:
         return None
     changes = [set_attribute(mimic.element, "joint", data["joint"])]
@@ -210,7 +210,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
     the mimic constraint and the limit conflict: the leader stops early, and a gripper may
     oscillate. ``tolerance`` [rad or m] is the difference that is ignored.
     """
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         leader = robot.joint.get(mimic.joint)
         if leader is None or leader.limit is None or joint.limit is None:
             continue
@@ -239,12 +239,12 @@ def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | 
 
     The limits of the mimic joint are not increased, because the hardware defines them.
     """
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     mimic = joint.mimic
     leader = context.robot.joint.get(mimic.joint) if mimic is not None else None
     if mimic is None or leader is None or not mimic.multiplier:
         return None
-    own, other = bounds_of_joint(joint), bounds_of_joint(leader)
+    own, other = get_bounds(joint), get_bounds(leader)
     if own is None or other is None:
         return None
     ends = sorted((value - mimic.offset) / mimic.multiplier for value in own[1:])
@@ -277,7 +277,7 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
     """
     controlled = {one.name for block in robot.ros2_controls for one in block.joints}
     alike: dict[tuple[str, str], list[tuple[Joint, Mimic]]] = {}
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         leader = robot.joint.get(mimic.joint)
         for one in (joint, leader):
             if one is not None and one.type in ("fixed", "floating", "planar"):
@@ -301,7 +301,9 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
             what = f"{names[0]} is {kind} and mimics another"
             what += f"; so are {', '.join(names[1:])}" if names[1:] else ""
         keys = set()
-        if any(_differ(joint, robot.joint.get(mimic.joint)) for joint, mimic in found):
+        if any(
+            _has_different_variables(joint, robot.joint.get(mimic.joint)) for joint, mimic in found
+        ):
             keys.add("moveit")
         if kind == "fixed" and any(joint.name in controlled for joint, _ in found):
             keys.add("ros2_control")
@@ -316,9 +318,9 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
 
 
 @mimic_dof_mismatch.full
-def every_mimic_of_fixed_joint(robot: Robot) -> Iterator[Problem]:
+def report_fixed_leaders(robot: Robot) -> Iterator[Problem]:
     """Report each mimic joint whose leader is fixed and so has no position."""
-    for joint, mimic in _mimics(robot):
+    for joint, mimic in _iterate_mimic_joints(robot):
         leader = robot.joint.get(mimic.joint)
         if leader is not None and leader.is_fixed:
             yield Problem(
@@ -334,7 +336,7 @@ _VARIABLES = {"fixed": 0, "planar": 3, "floating": 7}
 """Number of position variables of a joint in MoveIt; every other type has one."""
 
 
-def _differ(joint: Joint, leader: Joint | None) -> bool:
+def _has_different_variables(joint: Joint, leader: Joint | None) -> bool:
     """Tell whether two joints have different numbers of position variables in MoveIt."""
     return leader is not None and (_VARIABLES.get(joint.type, 1) != _VARIABLES.get(leader.type, 1))
 
@@ -358,15 +360,17 @@ def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     """
     plugged = {
         child.text.strip() for plugin in robot.plugins for child in plugin.element.all("mimicJoint")
-    } | _in_loops(robot)
-    free = [pair for pair in _mimics(robot) if pair[0].name not in plugged]
+    } | _find_joints_above_loops(robot)
+    free = [pair for pair in _iterate_mimic_joints(robot) if pair[0].name not in plugged]
     if free:
-        yield _hanging(free, "where <mimic> is not simulated; add a plugin or a constraint", [])
-    moved = [pair for pair in _mimics(robot) if pair[0].name in plugged]
+        yield _report_free_joints(
+            free, "where <mimic> is not simulated; add a plugin or a constraint", []
+        )
+    moved = [pair for pair in _iterate_mimic_joints(robot) if pair[0].name in plugged]
     readers = [name for target, name in _WITHOUT_PLUGINS.items() if target in targets]
     if moved and readers:
         do = "do" if len(readers) > 1 else "does"
-        yield _hanging(
+        yield _report_free_joints(
             moved,
             f"in {' and '.join(readers)}, which {do} not read the Gazebo plugin or SDF joint that "
             "moves it; add a constraint",
@@ -374,7 +378,7 @@ def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
         )
 
 
-def _in_loops(robot: Robot) -> set[str]:
+def _find_joints_above_loops(robot: Robot) -> set[str]:
     """Get the names of mimic joints above an end of an SDF joint, which closes a loop."""
     ends = {
         end.text.strip()
@@ -384,7 +388,7 @@ def _in_loops(robot: Robot) -> set[str]:
         if end is not None
     }
     found = set()
-    for joint, _ in _mimics(robot) if ends else ():
+    for joint, _ in _iterate_mimic_joints(robot) if ends else ():
         below = {joint.child, *robot.tree.descendants(joint.child)}
         if not below.isdisjoint(ends):
             found.add(joint.name)
@@ -394,7 +398,9 @@ def _in_loops(robot: Robot) -> set[str]:
 _WITHOUT_PLUGINS = {"mujoco": "MuJoCo before 4.0", "pybullet": "PyBullet"}
 
 
-def _hanging(mimics: list[tuple[Joint, Mimic]], where: str, readers: list[str]) -> Problem:
+def _report_free_joints(
+    mimics: list[tuple[Joint, Mimic]], where: str, readers: list[str]
+) -> Problem:
     """Report mimic joints that move freely, and the readers for which this holds alone."""
     joint, mimic = mimics[0]
     more = f" (and {len(mimics) - 1} more)" if len(mimics) > 1 else ""
@@ -406,5 +412,5 @@ def _hanging(mimics: list[tuple[Joint, Mimic]], where: str, readers: list[str]) 
     )
 
 
-def _mimics(robot: Robot) -> Iterator[tuple[Joint, Mimic]]:
+def _iterate_mimic_joints(robot: Robot) -> Iterator[tuple[Joint, Mimic]]:
     return ((joint, joint.mimic) for joint in robot.joints if joint.mimic is not None)

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ..fix import FixContext, Proposal, attribute_at, format_numbers, set_attribute, unsafe
+from ..fix import FixContext, Proposal, find_attribute, format_numbers, set_attribute, unsafe
 from ..rule import UNSAFE, WARNING, Problem, rule
-from ..xml.owner import owner
-from ..xml.vocabulary_table import census
+from ..xml.owner import describe_owner
+from ..xml.vocabulary_table import get_census
 
 _DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
 
@@ -26,7 +26,7 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
     Roll, pitch and yaw are in radians. 90 means 90 rad, which is the same rotation as 116.6°, so
     the part has a wrong orientation. ``largest`` [rad] is the largest angle that is not reported.
     """
-    for element in census(robot).known["origin"]:
+    for element in get_census(robot).known["origin"]:
         text = element.attributes.get("rpy")
         if not text:
             continue
@@ -45,14 +45,18 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
         else:
             what = f"has {angle:g} rad in its rpy, more than one turn; check for degrees"
         around = element.parent.tag if element.parent is not None else "robot"
-        whose = owner(element) if around == "joint" else f"the <{around}> of {owner(element)}"
+        whose = (
+            describe_owner(element)
+            if around == "joint"
+            else f"the <{around}> of {describe_owner(element)}"
+        )
         yield Problem(element, f"{whose} {what}", at=element.attribute_place("rpy"), data=data)
 
 
 @rpy_in_degrees.fix(UNSAFE)
 def write_angles_in_radians(problem: Problem, _context: FixContext) -> Proposal | None:
     """Write the same angles in radians."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None or "degrees" not in problem.data:
         return None
     text = problem.data["write"]

@@ -9,13 +9,13 @@ from ...model.elements import Joint, Limit, Link, Robot
 from ..fix import (
     FixContext,
     Proposal,
-    attribute_at,
+    find_attribute,
     format_numbers,
     remove_attribute,
     set_attribute,
     unsafe,
 )
-from ..mesh.outlines import reaches
+from ..mesh.link_extents import get_extents
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 
 
@@ -37,12 +37,16 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     upper="-1"`` means no limits; if PyBullet and MuJoCo are the only targets, the finding is an
     info. Such limits are not swapped: a revolute joint without limits is ``continuous``.
     """
-    for joint, limit, lower, upper in _bounded(robot):
+    for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower > upper:
-            meant = says_unlimited(lower, upper) and targets and targets <= {"pybullet", "mujoco"}
+            meant = (
+                is_pybullet_unlimited(lower, upper)
+                and targets
+                and targets <= {"pybullet", "mujoco"}
+            )
             yield Problem(
                 joint,
-                _inverted(joint, lower, upper),
+                _describe_inverted_limit(joint, lower, upper),
                 at=limit.element.attribute_place("lower"),
                 severity=INFO if meant else None,
                 data={"lower": lower, "upper": upper},
@@ -50,19 +54,19 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 
 
 @lower_above_upper.full
-def every_inverted_limit(robot: Robot) -> Iterator[Problem]:
+def report_inverted_limits(robot: Robot) -> Iterator[Problem]:
     """Report each inverted limit at its element, with 0 for a missing bound."""
     for joint in robot.joints:
         limit = joint.limit
         if joint.is_limited and limit is not None:
             lower, upper = limit.lower or 0.0, limit.upper or 0.0
             if lower > upper:
-                message = _inverted(joint, lower, upper)
+                message = _describe_inverted_limit(joint, lower, upper)
                 yield Problem(joint, message, at=limit, data={"lower": lower, "upper": upper})
 
 
-def _inverted(joint: Joint, lower: float, upper: float) -> str:
-    if says_unlimited(lower, upper):
+def _describe_inverted_limit(joint: Joint, lower: float, upper: float) -> str:
+    if is_pybullet_unlimited(lower, upper):
         so = "PyBullet and MuJoCo take the joint as unlimited, other readers do not; "
         so += (
             "make it continuous, or write lower below upper"
@@ -74,7 +78,7 @@ def _inverted(joint: Joint, lower: float, upper: float) -> str:
     return f"lower limit {lower:g} of joint '{joint.name}' is above its upper limit {upper:g}; {so}"
 
 
-def says_unlimited(lower: float, upper: float) -> bool:
+def is_pybullet_unlimited(lower: float, upper: float) -> bool:
     """Tell whether limits mean no limits in models of PyBullet, such as 1 and -1."""
     return lower in (0.0, 1.0) and upper in (-1.0, 0.0) and lower > upper
 
@@ -82,11 +86,11 @@ def says_unlimited(lower: float, upper: float) -> bool:
 @lower_above_upper.fix(UNSAFE)
 def swap_bounds(problem: Problem, context: FixContext) -> Proposal | None:
     """Swap the limits, or make a revolute joint continuous if they mean no limits."""
-    joint = context.joint(problem)
-    found = bounds_of_joint(joint)
+    joint = context.get_joint(problem)
+    found = get_bounds(joint)
     if found is None:
         return None
-    if says_unlimited(*found[1:]):
+    if is_pybullet_unlimited(*found[1:]):
         return _make_continuous(joint) if joint.type == "revolute" else None
     element = found[0].element
     lower, upper = element.get("lower") or "", element.get("upper") or ""
@@ -133,7 +137,7 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     The joint is meant not to move. MuJoCo ignores such limits, so the joint turns freely, and
     planners have a variable without effect. A joint that does not move should be ``fixed``.
     """
-    for joint, limit, lower, upper in _bounded(robot):
+    for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower == upper:
             yield Problem(
                 joint,
@@ -147,7 +151,7 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
 @locked_by_limits.fix(UNSAFE)
 def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
     """Make a joint fixed if its only position is 0 and nothing drives it."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if problem.data["position"] != 0.0 or joint.mimic is not None:
         return None
     robot = context.robot
@@ -180,7 +184,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
     """
     for joint in robot.joints:
         limit = joint.limit
-        if joint.type != "revolute" or limit is None or _moves_a_frame(robot, joint):
+        if joint.type != "revolute" or limit is None or _is_frame_joint(robot, joint):
             continue
         lower, upper = limit.lower or 0.0, limit.upper or 0.0
         if max(abs(lower), abs(upper)) <= largest:
@@ -198,7 +202,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
                 effects=("urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake (none)",),
                 data={"limit": value, "unlimited": True},
             )
-        elif _looks_like_degrees(lower) and _looks_like_degrees(upper):
+        elif _is_in_degrees(lower) and _is_in_degrees(upper):
             low, high = math.radians(lower), math.radians(upper)
             yield Problem(
                 joint,
@@ -216,14 +220,14 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
             )
 
 
-def _looks_like_degrees(value: float) -> bool:
+def _is_in_degrees(value: float) -> bool:
     return abs(value) <= 720 and (value * 2).is_integer()
 
 
 @limit_in_degrees.fix(UNSAFE)
 def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the same range in radians, or make the joint continuous if it has no limits."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     limit = joint.limit
     if limit is None:
         return None
@@ -254,9 +258,9 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
     pose, is not reported. A range about as long as a shape of the robot, such as a gantry, is not
     reported either. ``largest`` [m] is the largest length that is not reported.
     """
-    for joint, limit, lower, upper in _bounded(robot):
+    for joint, limit, lower, upper in _iterate_bounded(robot):
         if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
-            if _moves_a_frame(robot, joint) or _has_shape_as_long(robot, upper - lower):
+            if _is_frame_joint(robot, joint) or _has_shape_as_long(robot, upper - lower):
                 continue
             name = "upper" if abs(upper) > largest else "lower"
             value = upper if name == "upper" else lower
@@ -289,8 +293,8 @@ _FAR, _FARTHEST = 100.0, 1e4
 @prismatic_in_millimetres.fix(UNSAFE)
 def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
     """Divide the lengths by 1000."""
-    found = attribute_at(problem)
-    joint = context.joint(problem)
+    found = find_attribute(problem)
+    joint = context.get_joint(problem)
     if found is None:
         return None
     element, name = found
@@ -330,7 +334,7 @@ def limit_rounded_outward(
     Round limits toward zero: ``3.1415``. A difference between ``smallest`` and ``largest`` [rad] is
     reported.
     """
-    for joint, limit, lower, upper in _bounded(robot):
+    for joint, limit, lower, upper in _iterate_bounded(robot):
         if joint.type != "revolute":
             continue
         for name, value in (("lower", lower), ("upper", upper)):
@@ -352,7 +356,7 @@ def limit_rounded_outward(
 @limit_rounded_outward.fix(UNSAFE)
 def round_limit_toward_zero(problem: Problem, _context: FixContext) -> Proposal | None:
     """Write the limit rounded toward zero."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     text = problem.data["write"]
@@ -371,7 +375,7 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
 
     Several joint positions then give the same pose, and a planner may take the longer way.
     """
-    for joint, limit, lower, upper in _bounded(robot):
+    for joint, limit, lower, upper in _iterate_bounded(robot):
         if joint.type == "revolute" and 2 * math.pi + 1e-3 < upper - lower < 1e3:
             turns = (upper - lower) / (2 * math.pi)
             yield Problem(
@@ -399,7 +403,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
     be correct, as of an elbow that cannot be straight. ``tolerance`` [rad or m] is the distance of
     0 from the range that is ignored.
     """
-    for joint, limit, lower, upper in _bounded(robot):
+    for joint, limit, lower, upper in _iterate_bounded(robot):
         if joint.mimic is not None or lower > upper:
             continue
         if lower > tolerance or upper < -tolerance:
@@ -414,7 +418,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
             )
 
 
-def _moves_a_frame(robot: Robot, joint: Joint) -> bool:
+def _is_frame_joint(robot: Robot, joint: Joint) -> bool:
     """Tell whether a joint only positions the next one, as several joints at a free root do."""
     if not any(map(_is_body, robot.links)):
         return False  # the robot has only frames
@@ -428,8 +432,8 @@ def _moves_a_frame(robot: Robot, joint: Joint) -> bool:
 
 def _has_shape_as_long(robot: Robot, length: float) -> bool:
     """Tell whether a shape has between half and twice a length [m], as the rail of a slide has."""
-    reach = reaches(robot)
-    boxes = (reach.shape(shape) for _, shape in robot.shapes)
+    reach = get_extents(robot)
+    boxes = (reach.get_shape_box(shape) for _, shape in robot.shapes)
     return any(box is not None and 0.5 <= max(box.size) / length <= 2 for box in boxes if length)
 
 
@@ -437,15 +441,15 @@ def _is_body(link: Link) -> bool:
     return bool(link.visuals or link.collisions or link.mass > 0)
 
 
-def _bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:
+def _iterate_bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:
     """Yield revolute and prismatic joints with two valid bounds, their limit and the bounds."""
     for joint in robot.joints:
-        found = bounds_of_joint(joint)
+        found = get_bounds(joint)
         if joint.is_limited and found is not None:
             yield joint, *found
 
 
-def bounds_of_joint(joint: Joint) -> tuple[Limit, float, float] | None:
+def get_bounds(joint: Joint) -> tuple[Limit, float, float] | None:
     """Get the limit of a joint with its bounds [rad or m], if both are valid numbers."""
     limit = joint.limit
     if limit is None or limit.lower is None or limit.upper is None:

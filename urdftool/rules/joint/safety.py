@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from ...model.elements import Limit, Robot, SafetyController
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
-from ..xml.vocabulary_table import misspelt_attributes
-from .range import bounds_of_joint
+from ..xml.vocabulary_table import find_misspelled_attributes
+from .range import get_bounds
 
 APPLIES_TO = ("safety_controller",)
 
@@ -29,7 +29,7 @@ def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
         safety = joint.safety_controller
         if safety is None or "k_velocity" in safety.element.attributes:
             continue
-        if "k_velocity" not in misspelt_attributes(safety.element).values():
+        if "k_velocity" not in find_misspelled_attributes(safety.element).values():
             yield Problem(
                 joint,
                 f"<safety_controller> of joint '{joint.name}' has no k_velocity, which is "
@@ -77,8 +77,8 @@ def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
 @soft_limits_lock_joint.fix(UNSAFE)
 def write_hard_limits(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the joint limits as soft limits."""
-    joint = context.joint(problem)
-    found, safety = bounds_of_joint(joint), joint.safety_controller
+    joint = context.get_joint(problem)
+    found, safety = get_bounds(joint), joint.safety_controller
     if found is None or safety is None or found[1] >= found[2]:
         return None
     return _write_limits(safety, found[0], "lower", "upper")
@@ -123,7 +123,7 @@ def soft_limits_outside_hard(
             continue
         if low >= limit.upper or high <= limit.lower:
             continue
-        least = max(tolerance, (1 + tolerance) * _still_acting(safety, limit))
+        least = max(tolerance, (1 + tolerance) * _compute_acting_distance(safety, limit))
         below, above = low < limit.lower - least, high > limit.upper + least
         if below and above:
             what = (
@@ -152,8 +152,8 @@ def soft_limits_outside_hard(
 @soft_limits_outside_hard.fix(UNSAFE)
 def clamp_soft_limits(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the joint limits where the soft limits are beyond them."""
-    joint = context.joint(problem)
-    found, safety = bounds_of_joint(joint), joint.safety_controller
+    joint = context.get_joint(problem)
+    found, safety = get_bounds(joint), joint.safety_controller
     if found is None or safety is None:
         return None
     limit, lower, upper = found
@@ -205,7 +205,7 @@ def _are_used(robot: Robot, targets: frozenset[str]) -> bool:
     return bool(robot.transmissions or robot.ros2_controls) or "moveit" in targets
 
 
-def _still_acting(safety: SafetyController, limit: Limit) -> float:
+def _compute_acting_distance(safety: SafetyController, limit: Limit) -> float:
     """Compute how far beyond a joint limit a soft limit still slows the joint [rad, m].
 
     ros_control limits the velocity to ``k_position`` times the distance to the soft limit, and to

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from ...model.elements import Joint, Link, Robot, Vector
 from ..rule import INFO, Problem, rule
-from ..sides import Pair, Sides, family_of, sides
-from ..words import quoted
+from ..symmetry import Pair, Sides, get_family, get_sides
+from ..words import quote
 
 
 @rule(
@@ -28,7 +28,7 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
     limb is reported. Limbs whose joints have the same ``<origin>`` on both sides are copies, and
     not reported.
     """
-    for pair, gap in sides(robot).off:
+    for pair, gap in get_sides(robot).off:
         right = pair.right_joint
         if right.is_fixed:
             continue
@@ -70,10 +70,10 @@ def limits_not_mirrored(
     [rad or m] is the difference that is ignored. More than ``together`` such joints are one
     finding.
     """
-    found = sides(robot)
+    found = get_sides(robot)
     if found.normal is None:
         return
-    unlike = list(_unlike(robot, found, tolerance))
+    unlike = list(_find_asymmetric_ranges(robot, found, tolerance))
     also = ""
     if len(unlike) > together:
         names = ", ".join(f"'{pair.right_joint.name}'" for pair, _, _ in unlike[1:])
@@ -87,7 +87,7 @@ def limits_not_mirrored(
 _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
 
 
-def _carries_nothing(robot: Robot, link: Link) -> bool:
+def _is_massless_frame(robot: Robot, link: Link) -> bool:
     """Tell whether a link and its descendants have neither mass nor geometry."""
     names = (link.name, *robot.tree.descendants(link.name))
     return all(
@@ -96,7 +96,7 @@ def _carries_nothing(robot: Robot, link: Link) -> bool:
     )
 
 
-def _unlike(
+def _find_asymmetric_ranges(
     robot: Robot, found: Sides, tolerance: float
 ) -> Iterator[tuple[Pair, str, tuple[float, float]]]:
     """Find pairs of joints with ranges that are not symmetric.
@@ -108,21 +108,21 @@ def _unlike(
     for pair in found.pairs:
         if found.is_displaced(pair):
             continue
-        if any(_carries_nothing(robot, link) for link in (pair.left, pair.right)):
+        if any(_is_massless_frame(robot, link) for link in (pair.left, pair.right)):
             continue
-        alike = found.turns_alike(pair)
-        left, right = _range(pair.left_joint), _range(pair.right_joint)
+        alike = found.is_mirrored_at_equal_positions(pair)
+        left, right = _get_range(pair.left_joint), _get_range(pair.right_joint)
         if alike is None or left is None or right is None:
             continue
         opposite = (-left[1], -left[0])
         wanted, other = (left, opposite) if alike else (opposite, left)
-        if _near(right, wanted, tolerance):
+        if _is_near(right, wanted, tolerance):
             continue
-        if _near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
+        if _is_near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
             continue
         name, twin = pair.right_joint.name, pair.left_joint.name
         low, high = wanted
-        if _near(right, other, tolerance):
+        if _is_near(right, other, tolerance):
             what = "its axis or its limits have the wrong sign"
         else:
             what = f"the mirrored range is {low:g} to {high:g}"
@@ -153,23 +153,23 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
     the robot, and wheels only with wheels. Asymmetric limits show the intended direction; such a
     pair is not reported.
     """
-    found = sides(robot)
+    found = get_sides(robot)
     if found.normal is None:
         return
     families: dict[tuple[str, str, bool], list[Pair]] = {}
     for pair in found.pairs:
-        if pair.left_joint.has_axis and found.turns_alike(pair) is not None:
-            axis = found.axis(pair.left, pair.left_joint) or (0.0, 0.0, 0.0)
+        if pair.left_joint.has_axis and found.is_mirrored_at_equal_positions(pair) is not None:
+            axis = found.get_axis(pair.left, pair.left_joint) or (0.0, 0.0, 0.0)
             across = abs(axis[found.normal]) > 0.5  # excludes steering joints
-            kind = family_of(pair.left_joint.name), pair.left_joint.type, across
+            kind = get_family(pair.left_joint.name), pair.left_joint.type, across
             families.setdefault(kind, []).append(pair)
     for pairs in families.values():
-        alike = [pair for pair in pairs if found.turns_alike(pair)]
-        unlike = [pair for pair in pairs if not found.turns_alike(pair)]
+        alike = [pair for pair in pairs if found.is_mirrored_at_equal_positions(pair)]
+        unlike = [pair for pair in pairs if not found.is_mirrored_at_equal_positions(pair)]
         if not alike or not unlike:
             continue
         for pair in min((alike, unlike), key=len):
-            joint = _odd(found, pair, pairs)
+            joint = _choose_unique(found, pair, pairs)
             pair = next(p for p in pairs if joint in (p.left_joint, p.right_joint))
             twin = pair.left_joint if joint is pair.right_joint else pair.right_joint
             other = next(other for other in pairs if (other in alike) != (pair in alike))
@@ -181,10 +181,10 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
                 at=joint.axis or joint,
                 data={"twin": twin.name},
             )
-    yield from _lone(robot, found)
+    yield from _report_single_pairs(robot, found)
 
 
-class _Turn(NamedTuple):
+class _AxisPair(NamedTuple):
     """Unit axes of a pair of joints, in the frame of the root."""
 
     pair: Pair
@@ -196,36 +196,36 @@ class _Turn(NamedTuple):
     @property
     def same(self) -> bool:
         """Whether the two axes have the same direction."""
-        return _dot(self.left, self.right) > 0
+        return _compute_dot(self.left, self.right) > 0
 
 
-def _dot(one: Vector, other: Vector) -> float:
+def _compute_dot(one: Vector, other: Vector) -> float:
     return sum(a * b for a, b in zip(one, other, strict=True))
 
 
-def _lone(robot: Robot, found: Sides) -> Iterator[Problem]:
+def _report_single_pairs(robot: Robot, found: Sides) -> Iterator[Problem]:
     """Report pairs that are alone of their kind and differ from every comparable pair."""
-    turns = [turn for pair in found.pairs if (turn := _turn(robot, found, pair))]
-    kinds = Counter(family_of(turn.pair.left_joint.name) for turn in turns)
+    turns = [turn for pair in found.pairs if (turn := _make_axis_pair(robot, found, pair))]
+    kinds = Counter(get_family(turn.pair.left_joint.name) for turn in turns)
     for turn in turns:
         pair = turn.pair
-        if kinds[family_of(pair.left_joint.name)] > 1 or _limits_tell(pair):
+        if kinds[get_family(pair.left_joint.name)] > 1 or _has_asymmetric_limits(pair):
             continue
         votes = [
             (other, agrees)
             for other in turns
             if other is not turn
             and other.wheel == turn.wheel
-            and (agrees := _agree(turn, other, found.normal or 0)) is not None
+            and (agrees := _has_same_relation(turn, other, found.normal or 0)) is not None
         ]
-        limb = _limb(robot, found, pair)
+        limb = _find_limb(robot, found, pair)
         near = [vote for vote in votes if id(vote[0].pair) in limb]
         votes = near if len(near) > 1 else votes
         if len(votes) < 2 or any(agrees for _, agrees in votes):
             continue
-        joint = _odd_of(turn, [other for other, _ in votes], found.normal or 0)
+        joint = _choose_reversed(turn, [other for other, _ in votes], found.normal or 0)
         twin = pair.left_joint if joint is pair.right_joint else pair.right_joint
-        names = quoted(other.pair.left_joint.name for other, _ in votes)
+        names = quote(other.pair.left_joint.name for other, _ in votes)
         yield Problem(
             joint,
             f"axis of joint '{joint.name}' is reversed relative to '{twin.name}', compared with "
@@ -235,46 +235,49 @@ def _lone(robot: Robot, found: Sides) -> Iterator[Problem]:
         )
 
 
-def _turn(robot: Robot, found: Sides, pair: Pair) -> _Turn | None:
-    if found.turns_alike(pair) is None or pair.left_joint.type not in ("revolute", "continuous"):
+def _make_axis_pair(robot: Robot, found: Sides, pair: Pair) -> _AxisPair | None:
+    if found.is_mirrored_at_equal_positions(pair) is None or pair.left_joint.type not in (
+        "revolute",
+        "continuous",
+    ):
         return None
-    left = found.axis(pair.left, pair.left_joint)
-    right = found.axis(pair.right, pair.right_joint)
+    left = found.get_axis(pair.left, pair.left_joint)
+    right = found.get_axis(pair.right, pair.right_joint)
     if left is None or right is None:
         return None
     below = robot.tree.descendants(pair.left.name)
     ends = all(j.is_fixed for n in (pair.left.name, *below) for j in robot.tree.child_joints(n))
-    return _Turn(pair, left, right, pair.left_joint.type == "continuous" and ends)
+    return _AxisPair(pair, left, right, pair.left_joint.type == "continuous" and ends)
 
 
-def _agree(one: _Turn, other: _Turn, normal: int) -> bool | None:
+def _has_same_relation(one: _AxisPair, other: _AxisPair, normal: int) -> bool | None:
     """Compare the relative direction of the axes of two pairs; None if not comparable.
 
     Axes across the robot are compared with each other, perpendicular ones with each other, and
     oblique ones with parallel ones.
     """
-    kinds = [_straight(turn, normal) for turn in (one, other)]
+    kinds = [_is_across(turn, normal) for turn in (one, other)]
     if kinds[0] is not None:
         return one.same == other.same if kinds[0] == kinds[1] else None
-    left, right = _dot(one.left, other.left), _dot(one.right, other.right)
+    left, right = _compute_dot(one.left, other.left), _compute_dot(one.right, other.right)
     return left * right > 0 if min(abs(left), abs(right)) > 0.95 else None
 
 
-def _straight(turn: _Turn, normal: int) -> bool | None:
+def _is_across(turn: _AxisPair, normal: int) -> bool | None:
     """Tell whether axes are across the robot (True) or perpendicular (False); None if oblique."""
-    if abs(_dot(turn.left, turn.right)) < 0.95:
+    if abs(_compute_dot(turn.left, turn.right)) < 0.95:
         return None
     part = abs(turn.left[normal])
     return None if 0.3 < part < 0.95 else part >= 0.95
 
 
-def _limits_tell(pair: Pair) -> bool:
+def _has_asymmetric_limits(pair: Pair) -> bool:
     """Tell whether the limits of a pair are asymmetric, so that they show a direction."""
-    ranges = [_range(joint) for joint in (pair.left_joint, pair.right_joint)]
-    return any(one is not None and not _near(one, (-one[1], -one[0]), 0.03) for one in ranges)
+    ranges = [_get_range(joint) for joint in (pair.left_joint, pair.right_joint)]
+    return any(one is not None and not _is_near(one, (-one[1], -one[0]), 0.03) for one in ranges)
 
 
-def _limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
+def _find_limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
     """Find the pairs above and below a pair in its limb, up to the next branch."""
     by_link = {other.left.name: other for other in found.pairs if not other.left_joint.is_fixed}
     carrier: dict[str, str] = {}
@@ -293,22 +296,22 @@ def _limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
     return limb
 
 
-def _odd_of(turn: _Turn, others: list[_Turn], normal: int) -> Joint:
+def _choose_reversed(turn: _AxisPair, others: list[_AxisPair], normal: int) -> Joint:
     """Choose the joint whose axis differs from those of all other pairs; the right one if none."""
     pair = turn.pair
-    across = _straight(turn, normal)
-    if across and all(_dot(turn.right, other.right) > 0 for other in others):
+    across = _is_across(turn, normal)
+    if across and all(_compute_dot(turn.right, other.right) > 0 for other in others):
         return pair.left_joint
     return pair.right_joint
 
 
-def _odd(found: Sides, pair: Pair, pairs: list[Pair]) -> Joint:
+def _choose_unique(found: Sides, pair: Pair, pairs: list[Pair]) -> Joint:
     """Choose the joint whose axis no other joint of the kind has; the right one if none."""
     joints = [
         (joint, axis)
         for other in pairs
         for link, joint in ((other.left, other.left_joint), (other.right, other.right_joint))
-        if (axis := found.axis(link, joint)) is not None
+        if (axis := found.get_axis(link, joint)) is not None
     ]
     for one, axis in joints:
         agree = [
@@ -321,12 +324,12 @@ def _odd(found: Sides, pair: Pair, pairs: list[Pair]) -> Joint:
     return pair.right_joint
 
 
-def _range(joint: Joint) -> tuple[float, float] | None:
+def _get_range(joint: Joint) -> tuple[float, float] | None:
     limit = joint.limit
     if not joint.is_limited or limit is None or limit.lower is None or limit.upper is None:
         return None
     return (limit.lower, limit.upper) if limit.lower < limit.upper else None
 
 
-def _near(one: tuple[float, float], other: tuple[float, float], tolerance: float) -> bool:
+def _is_near(one: tuple[float, float], other: tuple[float, float], tolerance: float) -> bool:
     return all(abs(a - b) <= tolerance for a, b in zip(one, other, strict=True))

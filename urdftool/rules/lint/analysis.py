@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from ...model.elements import Robot
 from ...source.description import Description
 from ..collision import overlap
-from ..mesh.outlines import outline_of
-from ..mesh.uses import mesh_uses
+from ..mesh.link_extents import get_convex_points
+from ..mesh.mesh_uses import get_mesh_uses
 from ..rule import INFO, Problem, rule
 
 APPLIES_TO = ("mesh", "collision")
@@ -28,16 +28,16 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
     ``self-collision-in-range`` skipped.
     """
     found = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if not use.exists or use.path is None or use.uri in found:
             continue
         if not (use.collides or use.link.inertial is not None):
             continue
-        from ..mesh.files import what_is_wrong
+        from ..mesh.files import describe_defect
 
-        if what_is_wrong(use):
+        if describe_defect(use):
             continue
-        if use.path.suffix.lower() not in _READ or outline_of(use) is None:
+        if use.path.suffix.lower() not in _READ or get_convex_points(use) is None:
             found[use.uri] = use
     if found:
         first, *rest = found.values()
@@ -48,13 +48,13 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             "inertia, scale and overlaps of the link were not checked",
             at=first.mesh.element.attribute_place("filename"),
         )
-    if overlap.resting_in_part(robot):
+    if overlap.is_partly_checked(robot):
         yield Problem(
             robot,
             "overlaps with all joints at rest were checked for the first "
             f"{overlap.RESTING} pairs of links only; more are near each other",
         )
-    joints = overlap.passed_over(robot)
+    joints = overlap.get_skipped_joints(robot)
     if joints:
         yield Problem(
             joints[0],

@@ -12,7 +12,7 @@ from ..rule import INFO, Problem, rule
 _COMMENT = re.compile(r"\s*urdftool-ignore(-file)?\b\s*\[([^\]]*)\](.*)", re.DOTALL)
 
 
-def _comments(document: Document) -> Iterator[tuple[re.Match[str], Place]]:
+def _find_comments(document: Document) -> Iterator[tuple[re.Match[str], Place]]:
     for comment in document.comments:
         match = _COMMENT.match(comment.text) if "urdftool-ignore" in comment.text else None
         if match is not None:
@@ -26,7 +26,7 @@ def suppression_without_reason(document: Document) -> Iterator[Problem]:
     Write the reason after the bracket: without one, users cannot tell whether the comment is still
     needed.
     """
-    for match, place in _comments(document):
+    for match, place in _find_comments(document):
         if not match[3].strip():
             yield Problem(
                 document.root,
@@ -43,7 +43,7 @@ def blanket_suppression(document: Document) -> Iterator[Problem]:
     """
     from .. import FAMILIES
 
-    for match, place in _comments(document):
+    for match, place in _find_comments(document):
         for name in (word.strip() for word in match[2].split(",")):
             if name in ("all", "ALL", "*") or name in FAMILIES or name.endswith("*"):
                 yield Problem(

@@ -9,33 +9,33 @@ from pathlib import Path
 from ...diagnostic import FileRewrite
 from ...errors import MeshError
 from ...source.document import Element
-from ...source.packages import shown_path
-from ..file_rewrites import rewritten_bytes
-from ..fix import Change, FixContext, Proposal, attribute_at, prepend_child, unsafe
+from ...source.packages import shorten_path
+from ..file_rewrites import compute_rewritten_bytes
+from ..fix import Change, FixContext, Proposal, find_attribute, prepend_child, unsafe
 from ..rule import Problem
-from .uses import MeshUse, mesh_uses
+from .mesh_uses import MeshUse, get_mesh_uses
 
 
-def uses_at(problem: Problem, context: FixContext) -> list[MeshUse]:
+def find_uses(problem: Problem, context: FixContext) -> list[MeshUse]:
     """List the uses of the mesh whose name or scale a problem points at.
 
     Returns:
         An empty list if it points at no attribute.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return []
     uri = found[0].get("filename")
-    return [use for use in mesh_uses(context.robot, context.description) if use.uri == uri]
+    return [use for use in get_mesh_uses(context.robot, context.description) if use.uri == uri]
 
 
-def files_at(problem: Problem, context: FixContext) -> list[MeshUse]:
+def find_existing_uses(problem: Problem, context: FixContext) -> list[MeshUse]:
     """List the uses of the mesh whose name a problem points at.
 
     Returns:
         An empty list if the file does not exist.
     """
-    return [use for use in uses_at(problem, context) if use.exists and use.path is not None]
+    return [use for use in find_uses(problem, context) if use.exists and use.path is not None]
 
 
 def change_uses(
@@ -51,7 +51,7 @@ def change_uses(
     Returns:
         An empty list if one of them cannot be changed.
     """
-    changes = [change(use) for use in uses_at(problem, context)]
+    changes = [change(use) for use in find_uses(problem, context)]
     return [] if None in changes else [one for one in changes if one is not None]
 
 
@@ -65,11 +65,11 @@ def rewrite_in_place(uses: Iterable[MeshUse], how: str) -> list[FileRewrite]:
         uses: The meshes.
         how: Content to write, one of the constants of :mod:`urdftool.rules.file_rewrites`.
     """
-    paths = dict.fromkeys(shown_path(use.path) for use in uses if use.path is not None)
+    paths = dict.fromkeys(shorten_path(use.path) for use in uses if use.path is not None)
     return [FileRewrite(path, path, how) for path in paths]
 
 
-def write_beside(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
+def write_new_file(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
     """Write a new file, computed from a mesh, to its folder.
 
     Args:
@@ -83,11 +83,11 @@ def write_beside(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
     """
     old = Path(str(use.path))
     new = old.with_name(name)
-    rewrite = FileRewrite(shown_path(new), shown_path(old), how)
+    rewrite = FileRewrite(shorten_path(new), shorten_path(old), how)
     workspace = use.workspace
     if workspace.exists_or_is_link(new):
         try:
-            same = workspace.read_bytes(new) == rewritten_bytes(workspace, rewrite)
+            same = workspace.read_bytes(new) == compute_rewritten_bytes(workspace, rewrite)
         except (MeshError, OSError):
             return []
         return [rewrite] if same else []
@@ -105,7 +105,7 @@ def propose_compiler(context: FixContext) -> Proposal | None:
         return None
     folders = {
         os.path.dirname(context.workspace.real_path(use.path))
-        for use in mesh_uses(context.robot, context.description)
+        for use in get_mesh_uses(context.robot, context.description)
         if use.path is not None and use.exists
     }
     if len(folders) != 1 or context.description.path == "-":

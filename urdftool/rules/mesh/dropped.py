@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...model.elements import Link
 from ...source.document import Element
 from ..xml.numbers import has_readable_numbers
-from .uses import MeshUse
+from .mesh_uses import MeshUse
 
 _SHAPES = ("box", "sphere", "cylinder", "mesh")
 _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

@@ -12,9 +12,9 @@ from ..file_rewrites import COPIED
 from ..fix import FixContext, Proposal, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .changes import files_at, propose_compiler, write_beside
-from .uris import malformation
-from .uses import MeshUse, mesh_uses
+from .changes import find_existing_uses, propose_compiler, write_new_file
+from .mesh_uses import MeshUse, get_mesh_uses
+from .uris import find_malformation
 
 APPLIES_TO = ("mesh",)
 
@@ -32,8 +32,8 @@ def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem
     and a space separates words. Some tools then do not find the file.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
-        if use.uri in seen or malformation(use) or "${" in use.uri or "$(" in use.uri:
+    for use in get_mesh_uses(robot, description):
+        if use.uri in seen or find_malformation(use) or "${" in use.uri or "$(" in use.uri:
             continue
         seen.add(use.uri)
         odd = sorted({c for c in use.uri if c in '#?%<>|*"' or c == " " or not c.isascii()})
@@ -50,7 +50,7 @@ def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem
 @unsafe_file_name.fix(UNSAFE, writes_meshes=True)
 def copy_under_plain_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Copy the file to a name of plain ASCII characters, and use the copy."""
-    uses = files_at(problem, context)
+    uses = find_existing_uses(problem, context)
     if not uses or uses[0].path is None:
         return None
     plain = unicodedata.normalize("NFKD", uses[0].path.name).encode("ascii", "ignore").decode()
@@ -62,7 +62,7 @@ def _copy(uses: list[MeshUse], name: str) -> Proposal | None:
     path = uses[0].path
     if path is None or not name or name == path.name or not uses[0].uri.endswith(path.name):
         return None
-    new = write_beside(uses[0], name, COPIED)
+    new = write_new_file(uses[0], name, COPIED)
     if not new:
         return None
     pattern = re.escape(path.name) + "$"
@@ -86,7 +86,7 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
         compiler = mujoco.child("compiler")
         if compiler is not None and {"meshdir", "strippath"} & compiler.attributes.keys():
             return
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.uri.startswith("package://") and use.collides:
             yield Problem(
                 use.link,
@@ -122,7 +122,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
     with_visuals = keeps_visuals(robot)
     first: dict[str, str] = {}
     found: dict[str, MeshUse] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if not (use.collides or with_visuals):
             continue  # MuJoCo drops visuals
         stem = use.uri.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
@@ -143,7 +143,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
 @mesh_stem_collision.fix(UNSAFE, writes_meshes=True)
 def copy_under_own_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Copy the second file to a name that includes its folder, and use the copy."""
-    uses = files_at(problem, context)
+    uses = find_existing_uses(problem, context)
     if not uses or uses[0].path is None:
         return None
     path = uses[0].path

@@ -13,16 +13,16 @@ from typing import BinaryIO
 from ...geometry.stl_header import LFS_MARK, read_stl_header
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.packages import own_package, shown_path
-from ...workspace import Workspace, memoized
+from ...source.packages import find_own_package, shorten_path
+from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, SAFE, Problem, rule
 from ..words import nearest
 from .changes import change_uses
 from .dropped import is_dropped
-from .uris import malformation
-from .uses import MeshUse, actual_case, mesh_uses
+from .mesh_uses import MeshUse, find_actual_case, get_mesh_uses
+from .uris import find_malformation
 
 APPLIES_TO = ("mesh",)
 
@@ -51,30 +51,30 @@ def mesh_not_found(
     file are one finding, and so are more than ``together`` missing files of one missing folder.
     """
     missing: dict[Path, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_absolute:
             continue
         if (
-            malformation(use)
-            or actual_case(use.workspace, use.path)
+            find_malformation(use)
+            or find_actual_case(use.workspace, use.path)
             or _is_in_own_package(use, description)
         ):
             continue
         missing.setdefault(Path(os.path.normpath(use.path)), []).append(use)
     folders: dict[Path, list[Path]] = {}
     for path in missing:
-        folders.setdefault(_missing_folder(description.workspace, path), []).append(path)
+        folders.setdefault(_find_missing_folder(description.workspace, path), []).append(path)
     keeps = keeps_visuals(robot)
     for folder, paths in folders.items():
         if len(paths) > together and not description.workspace.exists(folder):
             first = missing[paths[0]][0]
             yield Problem(
                 first.link,
-                f"folder '{shown_path(folder)}' does not exist, but {len(paths)} meshes refer to "
+                f"folder '{shorten_path(folder)}' does not exist, but {len(paths)} meshes refer to "
                 f"it, first '{first.uri}'",
                 at=first.mesh.element.attribute_place("filename"),
                 data={"folder": str(folder), "count": len(paths)},
-                effects=_of_missing(keeps, [use for path in paths for use in missing[path]]),
+                effects=_select_effects(keeps, [use for path in paths for use in missing[path]]),
             )
             continue
         for path in paths:
@@ -82,14 +82,14 @@ def mesh_not_found(
             yield Problem(
                 first.link,
                 f"mesh file of link '{first.link.name}' does not exist: '{first.uri}' refers to "
-                f"'{shown_path(path)}'{_elsewhere(description.workspace, path)}",
+                f"'{shorten_path(path)}'{_suggest_file(description.workspace, path)}",
                 at=first.mesh.element.attribute_place("filename"),
                 data={"uri": first.uri, "path": str(path)},
-                effects=_of_missing(keeps, missing[path]),
+                effects=_select_effects(keeps, missing[path]),
             )
 
 
-def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
+def _select_effects(keeps: bool, uses: list[MeshUse]) -> list[str]:
     """Select the effects of a missing file.
 
     MuJoCo opens the file of a visual only if the robot keeps visuals. RViz and gz do not open the
@@ -115,7 +115,7 @@ def _is_in_own_package(use: MeshUse, description: Description) -> bool:
     return is_in_own_package(use, description)
 
 
-def _missing_folder(workspace: Workspace, path: Path) -> Path:
+def _find_missing_folder(workspace: Workspace, path: Path) -> Path:
     """Find the uppermost missing folder above a missing file; the file's folder if that exists."""
     folder = path.parent
     while (
@@ -127,7 +127,7 @@ def _missing_folder(workspace: Workspace, path: Path) -> Path:
     return folder
 
 
-def _elsewhere(workspace: Workspace, path: Path) -> str:
+def _suggest_file(workspace: Workspace, path: Path) -> str:
     """Suggest a file of nearly that name in the folder, or of that name in the package."""
     try:
         names = [entry.name for entry in workspace.list_folder(path.parent)]
@@ -136,20 +136,20 @@ def _elsewhere(workspace: Workspace, path: Path) -> str:
         near = ""
     if near:
         return f"; did you mean '{near}'?"
-    own = own_package(path, workspace)
+    own = find_own_package(path, workspace)
     if own is None:
         return ""
     folder = str(own[1])
-    other = _files_below(workspace, folder).get(path.name)
+    other = _list_files_below(workspace, folder).get(path.name)
     return f"; the package has '{os.path.relpath(other, folder)}'" if other else ""
 
 
-@memoized
-def _files_below(workspace: Workspace, folder: str) -> dict[str, str]:
-    return dict(_files(workspace, folder))
+@memoize_by_workspace
+def _list_files_below(workspace: Workspace, folder: str) -> dict[str, str]:
+    return dict(_walk_files(workspace, folder))
 
 
-def _files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
+def _walk_files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
     count = 0
     for where, folders, names in workspace.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
@@ -177,10 +177,10 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
     robots and build servers use. There the file is not found.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.path is None or use.exists or use.uri in seen:
             continue
-        actual = actual_case(use.workspace, use.path)
+        actual = find_actual_case(use.workspace, use.path)
         if actual is not None:
             seen.add(use.uri)
             pairs = zip(actual.parts, use.path.parts, strict=True)
@@ -201,7 +201,7 @@ def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None
     def change(use: MeshUse) -> Change | None:
         if use.path is None:
             return None
-        actual = actual_case(use.workspace, use.path)
+        actual = find_actual_case(use.workspace, use.path)
         if actual is None:
             return None
         new = use.uri
@@ -211,14 +211,14 @@ def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None
                 if not found:
                     return None
                 new = head + there + tail
-        pattern, text = _tail(use.uri, new)
+        pattern, text = _split_difference(use.uri, new)
         return substitute(use.mesh.element, "filename", pattern, text)
 
     changes = change_uses(problem, context, change)
     return safe("write the name of the file on disk", *changes) if changes else None
 
 
-def _tail(old: str, new: str) -> tuple[str, str]:
+def _split_difference(old: str, new: str) -> tuple[str, str]:
     """Return a pattern for the differing end of the first of two names, and the second's end."""
     differs = next((i for i, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), 0)
     same = old.rfind("/", 0, differs) + 1
@@ -247,11 +247,11 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     again.
     """
     seen: set[Path] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.path is None or not use.exists or use.path in seen:
             continue
         seen.add(use.path)
-        wrong = what_is_wrong(use)
+        wrong = describe_defect(use)
         if wrong and wrong != _LFS:
             yield Problem(
                 use.link,
@@ -280,11 +280,11 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
     fetches all files, so all pointers of a repository are one finding.
     """
     reported: set[Path] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.path is None or not use.exists or use.path in reported:
             continue
         reported.add(use.path)
-        if what_is_wrong(use) == _LFS:
+        if describe_defect(use) == _LFS:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {_LFS}",
@@ -295,7 +295,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
             )
 
 
-def what_is_wrong(use: MeshUse) -> str:
+def describe_defect(use: MeshUse) -> str:
     """Describe why a file is not a mesh, to follow its name; empty if it is one."""
     if use.path is None:
         return ""

@@ -10,24 +10,24 @@ from pathlib import Path
 from ...diagnostic import FileRewrite
 from ...geometry.stl_header import StlHeader, read_stl_header
 from ...model.elements import Robot
-from ...model.mesh_formats import READ_BY, ending_of, is_odd, rejecting_readers
+from ...model.mesh_formats import READ_BY, find_rejecting_readers, get_suffix, is_odd
 from ...source.description import Description
-from ...workspace import Workspace, memoized
+from ...workspace import Workspace, memoize_by_workspace
 from ..file_rewrites import BINARY, HEADED
 from ..fix import Change, FixContext, Proposal, safe, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import BOTH, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from .changes import files_at, rewrite_in_place, write_beside
-from .uses import MeshUse, mesh_uses
+from .changes import find_existing_uses, rewrite_in_place, write_new_file
+from .mesh_uses import MeshUse, get_mesh_uses
 
 APPLIES_TO = ("mesh",)
 
 _OF_TEXT = ("pybullet", "rviz", "gz", "pinocchio")
 
 
-def _first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
+def _get_first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
     """Get the first use of each mesh file, collisions before visuals."""
-    uses = mesh_uses(robot, description)
+    uses = get_mesh_uses(robot, description)
     seen: set[str] = set()
     for use in (*(u for u in uses if u.collides), *(u for u in uses if not u.collides)):
         if use.uri and use.uri not in seen:
@@ -57,8 +57,8 @@ def unsupported_mesh_format(
     that are configured decide what is reported. Convert the file.
     """
     seen: set[tuple[str, str]] = set()
-    for use in _first_uses(robot, description):
-        ending = ending_of(use.uri)
+    for use in _get_first_uses(robot, description):
+        ending = get_suffix(use.uri)
         if not ending or is_odd(ending) or (use.path is not None and not use.exists):
             continue
         who = [
@@ -69,7 +69,7 @@ def unsupported_mesh_format(
         key = ending, " and ".join(who)
         if who and key not in seen:
             seen.add(key)
-            same = [u for u in _first_uses(robot, description) if ending_of(u.uri) == ending]
+            same = [u for u in _get_first_uses(robot, description) if get_suffix(u.uri) == ending]
             more = f" (and {len(same) - 1} more)" if len(same) > 1 else ""
             yield Problem(
                 use.link,
@@ -80,14 +80,14 @@ def unsupported_mesh_format(
                     else f"convert it, for example to {READ_BY[who[0]][0]}"
                 ),
                 at=use.mesh.element.attribute_place("filename"),
-                effects=_effects_of_format(ending, any(u.collides for u in same)),
+                effects=_select_effects(ending, any(u.collides for u in same)),
                 data={"uri": use.uri, "format": ending, "readers": who},
             )
 
 
-def _effects_of_format(ending: str, collides: bool) -> list[str]:
+def _select_effects(ending: str, collides: bool) -> list[str]:
     """Select the effects on meshes of a suffix, of which one may be a collision."""
-    rejecting = rejecting_readers(ending, collides)
+    rejecting = find_rejecting_readers(ending, collides)
     keys = [key for key in _OF_FORMAT if key.partition(" (")[0] in rejecting]
     if ending == "ply" and collides:
         keys.append("pinocchio (collision in PLY)")
@@ -99,7 +99,7 @@ def convert_ply_to_stl(problem: Problem, context: FixContext) -> Proposal | None
     """Convert PLY files of collisions to new STL files, which have no colors to lose."""
     uses = [
         use
-        for use in mesh_uses(context.robot, context.description)
+        for use in get_mesh_uses(context.robot, context.description)
         if use.uri.lower().endswith(f".{problem.data['format']}")
     ]
     if problem.data["format"] != "ply" or any(not (u.collides and u.exists) for u in uses):
@@ -107,17 +107,17 @@ def convert_ply_to_stl(problem: Problem, context: FixContext) -> Proposal | None
     return _convert_to_stl(uses)
 
 
-def _stl(use: MeshUse) -> StlHeader | None:
-    if use.path is None or not use.exists or ending_of(use.uri) != "stl":
+def _read_header(use: MeshUse) -> StlHeader | None:
+    if use.path is None or not use.exists or get_suffix(use.uri) != "stl":
         return None
     try:
-        return stl_facts_of(use.workspace, use.path)
+        return read_stl_facts(use.workspace, use.path)
     except OSError:
         return None
 
 
-@memoized
-def stl_facts_of(workspace: Workspace, path: Path) -> StlHeader:
+@memoize_by_workspace
+def read_stl_facts(workspace: Workspace, path: Path) -> StlHeader:
     """Read the beginning of an STL file.
 
     Raises:
@@ -144,8 +144,8 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
     as binary STL and slow to read. Convert the file to binary STL.
     """
     keeps = keeps_visuals(robot)
-    for use in _first_uses(robot, description):
-        facts = _stl(use)
+    for use in _get_first_uses(robot, description):
+        facts = _read_header(use)
         if facts is not None and facts.kind == "ascii":
             yield Problem(
                 use.link,
@@ -162,7 +162,7 @@ def write_binary_stl(problem: Problem, context: FixContext) -> Proposal | None:
 
     PyBullet cannot read ASCII STL, so the fix adds collision geometry there.
     """
-    uses = files_at(problem, context)
+    uses = find_existing_uses(problem, context)
     make = unsafe if any(use.collides for use in uses) else safe
     rewrites = rewrite_in_place(uses[:1], BINARY)
     return make("convert it to binary STL", *rewrites) if rewrites else None
@@ -186,7 +186,7 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
     one exporter in fifteen writes ``solid``; readers that check only this word read the file as
     text and fail. Current readers of robots check more, so the rule is off by default.
     """
-    found = [use for use in _first_uses(robot, description) if _begins_with_solid(use)]
+    found = [use for use in _get_first_uses(robot, description) if _begins_with_solid(use)]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
@@ -200,14 +200,14 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
 
 def _begins_with_solid(use: MeshUse) -> bool:
     """Tell whether a mesh is binary STL that begins with ``solid``."""
-    facts = _stl(use)
+    facts = _read_header(use)
     return facts is not None and facts.kind == "binary" and facts.begins_with_solid
 
 
 @binary_stl_starts_with_solid.fix(SAFE, writes_meshes=True)
 def overwrite_first_word(problem: Problem, context: FixContext) -> Proposal | None:
     """Overwrite the first word of each file."""
-    uses = mesh_uses(context.robot, context.description)
+    uses = get_mesh_uses(context.robot, context.description)
     rewrites = rewrite_in_place(filter(_begins_with_solid, uses), HEADED)
     return safe("overwrite the first word of the header", *rewrites) if rewrites else None
 
@@ -236,11 +236,11 @@ def dae_unit_or_axis(
     are one finding.
     """
     found: dict[tuple[tuple[str, str], ...], list[MeshUse]] = {}
-    for use in _first_uses(robot, description):
-        declared = unit_and_axis(use)
+    for use in _get_first_uses(robot, description):
+        declared = describe_unit_and_axis(use)
         if "unit" in declared:
             found.setdefault(tuple(declared.items()), []).append(use)
-    colliding = {use.uri for use in mesh_uses(robot, description) if use.collides}
+    colliding = {use.uri for use in get_mesh_uses(robot, description) if use.collides}
     for facts, uses in found.items():
         several = len(uses) > together
         more = f" (and of {len(uses) - 1} more)" if several else ""
@@ -259,10 +259,10 @@ def dae_unit_or_axis(
             )
 
 
-def unit_and_axis(use: MeshUse) -> dict[str, str]:
+def describe_unit_and_axis(use: MeshUse) -> dict[str, str]:
     """Describe the ``unit`` and ``axis`` of a COLLADA file that differ from meters and z up."""
     found: dict[str, str] = {}
-    if use.path is None or not use.exists or ending_of(use.uri) != "dae":
+    if use.path is None or not use.exists or get_suffix(use.uri) != "dae":
         return found
     try:
         with use.workspace.open(use.path) as file:
@@ -299,7 +299,9 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
     and axes of COLLADA differently. MuJoCo and Drake reject COLLADA. Convert the file to OBJ, which
     MuJoCo, Drake and PyBullet read.
     """
-    uses = [u for u in mesh_uses(robot, description) if u.collides and ending_of(u.uri) == "dae"]
+    uses = [
+        u for u in get_mesh_uses(robot, description) if u.collides and get_suffix(u.uri) == "dae"
+    ]
     if uses:
         count = len({use.uri for use in uses})
         more = f" (and {count - 1} more)" if count > 1 else ""
@@ -315,9 +317,9 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
 @dae_as_collision.fix(UNSAFE, writes_meshes=True)
 def convert_collada_to_stl(problem: Problem, context: FixContext) -> Proposal | None:
     """Convert COLLADA files to new STL files, if readers agree on their unit and axes."""
-    uses = mesh_uses(context.robot, context.description)
+    uses = get_mesh_uses(context.robot, context.description)
     found = [use for use in uses if use.collides and use.uri.lower().endswith(".dae")]
-    if any(not use.exists or unit_and_axis(use) for use in found):
+    if any(not use.exists or describe_unit_and_axis(use) for use in found):
         return None
     return _convert_to_stl(found)
 
@@ -329,7 +331,7 @@ def _convert_to_stl(uses: list[MeshUse]) -> Proposal | None:
         if use.path is None:
             return None
         for ending in (".stl", "_collision.stl"):
-            new = write_beside(use, use.path.stem + ending, BINARY)
+            new = write_new_file(use, use.path.stem + ending, BINARY)
             if new:
                 break
         else:

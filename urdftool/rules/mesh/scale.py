@@ -9,9 +9,9 @@ from pathlib import Path
 from ...diagnostic import FileRewrite
 from ...geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
 from ...model.elements import Robot
-from ...model.read import numbers
+from ...model.read import parse_numbers
 from ...source.description import Description
-from ...workspace import Workspace, memoized
+from ...workspace import Workspace, memoize_by_workspace
 from ..file_rewrites import MIRRORED
 from ..fix import (
     Change,
@@ -23,17 +23,17 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .changes import uses_at, write_beside
-from .outlines import box_of
-from .uses import MeshUse, mesh_uses
+from .changes import find_uses, write_new_file
+from .link_extents import compute_mesh_box
+from .mesh_uses import MeshUse, get_mesh_uses
 
 APPLIES_TO = ("mesh",)
 
 _SAMPLE = 300  # triangles, from the beginning, middle and end of a file
 
 
-@memoized
-def sampled_extent(workspace: Workspace, path: Path) -> tuple[float, float, float] | None:
+@memoize_by_workspace
+def sample_extent(workspace: Workspace, path: Path) -> tuple[float, float, float] | None:
     """Compute the size of a sample of a binary STL file, a lower bound of its size."""
     try:
         return _sample(workspace.local(path))
@@ -53,28 +53,28 @@ def _sample(path: Path) -> tuple[float, float, float] | None:
 _LOOKED_AT = 400_000  # [bytes]
 
 
-def rough_size(use: MeshUse) -> float | None:
+def estimate_size(use: MeshUse) -> float | None:
     """Estimate the largest length of a scaled mesh [m]; None if that is slow or impossible."""
     if use.path is None or not use.exists:
         return None
     ending = use.path.suffix.lower()
     if ending == ".stl":
-        return _largest(use)
+        return _compute_largest(use)
     if ending != ".dae":
         return None
     if (use.size or 0) > _LOOKED_AT:
         return None
-    return _largest(use)
+    return _compute_largest(use)
 
 
-def _largest(use: MeshUse, whole: bool = False) -> float | None:
+def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
     """Compute the largest length of a scaled mesh, or of a sample of it [m]."""
     if use.path is None or not use.exists:
         return None
     if use.path.suffix.lower() != ".stl":
-        box = box_of(use)
+        box = compute_mesh_box(use)
         return None if box is None else max(box.size)
-    extent = sampled_extent(use.workspace, use.path)
+    extent = sample_extent(use.workspace, use.path)
     if extent is not None and whole:
         from ...geometry.stl import stl_bounds
 
@@ -105,32 +105,32 @@ def mesh_in_millimetres(
     because such a world may be that large.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
-        length = _largest(use) if use.uri not in seen else None
+    for use in get_mesh_uses(robot, description):
+        length = _compute_largest(use) if use.uri not in seen else None
         if length is not None and length > largest:
             if not robot.moving_joints and not use.uri.lower().endswith(".stl"):
                 continue
             seen.add(use.uri)
-            yield _of_large_mesh(use, length, largest)
+            yield _report_large_mesh(use, length, largest)
 
 
 @mesh_in_millimetres.full
-def every_mesh_in_millimetres(robot: Robot) -> Iterator[Problem]:
+def report_every_mesh_in_millimeters(robot: Robot) -> Iterator[Problem]:
     """Report each link with a mesh that is too large; only robots with a description have any."""
     description = robot.source
     largest = mesh_in_millimetres.thresholds["largest"]
     seen: set[tuple[str, str]] = set()
-    for use in mesh_uses(robot, description) if description is not None else ():
-        length = _largest(use) if (use.link.name, use.uri) not in seen else None
+    for use in get_mesh_uses(robot, description) if description is not None else ():
+        length = _compute_largest(use) if (use.link.name, use.uri) not in seen else None
         if length is None or length <= largest:
             continue
         if robot.moving_joints or use.uri.lower().endswith(".stl"):
             seen.add((use.link.name, use.uri))
-            yield _of_large_mesh(use, length, largest)
+            yield _report_large_mesh(use, length, largest)
 
 
-def _of_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
-    length = _largest(use, whole=True) or length  # a sample is a lower bound
+def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
+    length = _compute_largest(use, whole=True) or length  # a sample is a lower bound
     right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
     return Problem(
         use.link,
@@ -148,7 +148,7 @@ def _of_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
 @mesh_in_millimetres.fix(UNSAFE)
 def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | None:
     """Scale the file by 0.001 in all its uses, if none of them has a scale."""
-    uses = uses_at(problem, context)
+    uses = find_uses(problem, context)
     if not uses or any(use.mesh.element.get("scale") for use in uses):
         return None
     scale = "0.001 0.001 0.001"
@@ -171,13 +171,13 @@ def mesh_scaled_twice(
     than a millimeter. Remove the scale.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.uri in seen or min(map(abs, use.mesh.scale)) == 0:
             continue
-        length = _largest(use)
+        length = _compute_largest(use)
         if length is None or length >= smallest:
             continue
-        length = _largest(use, whole=True)
+        length = _compute_largest(use, whole=True)
         if length is not None and 0 < length < smallest:
             seen.add(use.uri)
             scale = use.mesh.element.get("scale") or ""
@@ -193,7 +193,7 @@ def mesh_scaled_twice(
 @mesh_scaled_twice.fix(UNSAFE)
 def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the scale in all uses, if it is 0.001 in each."""
-    uses = uses_at(problem, context) if problem.data["scale"] else []
+    uses = find_uses(problem, context) if problem.data["scale"] else []
     if not uses or any(not math.isclose(part, 0.001) for use in uses for part in use.mesh.scale):
         return None
     changes = [remove_attribute(use.mesh.element, "scale") for use in uses]
@@ -218,7 +218,7 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
     links may use the original. One finding names all such meshes.
     """
     found = []
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         x, y, z = use.mesh.scale
         if x * y * z < 0:
             found.append(use)
@@ -244,7 +244,7 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
 def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | None:
     """Write mirrored files, for STL files only because they have no colors to lose."""
     changes: list[Change | FileRewrite] = []
-    for use in mesh_uses(context.robot, context.description):
+    for use in get_mesh_uses(context.robot, context.description):
         x, y, z = use.mesh.scale
         if x * y * z >= 0:
             continue
@@ -252,7 +252,7 @@ def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | Non
             return None
         axes = "".join(axis for axis, factor in zip("xyz", (x, y, z), strict=True) if factor < 0)
         name = f"{use.path.stem}_mirrored_{axes}{use.path.suffix}"
-        new = write_beside(use, name, MIRRORED + axes)
+        new = write_new_file(use, name, MIRRORED + axes)
         if not new:
             return None
         element = use.mesh.element
@@ -278,7 +278,7 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
     two scales are compared only if both are uniform or differ by a power of ten.
     """
     uses: dict[str, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         uses.setdefault(use.uri, []).append(use)
     for uri, same in uses.items():
         scales = [tuple(map(abs, use.mesh.scale)) for use in same]
@@ -291,8 +291,8 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
                 continue
             yield Problem(
                 use.link,
-                f"mesh '{uri}' of link '{use.link.name}' has scale {_words(scale)}, but "
-                f"{_words(usual)} in other places; use one scale",
+                f"mesh '{uri}' of link '{use.link.name}' has scale {_format_scale(scale)}, but "
+                f"{_format_scale(usual)} in other places; use one scale",
                 at=use.mesh.element.attribute_place("scale")
                 if "scale" in use.mesh.element.attributes
                 else use.mesh.element,
@@ -317,7 +317,7 @@ def _is_pair(use: MeshUse, same: list[MeshUse]) -> bool:
     return sorted(kinds) == [False, True]
 
 
-def _words(scale: tuple[float, ...]) -> str:
+def _format_scale(scale: tuple[float, ...]) -> str:
     return " ".join(f"{factor:g}" for factor in scale)
 
 
@@ -338,7 +338,7 @@ def mesh_scale_out_of_line(
     ``mesh-in-millimetres`` and ``mesh-scaled-twice`` report files whose size shows a wrong one.
     """
     formats: dict[str, dict[str, MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         ending = use.uri.rpartition(".")[2].lower()
         formats.setdefault(ending, {}).setdefault(f"{use.uri} {use.mesh.scale}", use)
     for uses in formats.values():
@@ -379,7 +379,7 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
         if mesh is None or mesh.element.tag != "mesh":
             continue
         text = mesh.element.get("scale")
-        values = numbers(text, 3)
+        values = parse_numbers(text, 3)
         if values is not None and 0 in values:
             yield Problem(
                 link,
@@ -403,7 +403,7 @@ def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Proble
     Lighting and inertia that are computed from the file then do not fit the scaled shape. Scale
     the mesh file itself.
     """
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         factors = [abs(factor) for factor in use.mesh.scale]
         if max(factors) - min(factors) > 0.01 * max(factors):
             yield Problem(
@@ -431,7 +431,7 @@ def heavy_visual(
     Simplify the mesh.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.collides or use.uri in seen or use.size is None:
             continue
         seen.add(use.uri)

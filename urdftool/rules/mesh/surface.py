@@ -7,16 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import MeshError
-from ...model.attached import attached_links, is_fixed_to_world
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import Link, Robot
 from ...source.description import Description
-from ...workspace import Workspace, memoized
+from ...workspace import Workspace, memoize_by_workspace
 from ..cross_file_references import check_alone
 from ..file_rewrites import TURNED, WITHOUT_COLLAPSED, count_collapsed
 from ..fix import FixContext, Proposal, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .changes import files_at, rewrite_in_place
-from .uses import MeshUse, is_concave, mesh_uses
+from .changes import find_existing_uses, rewrite_in_place
+from .mesh_uses import MeshUse, get_mesh_uses, is_concave
 
 APPLIES_TO = ("mesh",)
 
@@ -28,28 +28,28 @@ MOST_SLIVERS = 0.2
 """Part of a mesh's triangles that may have no area."""
 
 
-@memoized
-def _surface(workspace: Workspace, path: Path) -> Surface | None:
+@memoize_by_workspace
+def _read_surface(workspace: Workspace, path: Path) -> Surface | None:
     from ...geometry.surface import read_surface
 
     return read_surface(workspace.local(path))
 
 
-@memoized
-def _change_by_closing(workspace: Workspace, path: Path) -> float | None:
+@memoize_by_workspace
+def _compute_change_by_closing(workspace: Workspace, path: Path) -> float | None:
     from ...geometry.surface import change_by_closing
 
     return change_by_closing(str(workspace.local(path)))
 
 
-@memoized
-def _hull_volume(workspace: Workspace, path: Path) -> float | None:
+@memoize_by_workspace
+def _compute_hull_volume(workspace: Workspace, path: Path) -> float | None:
     from ...geometry.surface import hull_volume
 
     return hull_volume(str(workspace.local(path)))
 
 
-def _surfaces(
+def _read_surfaces(
     robot: Robot,
     description: Description,
     concerns: Callable[[Robot, Link], bool] = lambda _robot, _link: True,
@@ -62,7 +62,7 @@ def _surfaces(
         concerns: Tells whether to include the meshes of a link.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if not use.collides or not use.exists or use.path is None or use.uri in seen:
             continue
         if use.path.suffix.lower() not in (".stl", ".obj"):
@@ -71,21 +71,23 @@ def _surfaces(
             continue
         seen.add(use.uri)
         try:
-            found = _surface(use.workspace, use.path)
+            found = _read_surface(use.workspace, use.path)
         except OSError:
             continue
         if found is not None:
             yield use, use.path, found
 
 
-def _is_weighed(robot: Robot, link: Link) -> bool:
+def _has_computed_mass(robot: Robot, link: Link) -> bool:
     """Tell whether MuJoCo computes a link's mass from its collisions: moving, no inertial."""
     if link.inertial is not None or is_fixed_to_world(robot, link):
         return False
-    return all(robot.tree.parent_joint(one.name) for one, _ in attached_links(robot, link))
+    return all(robot.tree.parent_joint(one.name) for one, _ in find_attached_links(robot, link))
 
 
-def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str]) -> list[Problem]:
+def _combine_findings(
+    found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str]
+) -> list[Problem]:
     """Combine findings: the first mesh with its details, and the links of the others."""
     if not found:
         return []
@@ -115,10 +117,10 @@ def not_watertight(
     all such links.
     """
     found: list[tuple[MeshUse, str]] = []
-    for use, path, surface in _surfaces(robot, description, _is_weighed):
+    for use, path, surface in _read_surfaces(robot, description, _has_computed_mass):
         if not surface.open_edges:
             continue
-        changed = _change_by_closing(use.workspace, path)
+        changed = _compute_change_by_closing(use.workspace, path)
         if changed is not None and changed > change:
             much = f"by {changed * 100:.0f} %" if changed < 1 else "completely"
             found.append(
@@ -128,7 +130,7 @@ def not_watertight(
                     f"inertia {much})",
                 )
             )
-    yield from _together(
+    yield from _combine_findings(
         found,
         lambda use: (
             f"collision mesh '{use.uri}' of link '{use.link.name}', which has no <inertial>, is "
@@ -151,7 +153,7 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     The surface is closed and its volume is negative: every normal points into the body, and the
     mass properties that are computed from it are negative. Reverse the triangles.
     """
-    for use, _, surface in _surfaces(robot, description):
+    for use, _, surface in _read_surfaces(robot, description):
         if surface.inside_out:
             yield Problem(
                 use.link,
@@ -165,7 +167,7 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
 @inverted_mesh.fix(UNSAFE, writes_meshes=True)
 def turn_triangles(problem: Problem, context: FixContext) -> Proposal | None:
     """Reverse the triangles of the file, if no other description uses it."""
-    uses = [use for use in files_at(problem, context) if use.uri.lower().endswith(".stl")]
+    uses = [use for use in find_existing_uses(problem, context) if use.uri.lower().endswith(".stl")]
     if not uses:
         return None
     check_alone(context, str(uses[0].path and uses[0].path.name), robots=True)
@@ -190,9 +192,9 @@ def degenerate_triangles(
     """
     found = [
         (use, f"{surface.flat} of its {surface.faces} triangles")
-        for use, surface in _with_slivers(robot, description, most)
+        for use, surface in _find_degenerate(robot, description, most)
     ]
-    yield from _together(
+    yield from _combine_findings(
         found,
         lambda use: (
             f"collision mesh '{use.uri}' of link '{use.link.name}' is degenerate: {{}} have no area"
@@ -200,13 +202,13 @@ def degenerate_triangles(
     )
 
 
-def _with_slivers(
+def _find_degenerate(
     robot: Robot, description: Description, most: float = MOST_SLIVERS
 ) -> list[tuple[MeshUse, Surface]]:
     """List the collision meshes with more than a part of triangles without area."""
     return [
         (use, surface)
-        for use, _, surface in _surfaces(robot, description)
+        for use, _, surface in _read_surfaces(robot, description)
         if surface.flat > most * surface.faces
     ]
 
@@ -217,7 +219,7 @@ def remove_collapsed_triangles(problem: Problem, context: FixContext) -> Proposa
 
     Triangles with three different corners on a line stay, because removing them leaves gaps.
     """
-    found = _with_slivers(context.robot, context.description)
+    found = _find_degenerate(context.robot, context.description)
     uses = [use for use, _ in found]
     if not uses or any(not use.uri.lower().endswith(".stl") for use in uses):
         return None
@@ -255,13 +257,13 @@ def nonconvex_collision_mesh(
     triangles of a ``<collision>`` with the attribute ``concave``; these are reported for MuJoCo
     only.
     """
-    for use, path, surface in _surfaces(robot, description):
+    for use, path, surface in _read_surfaces(robot, description):
         if surface.open_edges or not surface.consistent or surface.volume == 0:
             continue
         concave = is_concave(use)
         if concave and "mujoco" not in targets:
             continue
-        hull = _hull_volume(use.workspace, path)
+        hull = _compute_hull_volume(use.workspace, path)
         if hull is None or hull <= ratio * abs(surface.volume):
             continue
         yield Problem(

@@ -14,9 +14,9 @@ from ...source.document import Element
 from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
-from ..xml.vocabulary_table import misspelt_attributes
+from ..xml.vocabulary_table import find_misspelled_attributes
 from .changes import change_uses
-from .uses import MeshUse, mesh_uses
+from .mesh_uses import MeshUse, get_mesh_uses
 
 APPLIES_TO = ("mesh",)
 
@@ -39,22 +39,22 @@ def absolute_path(
     """
     seen: set[str] = set()
     lost: dict[str, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if not use.is_absolute or use.uri in seen or "$" in use.written:
             continue
         seen.add(use.uri)
         if use.exists:
-            yield _absolute_problem(use)
+            yield _report_absolute(use)
         else:
-            lost.setdefault(_folder_of(use), []).append(use)
+            lost.setdefault(_get_folder(use), []).append(use)
     for folder, uses in lost.items():
         if len(uses) > together:
-            yield _absolute_problem(uses[0], len(uses) - 1, folder)
+            yield _report_absolute(uses[0], len(uses) - 1, folder)
         else:
-            yield from map(_absolute_problem, uses)
+            yield from map(_report_absolute, uses)
 
 
-def _absolute_problem(use: MeshUse, others: int = 0, folder: str | None = None) -> Problem:
+def _report_absolute(use: MeshUse, others: int = 0, folder: str | None = None) -> Problem:
     """Report a mesh, and the number of other missing files in its folder."""
     name = use.uri.replace("\\", "/").rstrip("/").rpartition("/")[2]
     more = "" if folder is None else f"; {others} more meshes refer to folder {folder}"
@@ -69,7 +69,7 @@ def _absolute_problem(use: MeshUse, others: int = 0, folder: str | None = None) 
     )
 
 
-def _folder_of(use: MeshUse) -> str:
+def _get_folder(use: MeshUse) -> str:
     """Get the folder of a mesh as written in its URI."""
     return use.uri.replace("\\", "/").rstrip("/").rpartition("/")[0]
 
@@ -83,7 +83,7 @@ def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
     own = context.description.packages.own
 
     def change(use: MeshUse) -> Change | None:
-        uri = _uri_in_package(use, own)
+        uri = _get_package_uri(use, own)
         if uri is None and own is not None:
             parts = use.uri.replace("\\", "/").split("/")
             if own[0] in parts[:-1]:
@@ -96,13 +96,13 @@ def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
     if folder is None:
         changes = change_uses(problem, context, change)
     else:
-        uses = mesh_uses(context.robot, context.description)
+        uses = get_mesh_uses(context.robot, context.description)
         lost = [use for use in uses if use.is_absolute and not use.exists]
-        changes = list(filter(None, [change(use) for use in lost if _folder_of(use) == folder]))
+        changes = list(filter(None, [change(use) for use in lost if _get_folder(use) == folder]))
     return unsafe("write a package:// URI", *changes) if changes else None
 
 
-def _uri_in_package(use: MeshUse, own: tuple[str, Path] | None) -> str | None:
+def _get_package_uri(use: MeshUse, own: tuple[str, Path] | None) -> str | None:
     """Get the package URI of a mesh; None if the package does not have the file."""
     files = use.workspace
     if use.path is None or own is None or not files.is_file(use.path):
@@ -137,7 +137,7 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
         if not isinstance(shape.geometry, Mesh):
             continue
         element = shape.geometry.element
-        if "filename" in element.attributes or _is_misspelt(element):
+        if "filename" in element.attributes or _is_misspelled(element):
             continue
         yield Problem(
             link,
@@ -151,9 +151,9 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
         )
 
 
-def _is_misspelt(element: Element) -> bool:
+def _is_misspelled(element: Element) -> bool:
     """Tell whether the attribute has a misspelled name, which another rule reports."""
-    if "filename" in misspelt_attributes(element).values():
+    if "filename" in find_misspelled_attributes(element).values():
         return True
     return any(name in element.attributes or element.child(name) for name in _MISNAMED)
 
@@ -176,11 +176,11 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
     it parses the URI. They are a warning if the file is found here.
     """
     seen: set[str] = set()
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.uri in seen:
             continue
         seen.add(use.uri)
-        wrong = malformation(use)
+        wrong = find_malformation(use)
         if wrong:
             element = use.mesh.element
             passes = use.exists and "\\" not in use.uri
@@ -206,7 +206,7 @@ class Malformation(NamedTuple):
     text: str
 
 
-def malformation(use: MeshUse) -> Malformation | None:
+def find_malformation(use: MeshUse) -> Malformation | None:
     """Find the defect of a mesh URI; None if it has none."""
     uri = use.uri
     scheme, separator, rest = uri.partition("://")
@@ -277,7 +277,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
     """
     keeps = keeps_visuals(robot)
     found: dict[str, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         scheme, separator, rest = use.uri.partition("://")
         if separator and re.fullmatch(r"[A-Za-z][\w+.-]*", scheme) and scheme not in _LOCAL:
             found.setdefault(f"{scheme}://{rest.partition('/')[0]}", []).append(use)
@@ -326,7 +326,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
     own = description.packages.own
     if own is None:
         return
-    relative = _relative(mesh_uses(robot, description))
+    relative = _select_relative(get_mesh_uses(robot, description))
     if relative:
         first = relative[0]
         count = len({use.uri for use in relative})
@@ -348,15 +348,15 @@ def write_package_uris(problem: Problem, context: FixContext) -> Proposal | None
     """Write all of them as URIs of the own package; None if it lacks one."""
     own = context.description.packages.own
     changes = []
-    for use in _relative(mesh_uses(context.robot, context.description)):
-        uri = _uri_in_package(use, own)
+    for use in _select_relative(get_mesh_uses(context.robot, context.description)):
+        uri = _get_package_uri(use, own)
         if uri is None:
             return None
         changes.append(set_attribute(use.mesh.element, "filename", uri))
     return unsafe(f"write package://{own[0] if own else ''}/…", *changes) if changes else None
 
 
-def _relative(uses: list[MeshUse]) -> list[MeshUse]:
+def _select_relative(uses: list[MeshUse]) -> list[MeshUse]:
     """Select the meshes with relative paths."""
     return [
         use
@@ -364,5 +364,5 @@ def _relative(uses: list[MeshUse]) -> list[MeshUse]:
         if use.uri.strip()
         and "://" not in use.uri
         and not use.is_absolute
-        and not malformation(use)
+        and not find_malformation(use)
     ]

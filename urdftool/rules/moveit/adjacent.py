@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.document import Element
-from ..collision.pieces import pieces
+from ..collision.convex_bodies import get_convex_bodies
 from ..fix import (
     FixContext,
     Proposal,
@@ -17,7 +17,7 @@ from ..fix import (
     unsafe,
 )
 from ..rule import UNSAFE, WARNING, Problem, rule
-from .semantic import semantics
+from .semantic import get_srdf_documents
 
 
 @rule(
@@ -33,18 +33,18 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
     Links that share a joint often overlap there. MoveIt checks each pair without
     ``<disable_collisions>``, reports the start state in collision, and plans nothing.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         disabled = {
             frozenset((element.get("link1", ""), element.get("link2", "")))
             for element in document.root.walk()
             if element.tag == "disable_collisions"
         }
-        known = pieces(robot)
+        known = get_convex_bodies(robot)
         for joint in robot.joints:
             one, other = (known.body_of.get(n, n) for n in (joint.parent, joint.child))
             if one == other or one not in known.bodies or other not in known.bodies:
                 continue
-            deepest = known.deepest(other, one)
+            deepest = known.find_deepest_overlap(other, one)
             if deepest is None:
                 continue
             link, above, _ = deepest

@@ -10,25 +10,25 @@ from ...model.elements import Robot
 from ...model.read import number
 from ...source.description import Description
 from ...source.document import Document, Element, parse, read_file
-from ...source.packages import shown_path
+from ...source.packages import shorten_path
 from ..fix import (
     FixContext,
     Proposal,
     append_child,
-    attribute_at,
     escape_attribute,
+    find_attribute,
+    get_suggestion,
     safe,
     set_attribute,
-    suggestion_of,
     unsafe,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import did_you_mean, nearest
+from ..words import nearest, suggest_name
 
 _ON = ("moveit",)
 
 
-def semantics(robot: Robot, description: Description) -> list[Document]:
+def get_srdf_documents(robot: Robot, description: Description) -> list[Document]:
     """Get the SRDF files next to a description that match its file name or robot name."""
     return robot.memo.get("SRDF files", lambda: list(_read(robot, description)))
 
@@ -48,14 +48,14 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
         try:
-            document = parse(read_file(shown_path(file), workspace))
+            document = parse(read_file(shorten_path(file), workspace))
         except SourceError:
             continue
         if document.root.tag == "robot" and (named or document.root.get("name") == robot.name):
             yield document
 
 
-def references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
+def find_references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
     """Yield the references to links or joints: element, attribute, and whether it is essential."""
     links = {
         "chain": ("base_link", "tip_link"),
@@ -94,15 +94,15 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
     collision it is a warning.
     """
     reported: set[str] = set()
-    for document in semantics(robot, description):
-        for element, attribute, essential in references(document.root, "link"):
+    for document in get_srdf_documents(robot, description):
+        for element, attribute, essential in find_references(document.root, "link"):
             name = element.get(attribute)
             if name and name not in robot.link and (essential or name not in reported):
                 reported.add(name)
                 yield Problem(
                     element,
                     f"<{element.tag}> refers to link '{name}', which the robot does not have"
-                    + did_you_mean(name, robot.link),
+                    + suggest_name(name, robot.link),
                     at=element.attribute_place(attribute),
                     severity=None if essential else WARNING,
                     data={"suggestion": nearest(name, robot.link)},
@@ -121,15 +121,15 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
 
     Its group does not contain the joint, and MoveIt cannot reach a named pose with it.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         virtual = {joint.get("name") for joint in document.root.all("virtual_joint")}
-        for element, attribute, _ in references(document.root, "joint"):
+        for element, attribute, _ in find_references(document.root, "joint"):
             name = element.get(attribute)
             if name and name not in robot.joint and name not in virtual:
                 yield Problem(
                     element,
                     f"<{element.tag}> refers to joint '{name}', which the robot does not have"
-                    + did_you_mean(name, robot.joint),
+                    + suggest_name(name, robot.joint),
                     at=element.attribute_place(attribute),
                     data={"suggestion": nearest(name, robot.joint)},
                 )
@@ -139,8 +139,8 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
 @srdf_unknown_joint.fix(UNSAFE)
 def rename_reference(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested name."""
-    found = attribute_at(problem)
-    name = suggestion_of(problem, found[0].get(found[1]) or "") if found is not None else ""
+    found = find_attribute(problem)
+    name = get_suggestion(problem, found[0].get(found[1]) or "") if found is not None else ""
     if found is None or not name:
         return None
     return unsafe(f"write '{name}'", set_attribute(*found, name))
@@ -159,7 +159,7 @@ def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]
     MoveIt reports at every start that the semantic description is not for the same robot, and uses
     it anyway. Either one of the names was not updated, or the file belongs to a different robot.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         name = document.root.get("name") or ""
         if name != robot.name:
             yield Problem(
@@ -189,7 +189,7 @@ def chain_not_connected(robot: Robot, description: Description) -> Iterator[Prob
     A chain must lead down the kinematic tree, from the base link to the tip link. MoveIt leaves the
     group empty.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         for element in document.root.walk():
             base, tip = element.get("base_link"), element.get("tip_link")
             if element.tag != "chain" or base not in robot.link or tip not in robot.link:
@@ -214,7 +214,7 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
 
     MoveIt cannot plan to this pose.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         for state in document.root.all("group_state"):
             for element in state.all("joint"):
                 joint = robot.joint.get(element.get("name") or "")
@@ -248,7 +248,7 @@ def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Pr
     A ``<virtual_joint>`` of type ``fixed``, ``planar`` or ``floating`` connects the root to the
     world frame. MoveIt assumes a fixed one.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         root = robot.tree.root
         if (
             root is not None
@@ -288,7 +288,7 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
 
     The end effector must have its own group, and its parent link must be outside this group.
     """
-    for document in semantics(robot, description):
+    for document in get_srdf_documents(robot, description):
         groups = {group.get("name"): group for group in document.root.all("group")}
         for element in document.root.all("end_effector"):
             name, parent = element.get("group"), element.get("parent_link")
@@ -297,7 +297,7 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
                 yield Problem(
                     element,
                     f"end effector '{element.get('name') or ''}' has group '{name or ''}', which "
-                    f"does not exist{did_you_mean(name or '', known)}",
+                    f"does not exist{suggest_name(name or '', known)}",
                     at=element.attribute_place("group"),
                 )
             elif any(link.get("name") == parent for link in groups[name].all("link")):
@@ -323,7 +323,7 @@ def missing_acceleration_limits(robot: Robot, description: Description) -> Itera
     URDF has no acceleration limits; MoveIt reads them from ``joint_limits.yaml`` next to the SRDF.
     Without them MoveIt cannot time trajectories. Nothing is reported if the file does not exist.
     """
-    documents = semantics(robot, description)
+    documents = get_srdf_documents(robot, description)
     path = Path(description.path).parent / "joint_limits.yaml"
     if not documents or not description.workspace.is_file(path):
         return
@@ -343,6 +343,6 @@ def missing_acceleration_limits(robot: Robot, description: Description) -> Itera
         if not isinstance(entry, dict) or not entry.get("has_acceleration_limits"):
             yield Problem(
                 joint,
-                f"joint '{joint.name}' has no acceleration limit in {shown_path(path)}; "
+                f"joint '{joint.name}' has no acceleration limit in {shorten_path(path)}; "
                 "MoveIt cannot time its motion",
             )

@@ -6,13 +6,13 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Sensor
-from ...model.pose import IDENTITY, dot, pose_of, rotation_of_rpy
+from ...model.pose import IDENTITY, compute_dot, make_pose, rotation_from_rpy
 from ..fix import FixContext, Proposal, set_text, unsafe
-from ..gazebo.sensors import pose_in_link
+from ..gazebo.sensors import get_pose_in_link
 from ..rule import GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import set_in_origin
 
-_OPTICAL = rotation_of_rpy((-math.pi / 2, 0.0, -math.pi / 2))
+_OPTICAL = rotation_from_rpy((-math.pi / 2, 0.0, -math.pi / 2))
 _CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "multicamera", "wideanglecamera")
 _FRAME_TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id", "optical_frame_id")
 
@@ -49,14 +49,16 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
     for joint in robot.joints:
         if not joint.is_fixed or not _is_optical_of(joint):
             continue
-        rotation = pose_of(joint.origin).rotation
+        rotation = make_pose(joint.origin).rotation
         off = max(
             abs(a - b)
             for row, wanted in zip(rotation, _OPTICAL, strict=True)
             for a, b in zip(row, wanted, strict=True)
         )
         if off > tolerance:
-            turns = sum(dot(row, wanted) for row, wanted in zip(rotation, _OPTICAL, strict=True))
+            turns = sum(
+                compute_dot(row, wanted) for row, wanted in zip(rotation, _OPTICAL, strict=True)
+            )
             angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
             yield Problem(
                 joint,
@@ -70,7 +72,7 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
 @optical_frame_orientation.fix(UNSAFE)
 def turn_optical_frame(problem: Problem, context: FixContext) -> Proposal | None:
     """Rotate the frame so that z points in the viewing direction."""
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if joint.origin is not None and "quat_xyzw" in joint.origin.element.attributes:
         return None
     rpy = "-1.5707963267948966 0 -1.5707963267948966"
@@ -106,7 +108,7 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
             joints = robot.tree.child_joints(block.reference)
             frames = {joint.child for joint in joints if _is_at(joint, sensor)}
             optical = next((name for name in sorted(frames) if "_optical" in name), None)
-            written = _frames_of(sensor)
+            written = _get_frames(sensor)
             if optical is None or not written or any("optical" in text for text in written):
                 continue
             yield Problem(
@@ -133,13 +135,13 @@ def _is_at(joint: Joint, sensor: Sensor) -> bool:
 
     A sensor with a ``<pose>`` of its own is offset from the frames of its link.
     """
-    pose = pose_in_link(sensor)
+    pose = get_pose_in_link(sensor)
     if pose is None or pose is IDENTITY:
         return pose is not None
-    return math.dist(pose_of(joint.origin).translation, pose.translation) < 1e-3
+    return math.dist(make_pose(joint.origin).translation, pose.translation) < 1e-3
 
 
-def _frames_of(sensor: Sensor) -> list[str]:
+def _get_frames(sensor: Sensor) -> list[str]:
     return [
         e.text.strip() for e in sensor.element.walk() if e.tag in _FRAME_TAGS and e.text.strip()
     ]

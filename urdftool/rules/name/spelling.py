@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Material, Robot
 from ..fix import FixContext, Proposal, append_number
-from ..renaming import part_of, rename_material, rename_part
+from ..renaming import get_part, rename_material, rename_part
 from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import fold
@@ -63,7 +63,7 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
 def rename_frame(problem: Problem, context: FixContext) -> Proposal | None:
     """Rename one link; the names of many have a common cause."""
     name: str | None = problem.data.get("write")
-    return None if name is None else rename_part(context, context.link(problem), name)
+    return None if name is None else rename_part(context, context.get_link(problem), name)
 
 
 @rule(
@@ -78,7 +78,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
 
     Importers that require identifiers rename it, and references to it no longer match.
     """
-    for part in _parts(robot):
+    for part in _get_parts(robot):
         if part.name and not _IDENTIFIER.fullmatch(part.name) and not is_unexpanded(part.name):
             renamed = re.sub(r"\W", "_", part.name, flags=re.ASCII)
             renamed = f"_{renamed}" if renamed[0].isdigit() else renamed
@@ -93,7 +93,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
 @not_portable_identifier.fix(UNSAFE, renames=True)
 def write_identifier(problem: Problem, context: FixContext) -> Proposal | None:
     """Write underscores in place of other characters than letters and digits."""
-    part = part_of(problem)
+    part = get_part(problem)
     return rename_part(context, part, problem.data["write"]) if part is not None else None
 
 
@@ -109,7 +109,7 @@ def name_style(robot: Robot) -> Iterator[Problem]:
 
     This is the convention of ROS; mixed styles lead to mistakes.
     """
-    for part in _parts(robot):
+    for part in _get_parts(robot):
         if part.name and not _SNAKE.fullmatch(part.name) and not is_unexpanded(part.name):
             yield Problem(
                 part,
@@ -121,7 +121,7 @@ def name_style(robot: Robot) -> Iterator[Problem]:
 @name_style.fix(UNSAFE, renames=True)
 def write_snake_case(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the name in lower case, with underscores between words."""
-    part = part_of(problem)
+    part = get_part(problem)
     if part is None or not part.name.isascii():
         return None
     words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|[^A-Za-z0-9]+", "_", part.name)
@@ -141,7 +141,7 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
     """
     materials = [*robot.materials, *(v.material for link in robot.links for v in link.visuals)]
     seen: set[str] = set()
-    parts: list[Link | Joint | Material] = [*_parts(robot), *filter(None, materials)]
+    parts: list[Link | Joint | Material] = [*_get_parts(robot), *filter(None, materials)]
     for part in parts:
         if not part.name.isascii() and part.name not in seen:
             seen.add(part.name)
@@ -168,7 +168,7 @@ def write_ascii(problem: Problem, context: FixContext) -> Proposal | None:
     )
     if not plain.isascii():
         return None
-    part = part_of(problem)
+    part = get_part(problem)
     if part is None:
         return rename_material(context.robot, name, plain)
     return rename_part(context, part, plain)
@@ -227,7 +227,7 @@ def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[P
         seen.add(key)
 
 
-def _parts(robot: Robot) -> list[Link | Joint]:
+def _get_parts(robot: Robot) -> list[Link | Joint]:
     return [*robot.links, *robot.joints]
 
 

@@ -6,14 +6,14 @@ from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...source.document import Element
-from ...source.nearby import document_at
+from ...source.nearby_files import document_at
 from ...source.packages import Packages
 from ...workspace import Workspace
 
 _MOST_PACKAGES = 2000
 
 
-def way_between(
+def find_dependency_chain(
     start: str, goal: str, packages: Packages, *, conditional: bool = False
 ) -> tuple[str, ...]:
     """Find the shortest chain of dependencies from one package to another.
@@ -35,7 +35,7 @@ def way_between(
             folder = packages.find(name)
         except PackageNotFound:
             continue
-        for element in _depend_elements(packages.workspace, folder):
+        for element in _list_dependencies(packages.workspace, folder):
             other = element.text.strip()
             if other in ways or (element.get("condition") is not None and not conditional):
                 continue
@@ -46,7 +46,7 @@ def way_between(
     return ()
 
 
-def _depend_elements(workspace: Workspace, folder: Path) -> list[Element]:
+def _list_dependencies(workspace: Workspace, folder: Path) -> list[Element]:
     """List the dependencies in a package's manifest."""
     document = document_at(workspace, folder / "package.xml")
     if document is None or document.root.tag != "package":

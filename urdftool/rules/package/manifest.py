@@ -12,8 +12,8 @@ from ...model.elements import Link, Robot
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
-from ...source.nearby import document_at, file_at
-from ...workspace import Workspace, memoized
+from ...source.nearby_files import document_at, file_at
+from ...workspace import Workspace, memoize_by_workspace
 from ..fix import (
     Change,
     FixContext,
@@ -26,10 +26,10 @@ from ..fix import (
     substitute,
     unsafe,
 )
-from ..mesh.uses import MeshUse, mesh_uses
+from ..mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import quoted
-from .dependencies import way_between
+from ..words import quote
+from .dependencies import find_dependency_chain
 from .resolution import is_in_own_package
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -37,12 +37,12 @@ _DEPEND = re.compile(r"<(?:\w+_)?depend\b[^>]*>\s*([\w-]+)\s*</")
 _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
 
 
-def _manifest(workspace: Workspace, folder: Path) -> str:
-    return _COMMENT.sub("", _text_of(workspace, folder / "package.xml"))
+def _read_manifest(workspace: Workspace, folder: Path) -> str:
+    return _COMMENT.sub("", _read_text(workspace, folder / "package.xml"))
 
 
-@memoized
-def _text_of(workspace: Workspace, path: Path) -> str:
+@memoize_by_workspace
+def _read_text(workspace: Workspace, path: Path) -> str:
     """Read a file of the package; empty if it cannot be read."""
     try:
         return workspace.read_text(path)
@@ -68,9 +68,9 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
     own = description.packages.own
     if own is None or _is_in_tests(description, own[1]):
         return
-    declared = _declared(description.workspace, own[1])
-    for name, subject, at in _used_packages(robot, description, own):
-        if name not in declared and not way_between(name, own[0], description.packages):
+    declared = _get_dependencies(description.workspace, own[1])
+    for name, subject, at in _find_used_packages(robot, description, own):
+        if name not in declared and not find_dependency_chain(name, own[0], description.packages):
             yield Problem(
                 subject,
                 f"package '{name}' is used but is not a dependency of '{own[0]}'; "
@@ -88,7 +88,7 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
     that would create a circle.
     """
     name: str = problem.data["package"]
-    manifest = _manifest_document(context)
+    manifest = _parse_manifest(context)
     own, packages = context.description.packages.own, context.description.packages
     if manifest is None or own is None or not re.fullmatch(r"[\w-]+", name):
         return None
@@ -96,26 +96,26 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
         packages.find(name)
     except PackageNotFound:
         return None
-    if way_between(name, own[0], packages, conditional=True):
+    if find_dependency_chain(name, own[0], packages, conditional=True):
         return None
-    tag = _run_tag(manifest.root)
-    return safe(f"add <{tag}>{name}</{tag}> to package.xml", _depends(manifest.root, name))
+    tag = _get_run_tag(manifest.root)
+    return safe(f"add <{tag}>{name}</{tag}> to package.xml", _add_dependency(manifest.root, name))
 
 
-def _manifest_document(context: FixContext) -> Document | None:
+def _parse_manifest(context: FixContext) -> Document | None:
     own = context.description.packages.own
     found = document_at(context.workspace, own[1] / "package.xml") if own is not None else None
     return found if found is not None and found.root.tag == "package" else None
 
 
-def _run_tag(package: Element) -> str:
+def _get_run_tag(package: Element) -> str:
     """Get the tag of run dependencies, which depends on the format of the manifest."""
     return "run_depend" if (package.get("format") or "1").strip() == "1" else "exec_depend"
 
 
-def _depends(package: Element, name: str) -> Change:
+def _add_dependency(package: Element, name: str) -> Change:
     """Add a dependency after others of the same kind, or in the required order."""
-    tag = _run_tag(package)
+    tag = _get_run_tag(package)
     line = f"<{tag}>{name}</{tag}>"
     others = [child for child in package.children if child.tag not in ("export", "test_depend")]
     likes = [child for child in others if child.tag in (tag, "depend")]
@@ -140,9 +140,9 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
     own = description.packages.own
     if own is None or _is_in_tests(description, own[1]):
         return
-    declared = _declared(description.workspace, own[1])
-    for name, subject, at in _used_packages(robot, description, own):
-        way = way_between(name, own[0], description.packages)
+    declared = _get_dependencies(description.workspace, own[1])
+    for name, subject, at in _find_used_packages(robot, description, own):
+        way = find_dependency_chain(name, own[0], description.packages)
         if not way:
             continue
         chain = ", which depends on ".join(f"'{step}'" for step in way[1:])
@@ -170,18 +170,18 @@ def _is_in_tests(description: Description, folder: Path) -> bool:
     return not {"test", "tests"}.isdisjoint(relative.parts[:-1])
 
 
-def _declared(workspace: Workspace, folder: Path) -> set[str]:
+def _get_dependencies(workspace: Workspace, folder: Path) -> set[str]:
     """Get the dependencies in a package's manifest."""
-    return set(_DEPEND.findall(_manifest(workspace, folder)))
+    return set(_DEPEND.findall(_read_manifest(workspace, folder)))
 
 
-def _used_packages(
+def _find_used_packages(
     robot: Robot, description: Description, own: tuple[str, Path]
 ) -> Iterator[tuple[str, Robot | Link, Place]]:
     """Yield the other packages that a description uses, each at its first use."""
     found = {own[0]}
-    for use in mesh_uses(robot, description):
-        name = _package_of(use)
+    for use in get_mesh_uses(robot, description):
+        name = _get_package_name(use)
         if name and name not in found and not is_in_own_package(use, description):
             found.add(name)
             if not _is_itself(name, own[1], description):
@@ -209,7 +209,7 @@ def _is_itself(name: str, folder: Path, description: Description) -> bool:
     return real_path(found) == real_path(folder)
 
 
-def _package_of(use: MeshUse) -> str:
+def _get_package_name(use: MeshUse) -> str:
     return use.uri[10:].partition("/")[0] if use.uri.startswith("package://") else ""
 
 
@@ -234,7 +234,7 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     own = description.packages.own
     if own is None:
         return
-    text = _text_of(description.workspace, own[1] / "CMakeLists.txt")
+    text = _read_text(description.workspace, own[1] / "CMakeLists.txt")
     if not text:
         return
     text = re.sub(r"#[^\n]*", "", text)
@@ -249,7 +249,7 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     if re.search(r"\bcatkin\b", text) and not re.search(r"\bament", text):
         severity = WARNING if installs else INFO
     used: dict[str, Element] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
             real_path = description.workspace.real_path
             relative = os.path.relpath(real_path(use.path), real_path(own[1]))
@@ -322,12 +322,12 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
     launch file, must add the package to them.
     """
     own = description.packages.own
-    if own is None or "model_path" in _manifest(description.workspace, own[1]):
+    if own is None or "model_path" in _read_manifest(description.workspace, own[1]):
         return
     if _launch_sets_path(description.workspace, own[1]):
         return
-    for use in mesh_uses(robot, description):
-        if _package_of(use) == own[0]:
+    for use in get_mesh_uses(robot, description):
+        if _get_package_name(use) == own[0]:
             yield Problem(
                 use.link,
                 f"package.xml of '{own[0]}' does not export the path of its meshes to Gazebo; "
@@ -342,7 +342,7 @@ def _launch_sets_path(workspace: Workspace, package: Path) -> bool:
     """Tell whether a launch file or hook of the package sets the model path of Gazebo."""
     for folder in ("launch", "hooks", "env-hooks"):
         for path in workspace.glob(package / folder, "*")[:50]:
-            text = _text_of(workspace, path) if workspace.is_file(path) else ""
+            text = _read_text(workspace, path) if workspace.is_file(path) else ""
             if "RESOURCE_PATH" in text or "MODEL_PATH" in text:
                 return True
     return False
@@ -358,7 +358,7 @@ def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
     With catkin the export requires a dependency on gazebo_ros, so the fix is unsafe if the package
     has none.
     """
-    manifest = _manifest_document(context)
+    manifest = _parse_manifest(context)
     if manifest is None:
         return None
     root, export = manifest.root, manifest.root.child("export")
@@ -371,7 +371,7 @@ def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
         return safe("export the path in package.xml", change)
     return unsafe(
         "export the path in package.xml, and depend on gazebo_ros",
-        _depends(root, "gazebo_ros"),
+        _add_dependency(root, "gazebo_ros"),
         change,
     )
 
@@ -392,11 +392,11 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
     if own is None:
         return
     wrong: dict[str, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if is_in_own_package(use, description):
-            wrong.setdefault(_package_of(use), []).append(use)
+            wrong.setdefault(_get_package_name(use), []).append(use)
     for name, uses in wrong.items():
-        files = quoted(dict.fromkeys(use.uri[10:].partition("/")[2] for use in uses), 3)
+        files = quote(dict.fromkeys(use.uri[10:].partition("/")[2] for use in uses), 3)
         yield Problem(
             uses[0].link,
             f"package '{name}' does not have {files}, but this package does; "
@@ -413,7 +413,7 @@ def write_own_package(problem: Problem, context: FixContext) -> Proposal | None:
     if own is None:
         return None
     changes = []
-    for use in mesh_uses(context.robot, context.description):
+    for use in get_mesh_uses(context.robot, context.description):
         if use.uri.startswith(f"package://{problem.data['package']}/"):
             inside = use.uri.partition("://")[2].partition("/")[2]
             if not context.workspace.is_file(own[1] / inside):

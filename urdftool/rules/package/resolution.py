@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.packages import has_it, shown_path
+from ...source.packages import shorten_path, suggest_folder
 from ..mesh.dropped import is_dropped
-from ..mesh.uses import MeshUse, mesh_uses
+from ..mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rule import WARNING, Problem, rule
 
 APPLIES_TO = ("mesh",)
@@ -36,29 +36,29 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     ROS does not find them.
     """
     lost: dict[str, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         if use.missing_package and not is_in_own_package(use, description):
             lost.setdefault(use.missing_package, []).append(use)
     for name, uses in lost.items():
         count = len({use.uri for use in uses})
         meshes = f"{count} of its meshes were" if count > 1 else "its mesh was"
-        near = description.packages.folder_with(name, _inner(uses[0].uri))
+        near = description.packages.folder_with(name, _get_inner_path(uses[0].uri))
         remedy = f"pass --package {name}=DIR or --package-path DIR"
         yield Problem(
             uses[0].link,
             f"package '{name}' is not found, so {meshes} not checked; "
-            + (has_it(name, near) if near is not None else remedy),
+            + (suggest_folder(name, near) if near is not None else remedy),
             at=uses[0].mesh.element.attribute_place("filename"),
-            hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
-            effects=(*_in_rviz(uses), "drake", "pybullet (no such folder)"),
+            hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
+            effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),
         )
-    yield from _assumed(robot, description)
+    yield from _report_assumed_packages(robot, description)
 
 
-def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
+def _report_assumed_packages(robot: Robot, description: Description) -> Iterator[Problem]:
     """Report packages in whose place a folder of the same name is read."""
     found: dict[str, list[MeshUse]] = {}
-    for use in mesh_uses(robot, description):
+    for use in get_mesh_uses(robot, description):
         scheme, _, rest = use.uri.partition("://")
         name = rest.lstrip("/").partition("/")[0]
         if scheme == "package" and name in description.packages.assumed:
@@ -70,18 +70,19 @@ def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
         yield Problem(
             uses[0].link,
             f"package '{name}' is not found, so {meshes} read from the folder "
-            f"'{shown_path(folder)}', as PyBullet does; write '{_right_uri(uses[0], description)}'",
+            f"'{shorten_path(folder)}', as PyBullet does; write "
+            f"'{_make_uri(uses[0], description)}'",
             at=uses[0].mesh.element.attribute_place("filename"),
-            effects=(*_in_rviz(uses), "drake", "pybullet (a folder)"),
+            effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
         )
 
 
-def _in_rviz(uses: list[MeshUse]) -> tuple[str, ...]:
+def _select_rviz_effect(uses: list[MeshUse]) -> tuple[str, ...]:
     """Select the effect in RViz, which does not load meshes of shapes that urdfdom drops."""
     return () if all(map(is_dropped, uses)) else ("rviz",)
 
 
-def _right_uri(use: MeshUse, description: Description) -> str:
+def _make_uri(use: MeshUse, description: Description) -> str:
     """Make a URI that every reader finds, or a path if the file is not in a package."""
     file = description.packages.file
     own = description.packages.own
@@ -101,10 +102,10 @@ def is_in_own_package(use: MeshUse, description: Description) -> bool:
     return description.workspace.is_file(own[1] / inside)
 
 
-def _inner(uri: str) -> str:
+def _get_inner_path(uri: str) -> str:
     """Get the path in a URI after the package name."""
     return uri.partition("://")[2].partition("/")[2]
 
 
-def _brief(searched: list[str]) -> list[str]:
+def _shorten_places(searched: list[str]) -> list[str]:
     return [place.removeprefix("searched ") for place in searched]

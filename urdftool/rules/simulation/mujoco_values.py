@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ...model.read import numbers
+from ...model.read import parse_numbers
 from ...source.document import Element
 
 READER_SETTINGS = frozenset(
@@ -83,7 +83,7 @@ VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
 }  # fmt: skip
 
 
-def setting_elements(robot: Robot) -> Iterator[Element]:
+def find_setting_elements(robot: Robot) -> Iterator[Element]:
     """Yield the elements in ``<mujoco>`` that hold settings of the model."""
     for extension in robot.element.all("mujoco"):
         for part in extension.children:
@@ -91,7 +91,7 @@ def setting_elements(robot: Robot) -> Iterator[Element]:
                 yield from part.walk()
 
 
-def required_attribute_value(element: Element, name: str) -> str:
+def describe_required_setting(element: Element, name: str) -> str:
     """Describe the value that an attribute requires.
 
     Args:
@@ -111,7 +111,7 @@ def required_attribute_value(element: Element, name: str) -> str:
         digits = value.strip().removeprefix("-").removeprefix("+")
         return "" if digits.isascii() and digits.isdigit() else "a whole number"
     count = len(value.split()) if required < 0 else required
-    if 0 < count <= abs(required) and numbers(value, count) is not None:
+    if 0 < count <= abs(required) and parse_numbers(value, count) is not None:
         return ""
     if required == 1:
         return "a finite number"

@@ -15,7 +15,7 @@ from ..fix import (
     is_computed,
     unsafe,
 )
-from ..gazebo.contact import contact_role
+from ..gazebo.contact import get_contact_role
 from ..rule import INFO, UNSAFE, Problem, rule
 
 
@@ -57,7 +57,9 @@ def mujoco_welds_root(robot: Robot) -> Iterator[Problem]:
     weight = sum(robot.link[name].mass for name in robot.tree.body_links[root.name])
     if weight <= 0:
         return
-    if not any(contact_role(robot, link) in ("wheel", "caster", "foot") for link in robot.links):
+    if not any(
+        get_contact_role(robot, link) in ("wheel", "caster", "foot") for link in robot.links
+    ):
         return  # a manipulator on a fixed base
     yield Problem(
         root,
@@ -70,7 +72,7 @@ def mujoco_welds_root(robot: Robot) -> Iterator[Problem]:
 @mujoco_welds_root.fix(UNSAFE)
 def add_floating_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Add a link ``world`` and a floating joint, which Gazebo rejects."""
-    robot, root = context.robot, context.link(problem)
+    robot, root = context.robot, context.get_link(problem)
     if context.targets != {"mujoco"} or is_computed(root.element):
         return None
     if "world" in robot.link or "world_joint" in robot.joint:

@@ -9,8 +9,8 @@ from ...geometry.penetration import Convex
 from ...model.elements import Robot
 from ...model.kinematics import MOVABLE, link_poses
 from ...model.pose import rotate, transpose
-from ..collision.pieces import pieces
-from ..inertia.joint_inertia import joint_inertia
+from ..collision.convex_bodies import get_convex_bodies
+from ..inertia.joint_inertia import compute_joint_inertia
 from ..rule import INFO, Problem, rule
 
 
@@ -36,7 +36,7 @@ def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Proble
         damping = joint.dynamics.damping if joint.dynamics is not None else None
         if joint.type not in MOVABLE or not damping or joint.child not in poses:
             continue
-        inertia = joint_inertia(robot, joint, poses)
+        inertia = compute_joint_inertia(robot, joint, poses)
         if inertia > 0 and damping * step > 2 * inertia and joint.dynamics is not None:
             unit = "kg" if joint.type == "prismatic" else "kg·m²"
             yield Problem(
@@ -68,9 +68,9 @@ def below_ground_at_spawn(robot: Robot, *, deep: float = 0.01) -> Iterator[Probl
     if root is None or root.name == "world":
         return
     lowest, whose = math.inf, None
-    for parts in pieces(robot).bodies.values():
+    for parts in get_convex_bodies(robot).bodies.values():
         for link, piece in parts:
-            low = piece.pose.translation[2] - _down(piece)
+            low = piece.pose.translation[2] - _compute_extent_down(piece)
             if low < lowest:
                 lowest, whose = low, link
     if whose is not None and lowest < -deep:
@@ -83,6 +83,6 @@ def below_ground_at_spawn(robot: Robot, *, deep: float = 0.01) -> Iterator[Probl
         )
 
 
-def _down(piece: Convex) -> float:
+def _compute_extent_down(piece: Convex) -> float:
     """Compute how far a piece extends below its center [m]."""
     return piece.reach(*rotate(transpose(piece.pose.rotation), (0.0, 0.0, -1.0)))

@@ -30,7 +30,7 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
         name: sum(robot.link[link].mass for link in links if link in robot.link)
         for name, links in bodies.items()
     }
-    below = _masses_below(robot, mass)
+    below = _compute_masses_below(robot, mass)
     for joint in robot.moving_joints:
         above, under = robot.tree.bodies.get(joint.parent), robot.tree.bodies.get(joint.child)
         if above is None or under is None or robot.tree.parent_joint(above) is None:
@@ -51,7 +51,7 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
             )
 
 
-def _masses_below(robot: Robot, mass: dict[str, float]) -> dict[str, float]:
+def _compute_masses_below(robot: Robot, mass: dict[str, float]) -> dict[str, float]:
     """Compute the mass of each body with all its descendants [kg]."""
     total = dict(mass)
     for name in reversed(robot.tree.order):

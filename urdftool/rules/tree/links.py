@@ -12,22 +12,22 @@ from ..cross_file_references import check_not_included
 from ..fix import (
     FixContext,
     Proposal,
-    attribute_at,
+    find_attribute,
+    get_suggestion,
     is_always_there,
     is_computed,
     prepend_child,
     safe,
     set_attribute,
-    suggestion_of,
     unsafe,
 )
-from ..gazebo.kept import is_joint_kept, is_named_as_link, joints_of_sdf, kept_links
+from ..gazebo.lumped_model import find_kept_links, find_sdf_joints, is_joint_kept, is_named_as_link
 from ..gazebo.lumping import is_lumped
 from ..renaming import rename_part
-from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, holding, rule
+from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, nearest
-from ..xml.vocabulary_table import is_for_another_reader, misspelt_children
+from ..words import nearest, suggest_name
+from ..xml.vocabulary_table import find_misspelled_children, is_for_another_reader
 
 
 @rule(
@@ -45,18 +45,18 @@ def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     """
     if not (robot.name.strip() or robot.element.children) and description.document.comments:
         return
-    if not robot.links and "link" not in misspelt_children(robot.element).values():
-        yield _no_link(robot)
+    if not robot.links and "link" not in find_misspelled_children(robot.element).values():
+        yield _report_no_link(robot)
 
 
 @no_links.full
-def every_missing_link(robot: Robot) -> Iterator[Problem]:
+def report_every_missing_link(robot: Robot) -> Iterator[Problem]:
     """Report a robot without links, also a placeholder or one whose links are misspelled."""
     if not robot.links:
-        yield _no_link(robot)
+        yield _report_no_link(robot)
 
 
-def _no_link(robot: Robot) -> Problem:
+def _report_no_link(robot: Robot) -> Problem:
     macros = robot.source is not None and robot.source.expansion is not None
     what = "use a file that calls its macros" if macros else 'add a <link name="…"/>'
     who = f"robot '{robot.name}'" if robot.name else "the robot"
@@ -79,21 +79,21 @@ def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         first = robot.link[link.name]
         if first is not link and link.name.strip():
-            yield _second(link, first)
+            yield _report_second(link, first)
 
 
 @duplicate_link_name.full
-def every_second_link(robot: Robot) -> Iterator[Problem]:
+def report_every_second_link(robot: Robot) -> Iterator[Problem]:
     """Report each link after the first of its name, also if the name is blank or empty."""
     for link in robot.links:
         first = robot.link[link.name]
         if first is not link:
-            problem = _second(link, first)
+            problem = _report_second(link, first)
             problem.data = {"has_name": bool(link.name)}
             yield problem
 
 
-def _second(part: Link | Joint, first: Link | Joint) -> Problem:
+def _report_second(part: Link | Joint, first: Link | Joint) -> Problem:
     kind = "link" if isinstance(part, Link) else "joint"
     named = "name" in part.element.attributes
     return Problem(
@@ -119,16 +119,16 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
     for joint in robot.joints:
         first = robot.joint[joint.name]
         if first is not joint and joint.name.strip():
-            yield _second(joint, first)
+            yield _report_second(joint, first)
 
 
 @duplicate_joint_name.full
-def every_second_joint(robot: Robot) -> Iterator[Problem]:
+def report_every_second_joint(robot: Robot) -> Iterator[Problem]:
     """Report each joint after the first of its name, also if the name is blank or empty."""
     for joint in robot.joints:
         first = robot.joint[joint.name]
         if first is not joint:
-            problem = _second(joint, first)
+            problem = _report_second(joint, first)
             problem.data = {"has_name": bool(joint.name)}
             yield problem
 
@@ -136,12 +136,12 @@ def every_second_joint(robot: Robot) -> Iterator[Problem]:
 @duplicate_joint_name.fix(UNSAFE)
 def number_joint_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Append a number to the second name."""
-    joint = context.joint(problem)
-    name = _free_name(joint.name, {*context.robot.joint, *context.robot.link})
+    joint = context.get_joint(problem)
+    name = _find_free_name(joint.name, {*context.robot.joint, *context.robot.link})
     return unsafe(f"rename it to '{name}'", set_attribute(joint.element, "name", name))
 
 
-def _free_name(name: str, taken: set[str]) -> str:
+def _find_free_name(name: str, taken: set[str]) -> str:
     number = 2
     while f"{name}_{number}" in taken:
         number += 1
@@ -174,7 +174,7 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
     A ``<joint>`` of SDF in a ``<gazebo>`` block belongs to the same namespace.
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
-    kept = kept_links(robot)
+    kept = find_kept_links(robot)
     for name, joint in robot.joint.items():
         if name in robot.link and name.strip():
             stay = kept is not None and is_named_as_link(robot, joint, kept)
@@ -186,25 +186,27 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
                 f"rename it to '{name}_joint'",
                 at=joint.element.attribute_place("name"),
                 severity=WARNING if in_gazebo and lumped and not stay else None,
-                effects=holding(_CLASH, case),
+                effects=select_holding(_CLASH, case),
             )
-    yield from _clashes_of_sdf(robot, kept or set())
+    yield from _report_sdf_clashes(robot, kept or set())
 
 
-def _clashes_of_sdf(robot: Robot, kept: set[str]) -> Iterator[Problem]:
+def _report_sdf_clashes(robot: Robot, kept: set[str]) -> Iterator[Problem]:
     """Report SDF joints with the name of a link or joint that Gazebo has too."""
     names = dict.fromkeys((*kept, "world"), "a link")
     for joint in robot.joints:
         if is_joint_kept(robot, joint, kept):
             names.setdefault(joint.name, "a joint")
-    for element in joints_of_sdf(robot):
+    for element in find_sdf_joints(robot):
         name = element.get("name") or ""
         if name in names:
             yield Problem(
                 element,
                 f"joint '{name}' in <gazebo> has the name of {names[name]}; write a unique name",
                 at=element.attribute_place("name"),
-                effects=[key for key in holding(_CLASH, "both stay") if key != _OTHERS_ACCEPT],
+                effects=[
+                    key for key in select_holding(_CLASH, "both stay") if key != _OTHERS_ACCEPT
+                ],
                 alike=names[name],
             )
         elif name:
@@ -225,7 +227,7 @@ def rename_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Append ``_joint`` to the name of a joint of URDF."""
     if not isinstance(problem.subject, Joint):
         return None
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     return rename_part(context, joint, f"{joint.name}_joint")
 
 
@@ -245,27 +247,27 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
         if name in robot.link or name.strip() in stripped or is_unexpanded(name):
             continue
         if name.strip() and joint.parent_element is not None:
-            yield _unknown_parent(robot, joint, joint.parent_element)
+            yield _report_unknown_parent(robot, joint, joint.parent_element)
 
 
 @unknown_parent_link.full
-def every_unknown_parent(robot: Robot) -> Iterator[Problem]:
+def report_every_unknown_parent(robot: Robot) -> Iterator[Problem]:
     """Report each parent name that is not a link, also unexpanded or with spaces around it."""
     for joint in robot.joints:
         if joint.parent and joint.parent not in robot.link and joint.parent_element is not None:
-            yield _unknown_parent(robot, joint, joint.parent_element)
+            yield _report_unknown_parent(robot, joint, joint.parent_element)
 
 
-def _unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Problem:
+def _report_unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Problem:
     name = joint.parent
     is_world = name == "world"
     return Problem(
         joint,
-        f"parent '{name}' of joint '{joint.name}' is not a link{_remedy(name, robot)}",
+        f"parent '{name}' of joint '{joint.name}' is not a link{_describe_remedy(name, robot)}",
         at=parent.attribute_place("link"),
         data={"suggestion": nearest(name, robot.link)},
         severity=INFO if is_world and is_for_another_reader(robot.element) else None,
-        effects=holding(
+        effects=select_holding(
             _WITHOUT_PARENT, "the parent is world" if is_world else "the parent is not world"
         ),
     )
@@ -278,7 +280,7 @@ def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     ``world`` is declared only in a description that is a complete robot for all arguments. A part
     that another robot includes gets ``world`` from there.
     """
-    joint = context.joint(problem)
+    joint = context.get_joint(problem)
     if joint.parent != "world":
         return _write_suggestion(problem)
     check_not_included(context)
@@ -293,8 +295,8 @@ _WORLD = re.compile(rb"<link\b[^>]*\bname\s*=\s*[\"']world[\"']")
 
 
 def _write_suggestion(problem: Problem) -> Proposal | None:
-    found = attribute_at(problem)
-    name = suggestion_of(problem, found[0].get(found[1]) or "") if found is not None else ""
+    found = find_attribute(problem)
+    name = get_suggestion(problem, found[0].get(found[1]) or "") if found is not None else ""
     if found is None or not name:
         return None
     return unsafe(f"write '{name}'", set_attribute(*found, name))
@@ -326,22 +328,22 @@ def unknown_child_link(robot: Robot) -> Iterator[Problem]:
     ]
     for joint in missing:
         if joint.child_element is not None:
-            yield _unknown_child(robot, joint, joint.child_element, len(missing) == 1)
+            yield _report_unknown_child(robot, joint, joint.child_element, len(missing) == 1)
 
 
 @unknown_child_link.full
-def every_unknown_child(robot: Robot) -> Iterator[Problem]:
+def report_every_unknown_child(robot: Robot) -> Iterator[Problem]:
     """Report each child name that is not a link, also unexpanded or with spaces around it."""
     missing = [joint for joint in robot.joints if joint.child and joint.child not in robot.link]
     for joint in missing:
         if joint.child_element is not None:
-            yield _unknown_child(robot, joint, joint.child_element, len(missing) == 1)
+            yield _report_unknown_child(robot, joint, joint.child_element, len(missing) == 1)
 
 
-def _unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> Problem:
-    name, orphans = joint.child, _orphans(robot, joint)
+def _report_unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> Problem:
+    name, orphans = joint.child, _find_orphans(robot, joint)
     meant = orphans[0] if alone and len(orphans) == 1 else nearest(name, orphans, 0.6)
-    right = _remedy(name, robot)
+    right = _describe_remedy(name, robot)
     if meant:
         right = f"; did you mean '{meant}', which has no parent joint?"
     return Problem(
@@ -352,29 +354,29 @@ def _unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> P
     )
 
 
-def _orphans(robot: Robot, joint: Joint) -> list[str]:
+def _find_orphans(robot: Robot, joint: Joint) -> list[str]:
     """List the links without a parent joint that are not above a joint."""
     above = {joint.parent, *robot.tree.ancestors(joint.parent)}
     return [link.name for link in robot.tree.roots if link.name not in above]
 
 
-def _remedy(name: str, robot: Robot) -> str:
+def _describe_remedy(name: str, robot: Robot) -> str:
     if name == "world":
         return '; add <link name="world"/>'
     remedy = f'; add <link name="{name}"/>'
     if robot.source is not None and robot.source.expansion is not None:
         remedy += ", or check the file that includes this one"
-    return did_you_mean(name, robot.link) or remedy
+    return suggest_name(name, robot.link) or remedy
 
 
 @unknown_child_link.fix(UNSAFE)
 def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested link, if it does not have a parent joint yet."""
     orphan: str = problem.data.get("orphan", "")
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if orphan and found is not None:
         return unsafe(f"write '{orphan}'", set_attribute(*found, orphan))
-    name = suggestion_of(problem, context.joint(problem).child)
+    name = get_suggestion(problem, context.get_joint(problem).child)
     if any(joint.child == name for joint in context.robot.joints):
         return None
     return _write_suggestion(problem)
@@ -393,7 +395,7 @@ def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
     robot.
     """
     for joint in robot.joints:
-        missing = list(_missing_ends(joint))
+        missing = list(_find_missing_ends(joint))
         if not missing:
             continue
         if len(missing) == 2:
@@ -403,20 +405,20 @@ def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
                 'add <parent link="…"/> and <child link="…"/>',
             )
         else:
-            yield _missing_end(joint, *missing[0])
+            yield _report_missing_end(joint, *missing[0])
 
 
 @missing_parent_or_child.full
-def every_missing_end(robot: Robot) -> Iterator[Problem]:
+def report_every_missing_end(robot: Robot) -> Iterator[Problem]:
     """Report each end of a joint without a link name, even if its element is misspelled."""
     for joint in robot.joints:
         if not joint.parent:
-            yield _missing_end(joint, "parent", joint.parent_element)
+            yield _report_missing_end(joint, "parent", joint.parent_element)
         if not joint.child:
-            yield _missing_end(joint, "child", joint.child_element)
+            yield _report_missing_end(joint, "child", joint.child_element)
 
 
-def _missing_end(joint: Joint, tag: str, element: Element | None) -> Problem:
+def _report_missing_end(joint: Joint, tag: str, element: Element | None) -> Problem:
     what = f"no <{tag}>" if element is None else f"a <{tag}> without a link"
     return Problem(
         joint,
@@ -426,7 +428,7 @@ def _missing_end(joint: Joint, tag: str, element: Element | None) -> Problem:
     )
 
 
-def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
+def _find_missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
     ends = (
         ("parent", joint.parent, joint.parent_element),
         ("child", joint.child, joint.child_element),
@@ -435,7 +437,7 @@ def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
         if name.strip():
             continue
         if element is None:
-            if tag not in misspelt_children(joint.element).values():
+            if tag not in find_misspelled_children(joint.element).values():
                 yield tag, None
         elif element.attributes.keys() <= {"link"}:
             yield tag, element
@@ -474,11 +476,11 @@ def joint_to_itself(robot: Robot) -> Iterator[Problem]:
                 f"parent and child of joint '{joint.name}' are both link '{joint.child}'; write "
                 "two different links",
                 at=joint.child_element.attribute_place("link"),
-                effects=holding(_TO_ITSELF, _case_of(joint, robot)),
+                effects=select_holding(_TO_ITSELF, _select_case(joint, robot)),
             )
 
 
-def _case_of(to_itself: Joint, robot: Robot) -> str:
+def _select_case(to_itself: Joint, robot: Robot) -> str:
     """Select the case of the effects for a joint from a link to itself; empty if unknown."""
     children = {joint.child for joint in robot.joints}
     roots = sum(name not in children for name in robot.link)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Link, Robot
 from ..rule import ERROR, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import quoted
-from ..xml.vocabulary_table import misspelt_children
+from ..words import quote
+from ..xml.vocabulary_table import find_misspelled_children
 
 _SHOWN = 6
 
@@ -29,35 +29,35 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     world, and PyBullet crashes. Usually a joint was forgotten. Only Drake reads ``<drake:joint>``.
     """
     roots = robot.tree.roots
-    if len(roots) < 2 or "joint" in misspelt_children(robot.element).values():
+    if len(roots) < 2 or "joint" in find_misspelled_children(robot.element).values():
         return
-    main = _main(robot)
-    joined = _joined_in_drake(robot)
+    main = _find_main_root(robot)
+    joined = _find_drake_roots(robot)
     if joined:
-        yield _of_drake([link for link in roots if link.name in joined])
+        yield _report_drake_roots([link for link in roots if link.name in joined])
     others = [link for link in roots if link is not main and link.name not in joined]
     if main.name in joined:
         others = others[1:]
     lost = sum(1 for joint in robot.joints if joint.child not in robot.link)
     if len(others) <= lost or any(is_unexpanded(link.name) for link in others):
         return
-    yield Problem(others[0], _of_roots(main, others))
+    yield Problem(others[0], _describe_roots(main, others))
 
 
 @multiple_roots.full
-def every_root(robot: Robot) -> Iterator[Problem]:
+def report_every_root(robot: Robot) -> Iterator[Problem]:
     """Report each root after the first, also those that another finding explains."""
     roots = robot.tree.roots
     for link in roots[1:]:
         yield Problem(
             link,
-            _of_roots(roots[0], [link]),
-            group=_of_roots(roots[0], roots[1:]),
+            _describe_roots(roots[0], [link]),
+            group=_describe_roots(roots[0], roots[1:]),
             data={"roots": [root.name for root in roots]},
         )
 
 
-def _of_roots(main: Link, others: list[Link]) -> str:
+def _describe_roots(main: Link, others: list[Link]) -> str:
     names = ", ".join(f"'{link.name}'" for link in others[:_SHOWN])
     more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
     if len(others) == 1:
@@ -70,7 +70,7 @@ def _of_roots(main: Link, others: list[Link]) -> str:
 _STANDARD = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 
 
-def _joined_in_drake(robot: Robot) -> set[str]:
+def _find_drake_roots(robot: Robot) -> set[str]:
     """Find the roots that a ``<drake:joint>`` connects to another link."""
     roots = {link.name for link in robot.tree.roots}
     found = set()
@@ -83,8 +83,8 @@ def _joined_in_drake(robot: Robot) -> set[str]:
     return found & roots
 
 
-def _of_drake(links: list[Link]) -> Problem:
-    names = quoted((link.name for link in links), _SHOWN)
+def _report_drake_roots(links: list[Link]) -> Problem:
+    names = quote((link.name for link in links), _SHOWN)
     what = f"link {names} is a root" if len(links) == 1 else f"links {names} are roots"
     return Problem(
         links[0],
@@ -93,7 +93,7 @@ def _of_drake(links: list[Link]) -> Problem:
     )
 
 
-def _main(robot: Robot) -> Link:
+def _find_main_root(robot: Robot) -> Link:
     """Find the root with the most descendants; requires at least one root."""
     return max(robot.tree.roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
 
@@ -113,25 +113,25 @@ def no_root(robot: Robot) -> Iterator[Problem]:
         return
     if any(joint.parent == joint.child or joint.parent not in robot.link for joint in robot.joints):
         return
-    cycle = _cycle(robot, robot.links[0])
+    cycle = _find_cycle(robot, robot.links[0])
     joint = robot.tree.parent_joint(cycle[0].name)
     yield Problem(
         robot if joint is None else joint,
-        _without_root(cycle),
+        _describe_missing_root(cycle),
         at=None if joint is None else joint.child_element,
     )
 
 
 @no_root.full
-def every_missing_root(robot: Robot) -> Iterator[Problem]:
+def report_every_missing_root(robot: Robot) -> Iterator[Problem]:
     """Report a robot with links but no root, also if a missing link is above all others."""
     if robot.links and not robot.tree.roots:
-        cycles = (_cycle(robot, link) for link in robot.links)
-        yield Problem(robot, _without_root(next(filter(None, cycles), [])))
+        cycles = (_find_cycle(robot, link) for link in robot.links)
+        yield Problem(robot, _describe_missing_root(next(filter(None, cycles), [])))
 
 
-def _without_root(cycle: list[Link]) -> str:
-    shown = f": {_round(cycle)}" if cycle else ""
+def _describe_missing_root(cycle: list[Link]) -> str:
+    shown = f": {_format_cycle(cycle)}" if cycle else ""
     return f"every link has a parent joint{shown}; remove the one of the root link"
 
 
@@ -155,29 +155,29 @@ def detached_cycle(robot: Robot) -> Iterator[Problem]:
     for link in robot.tree.detached:
         if link.name in seen:
             continue
-        cycle = _cycle(robot, link)
+        cycle = _find_cycle(robot, link)
         if len(cycle) > 1:
             seen.update((cycle[0].name, *robot.tree.descendants(cycle[0].name)))
-            yield Problem(cycle[0], _of_cycle(cycle))
+            yield Problem(cycle[0], _describe_cycle(cycle))
 
 
 @detached_cycle.full
-def every_link_on_cycle(robot: Robot) -> Iterator[Problem]:
+def report_every_link_on_cycle(robot: Robot) -> Iterator[Problem]:
     """Report each link that is in or below a cycle, also if a second joint connects it."""
     has_root = bool(robot.tree.roots)
     detached = {link.name for link in robot.tree.detached}
-    for name, cycle in _cycles(robot).items():
+    for name, cycle in _find_cycles(robot).items():
         if cycle:
             data = {
                 "links": [link.name for link in cycle],
                 "is_detached": name in detached,
                 "has_root": has_root,
             }
-            message = _of_cycle(cycle) if has_root else _without_root(cycle)
+            message = _describe_cycle(cycle) if has_root else _describe_missing_root(cycle)
             yield Problem(robot.link[name], message, data=data)
 
 
-def _cycles(robot: Robot) -> dict[str, list[Link]]:
+def _find_cycles(robot: Robot) -> dict[str, list[Link]]:
     """Find the cycle that each link is in or below, as ``_cycle`` does, in linear time."""
     found: dict[str, list[Link]] = {}
     for link in robot.link.values():
@@ -189,19 +189,19 @@ def _cycles(robot: Robot) -> dict[str, list[Link]]:
             if joint is None:
                 break
             name = joint.parent
-        cycle = found[name] if name in found else _cycle(robot, link)
+        cycle = found[name] if name in found else _find_cycle(robot, link)
         found.update(dict.fromkeys(above, cycle))
     return {name: found[name] for name in robot.link}
 
 
-def _of_cycle(cycle: list[Link]) -> str:
+def _describe_cycle(cycle: list[Link]) -> str:
     return (
-        f"links form a cycle without a connection to the root: {_round(cycle)}; "
+        f"links form a cycle without a connection to the root: {_format_cycle(cycle)}; "
         "change the parent of one of these joints to a link of the tree"
     )
 
 
-def _cycle(robot: Robot, link: Link) -> list[Link]:
+def _find_cycle(robot: Robot, link: Link) -> list[Link]:
     """Find the cycle above a link, child before parent; empty if there is none."""
     above: dict[str, None] = {}
     name = link.name
@@ -219,7 +219,7 @@ def _cycle(robot: Robot, link: Link) -> list[Link]:
     return [robot.link[n] for n in (*circle[start:], *circle[:start])]
 
 
-def _round(cycle: list[Link]) -> str:
+def _format_cycle(cycle: list[Link]) -> str:
     """Format a cycle from parent to child."""
     first, *rest = (link.name for link in cycle)
     names = [first, *reversed(rest)]
@@ -246,7 +246,7 @@ def multiple_parents(robot: Robot) -> Iterator[Problem]:
     rejects it unless the link is lumped into its parent, MuJoCo rejects it, and PyBullet crashes.
     """
     roots = robot.tree.roots
-    main = _main(robot) if roots else None
+    main = _find_main_root(robot) if roots else None
     orphans = {link.name for link in roots if link is not main}
     for name, joints in robot.tree.joints_of_child.items():
         if len(joints) < 2 or name not in robot.link:
@@ -257,11 +257,13 @@ def multiple_parents(robot: Robot) -> Iterator[Problem]:
         for joint in joined[1:]:
             if joint.name == first.name:
                 continue
-            yield Problem(joint, _second_parent(first, joint, orphans), at=joint.child_element)
+            yield Problem(
+                joint, _describe_second_parent(first, joint, orphans), at=joint.child_element
+            )
 
 
 @multiple_parents.full
-def every_second_parent(robot: Robot) -> Iterator[Problem]:
+def report_every_second_parent(robot: Robot) -> Iterator[Problem]:
     """Report a link for each joint after the first that has it as child, of any names."""
     orphans = {link.name for link in robot.tree.roots[1:]}
     for name, (first, *others) in robot.tree.joints_of_child.items():
@@ -269,13 +271,13 @@ def every_second_parent(robot: Robot) -> Iterator[Problem]:
             if name in robot.link:
                 yield Problem(
                     robot.link[name],
-                    _second_parent(first, joint, orphans),
+                    _describe_second_parent(first, joint, orphans),
                     at=joint.child_element or joint,
                     data={"has_name": bool(name), "parents": len(others) + 1},
                 )
 
 
-def _second_parent(first: Joint, joint: Joint, orphans: set[str]) -> str:
+def _describe_second_parent(first: Joint, joint: Joint, orphans: set[str]) -> str:
     if joint.parent in orphans:
         right = f"swap parent '{joint.parent}' and child '{joint.child}' if they are reversed"
     elif len(orphans) == 1:

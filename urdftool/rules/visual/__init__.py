@@ -1,4 +1,4 @@
 """Visual geometry, materials and textures."""
 
-FILES = ("materials", "looks")
+FILES = ("materials", "appearance")
 """Files with rules, in reading order."""

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
-from ...model.read import numbers
-from ...suggestions import did_you_mean, nearest
+from ...model.read import parse_numbers
+from ...suggestions import nearest, suggest_name
 from ..fix import (
     FixContext,
     Proposal,
     are_equal_elements,
-    attribute_at,
+    find_attribute,
     remove_element,
     safe,
     set_attribute,
     unsafe,
 )
-from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, holding, rule
-from ..xml.vocabulary_table import misspelt_attributes
+from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule, select_holding
+from ..xml.vocabulary_table import find_misspelled_attributes
 
 APPLIES_TO = ("material",)
 
-_Look = tuple[tuple[float, ...] | None, str | None]
+_Appearance = tuple[tuple[float, ...] | None, str | None]
 
 
 @rule(
@@ -60,7 +60,7 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 first.element,
                 f"material '{name}' is not defined{times}"
-                + (did_you_mean(name, defined) or "; add a <color>"),
+                + (suggest_name(name, defined) or "; add a <color>"),
                 at=first.element.attribute_place("name"),
                 data={"material": name, "suggestion": nearest(name, defined)},
             )
@@ -96,7 +96,7 @@ def nameless_material(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 material.element,
                 'a <material> at the top level has no name; write name="…"',
-                effects=holding(_NAMELESS, "at the top level"),
+                effects=select_holding(_NAMELESS, "at the top level"),
             )
     for link in robot.links:
         materials = [visual.material for visual in link.visuals if visual.material is not None]
@@ -109,13 +109,13 @@ def nameless_material(robot: Robot) -> Iterator[Problem]:
                 f"{what} of link '{link.name}' {have} no name, so urdfdom drops the "
                 'visuals and the collisions of the link; write name="…"',
                 at=nameless[0].element,
-                effects=holding(_NAMELESS, "in a visual"),
+                effects=select_holding(_NAMELESS, "in a visual"),
             )
 
 
 def _is_nameless(material: Material) -> bool:
     element = material.element
-    return "name" not in element.attributes and not misspelt_attributes(element)
+    return "name" not in element.attributes and not find_misspelled_attributes(element)
 
 
 @rule(
@@ -146,7 +146,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 material.element,
                 f"material '{material.name}' is defined twice at the top level "
-                f"(first in line {other.place.line}{_file_of(other, material)}); remove one",
+                f"(first in line {other.place.line}{_describe_file(other, material)}); remove one",
                 at=material.element.attribute_place("name"),
                 effects=(
                     "urdfdom, gz, gazebo-classic, pinocchio (top level)",
@@ -154,7 +154,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                     "pybullet (top level)",
                 ),
             )
-    seen: set[tuple[str, _Look]] = set()
+    seen: set[tuple[str, _Appearance]] = set()
     at_top = set(first)
     for link in robot.links:
         for visual in link.visuals:
@@ -162,22 +162,22 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
             if material_ is None or not material_.name or not _defines(material_):
                 continue
             other = first.setdefault(material_.name, material_)
-            look = _look(material_)
-            if look == _look(other) or (material_.name, look) in seen:
+            look = _get_appearance(material_)
+            if look == _get_appearance(other) or (material_.name, look) in seen:
                 continue
             seen.add((material_.name, look))
             case = "visual" if material_.name in at_top else "visuals"
             yield Problem(
                 link,
                 f"color of material '{material_.name}' differs from that in line "
-                f"{other.place.line}{_file_of(other, material_)}; write a unique name",
+                f"{other.place.line}{_describe_file(other, material_)}; write a unique name",
                 at=material_.element.attribute_place("name"),
                 severity=WARNING,
                 effects=(f"urdfdom ({case})", "drake", f"pybullet ({case})"),
             )
 
 
-def _file_of(other: Material, material: Material) -> str:
+def _describe_file(other: Material, material: Material) -> str:
     same = other.place.path == material.place.path
     return "" if same else f" of {other.place.path}"
 
@@ -186,7 +186,7 @@ def _defines(material: Material) -> bool:
     return any(child.tag in ("color", "texture") for child in material.element.children)
 
 
-def _look(material: Material) -> _Look:
+def _get_appearance(material: Material) -> _Appearance:
     color = material.color
     return (None if color is None else tuple(round(c, 4) for c in color)), material.texture
 
@@ -225,12 +225,12 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
     ``rgba`` is red, green, blue and opacity, each from 0 to 1. urdfdom rejects components from 0
     to 255 as malformed and drops the material; other readers show a very bright color.
     """
-    for material in _all_materials(robot):
+    for material in _get_materials(robot):
         color = material.element.child("color")
         text = None if color is None else color.get("rgba")
         if color is None or text is None:
             continue
-        wrong, right = _wrong_color(text)
+        wrong, right = _check_color(text)
         if wrong:
             of = f" of material '{material.name}'" if material.name else ""
             yield Problem(
@@ -241,7 +241,7 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
             )
 
 
-def _all_materials(robot: Robot) -> Iterator[Material]:
+def _get_materials(robot: Robot) -> Iterator[Material]:
     yield from robot.materials
     for link in robot.links:
         for visual in link.visuals:
@@ -249,9 +249,9 @@ def _all_materials(robot: Robot) -> Iterator[Material]:
                 yield visual.material
 
 
-def _wrong_color(text: str) -> tuple[str, str]:
+def _check_color(text: str) -> tuple[str, str]:
     """Return what is wrong with an ``rgba``, and what to write; both empty if it is valid."""
-    values = numbers(text, 4)
+    values = parse_numbers(text, 4)
     if values is None:
         return "", ""  # other rules report values that are not four numbers
     if max(values) > 1 and all(value == int(value) and 0 <= value <= 255 for value in values):
@@ -269,7 +269,7 @@ def _wrong_color(text: str) -> tuple[str, str]:
 @invalid_color.fix(UNSAFE)
 def write_valid_color(problem: Problem, context: FixContext) -> Proposal | None:
     """Scale the components to 0 to 1, or write the nearest values in that range."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     text = problem.data["write"]

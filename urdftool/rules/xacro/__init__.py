@@ -1,4 +1,4 @@
 """Rules on xacro files and their expansion."""
 
-FILES = ("expansion", "tags", "leftovers", "unreached", "expansion_warnings", "unused")
+FILES = ("expansion", "tags", "leftovers", "unreached_expressions", "expansion_warnings", "unused")
 """Files with rules, in reading order."""

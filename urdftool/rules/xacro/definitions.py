@@ -29,14 +29,14 @@ class Definitions:
     arguments: dict[str, list[Element]] = field(default_factory=dict)
 
 
-def definitions(description: Description) -> Definitions:
+def get_definitions(description: Description) -> Definitions:
     """Get the definitions in a description's files, read once for all rules."""
-    return description.memo.get("definitions", lambda: _definitions(description))
+    return description.memo.get("definitions", lambda: _collect_definitions(description))
 
 
-def _definitions(description: Description) -> Definitions:
+def _collect_definitions(description: Description) -> Definitions:
     found = Definitions()
-    for document in _documents(description):
+    for document in _parse_documents(description):
         found.documents.append(document)
         for element in document.root.walk():
             kinds = {
@@ -50,7 +50,7 @@ def _definitions(description: Description) -> Definitions:
     return found
 
 
-def _documents(description: Description) -> Iterator[Document]:
+def _parse_documents(description: Description) -> Iterator[Document]:
     for file in description.files:
         try:
             yield parse(file)
@@ -61,23 +61,23 @@ def _documents(description: Description) -> Iterator[Document]:
 _NAME = re.compile(rb"<xacro:(macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']")
 
 
-def names_in(description: Description, file: SourceFile) -> list[tuple[str, str]]:
+def get_names(description: Description, file: SourceFile) -> list[tuple[str, str]]:
     """Find kind and name of each macro and argument in a file, without parsing it."""
-    return description.memo.get(("names", file), lambda: _names(file))
+    return description.memo.get(("names", file), lambda: _find_names(file))
 
 
-def _names(file: SourceFile) -> list[tuple[str, str]]:
+def _find_names(file: SourceFile) -> list[tuple[str, str]]:
     return [
         (match[1].decode("ascii"), match[2].decode(file.encoding, "replace"))
         for match in _NAME.finditer(file.data)
     ]
 
 
-def macro_names(description: Description) -> frozenset[str]:
+def get_macro_names(description: Description) -> frozenset[str]:
     """Get the names of the macros that a description's files define."""
     return frozenset(
         name
         for file in description.files
-        for kind, name in names_in(description, file)
+        for kind, name in get_names(description, file)
         if kind == "macro"
     )

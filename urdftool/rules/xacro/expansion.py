@@ -15,7 +15,7 @@ from ..rule import BOTH, ERROR, SAFE, UNSAFE, Problem, rule
 
 APPLIES_TO = ()
 
-_NOTHING: tuple[Problem, ...] = ()
+_NO_PROBLEMS: tuple[Problem, ...] = ()
 
 
 @rule(
@@ -30,7 +30,7 @@ def missing_xmlns() -> tuple[Problem, ...]:
     Every file, also an included one, needs ``xmlns:xacro="http://www.ros.org/wiki/xacro"`` in its
     ``<robot>``. The XML parser reports an unbound prefix.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
@@ -40,13 +40,15 @@ _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
 def declare_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
     """Declare the prefix in the root element."""
     file = finding.location.file
-    match = re.search(rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
+    match = re.search(
+        rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank_out, file.data, flags=16)
+    )
     if match is None or b"xmlns:xacro" in file.data or b"<xacro:" not in file.data:
         return None
     return safe("declare xmlns:xacro", Span(file, match.end(), match.end(), _XMLNS))
 
 
-def _blank(match: re.Match[bytes]) -> bytes:
+def _blank_out(match: re.Match[bytes]) -> bytes:
     return b" " * len(match[0])
 
 
@@ -62,7 +64,7 @@ def unknown_macro() -> tuple[Problem, ...]:
     Its name is misspelled, its file is not included, or it is defined after the call: xacro
     processes a file from top to bottom. Macros of a file included with ``ns`` have that prefix.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @unknown_macro.fix(UNSAFE, of_file=True)
@@ -98,7 +100,7 @@ def undefined_name() -> tuple[Problem, ...]:
     ``${…}`` can contain properties defined above, parameters of the macro, and the Python functions
     of xacro, such as ``math``. Arguments are written as ``$(arg …)``.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @rule(
@@ -113,7 +115,7 @@ def undeclared_arg() -> tuple[Problem, ...]:
     ``$(arg NAME)`` requires ``<xacro:arg name="NAME" default="…"/>`` before it, in this file or in
     one that includes it, or a value on the command line.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @undeclared_arg.fix(UNSAFE, of_file=True)
@@ -125,7 +127,7 @@ def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     if finding.data["suggestion"]:
         return write_inside(finding, name, finding.data["suggestion"])
     file = place.file
-    root = re.search(rb"<robot\b", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
+    root = re.search(rb"<robot\b", re.sub(rb"<!--.*?-->", _blank_out, file.data, flags=16))
     if root is None:
         return None
     at = file.tag_end(root.start())
@@ -149,7 +151,7 @@ def include_not_found() -> tuple[Problem, ...]:
     The path is wrong, or the file has a different name. A relative path is relative to the file
     with the include. With ``optional="true"`` xacro ignores a missing file.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @include_not_found.fix(BOTH, of_file=True)
@@ -174,7 +176,7 @@ def macro_arguments_mismatch() -> tuple[Problem, ...]:
     A parameter without a default is missing, an unknown one is given, or the number of elements in
     the call differs from the number of ``*block`` parameters.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @rule(
@@ -190,7 +192,7 @@ def circular_property() -> tuple[Problem, ...]:
     itself. ``lazy_eval="false"`` evaluates it at its definition, so that ``x`` can be the previous
     ``x`` plus one.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @rule(
@@ -206,7 +208,7 @@ def endless_expansion() -> tuple[Problem, ...]:
     continues until it reaches the recursion limit of Python, or runs out of memory. A recursive
     macro requires an ``<xacro:if>`` that ends it.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
 @rule(
@@ -222,10 +224,10 @@ def non_boolean_conditional() -> tuple[Problem, ...]:
     expression with such a value. A comparison must be inside ``${…}``: ``$(arg kind) == arm`` is
     text.
     """
-    return _NOTHING
+    return _NO_PROBLEMS
 
 
-_TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+_BOOLEANS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 _COMPARED = re.compile(r"(\$\(arg [\w-]+\))\s*(==|!=)\s*(['\"]?)([\w.-]+)\3")
 
 
@@ -233,20 +235,20 @@ _COMPARED = re.compile(r"(\$\(arg [\w-]+\))\s*(==|!=)\s*(['\"]?)([\w.-]+)\3")
 def write_boolean(finding: Finding, context: FixContext) -> Proposal | None:
     """Write ``true`` for ``yes``, ``false`` for ``no``, and a comparison as an expression."""
     place = finding.location
-    start = _tag(place.file, place.start)
+    start = _find_tag_start(place.file, place.start)
     span = place.file.attribute_spans(start).get("value")
     if span is None:
         return None
     text = place.file.data[span[0] : span[1]].decode(place.file.encoding, "replace")
     value = text.partition("=")[2].strip(" \t\r\n\"'")
-    new = _TRUTHS.get(value.strip().lower()) or _comparison(value, text[-1:])
+    new = _BOOLEANS.get(value.strip().lower()) or _write_comparison(value, text[-1:])
     if not new:
         return None
     begin = span[0] + text.rfind(value)
     return unsafe(f"write {new}", Span(place.file, begin, begin + len(value), new.encode()))
 
 
-def _comparison(value: str, quote: str) -> str:
+def _write_comparison(value: str, quote: str) -> str:
     """Write a comparison of an argument with a word as an expression; empty if it is none."""
     match = _COMPARED.fullmatch(value.strip())
     if match is None:
@@ -255,7 +257,7 @@ def _comparison(value: str, quote: str) -> str:
     return f"${{{q}{match[1]}{q} {match[2]} {q}{match[4]}{q}}}"
 
 
-def _tag(file: SourceFile, at: int) -> int:
+def _find_tag_start(file: SourceFile, at: int) -> int:
     """Find the byte of the ``<`` of the tag that contains a place."""
     return at if file.data[at : at + 1] == b"<" else file.data.rfind(b"<", 0, at)
 
@@ -272,4 +274,4 @@ def expansion_failed() -> tuple[Problem, ...]:
     Examples are an expression that Python rejects, an invalid YAML file, a tag without a required
     attribute, or an unknown substitution. The message is that of xacro, with the place.
     """
-    return _NOTHING
+    return _NO_PROBLEMS

@@ -12,7 +12,7 @@ from ...source.document import Element
 from ...source.location import Place, SourceFile
 from ..fix import FixContext, Proposal, Span, remove_element, safe, set_attribute, unsafe
 from ..rule import INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from .definitions import definitions
+from .definitions import get_definitions
 
 _ROUNDING = 1e-4
 _GLOBAL = re.compile(r"redefining global symbol: (\w+)")
@@ -20,7 +20,7 @@ _ATTRIBUTE = re.compile(r"(\S+): unknown attribute\(s\): (.+)")
 _DEPRECATED = re.compile(r"Using (\w+)\(\) directly is deprecated. Use ([\w.]+)\(\)")
 
 
-def _warned(
+def _match_warnings(
     description: Description, pattern: re.Pattern[str]
 ) -> Iterator[tuple[re.Match[str], Element, Place]]:
     """Yield the matches of a pattern in the warnings, once for each place."""
@@ -47,8 +47,8 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
     number. If the value is the same, such as 3.14159 for ``pi``, the finding is an info.
     """
     seen: set[tuple[str, str, int]] = set()
-    for match, root, place in _warned(description, _GLOBAL):
-        at = _parameter(description, match[1], place) or place
+    for match, root, place in _match_warnings(description, _GLOBAL):
+        at = _find_parameter(description, match[1], place) or place
         key = (match[1], at.path, at.start)
         if key in seen:
             continue
@@ -84,7 +84,7 @@ def _is_the_constant(name: str, place: Place) -> bool:
     return abs(written - value) < _ROUNDING
 
 
-def _parameter(description: Description, name: str, call: Place) -> Place | None:
+def _find_parameter(description: Description, name: str, call: Place) -> Place | None:
     """Find the parameter of the macro that is called at a place; None for a property."""
     written = call.file.data[call.start : call.start + 200].decode(call.file.encoding, "replace")
     tag = re.match(r"<xacro:([\w.:-]+)", written)
@@ -92,7 +92,7 @@ def _parameter(description: Description, name: str, call: Place) -> Place | None
         return None
     called = re.search(r"\bmacro\s*=\s*[\"']([^\"']+)", written) if tag[1] == "call" else tag
     macro = called[1].rpartition(".")[2] if called is not None else ""
-    for element in definitions(description).macros.get(macro, []):
+    for element in get_definitions(description).macros.get(macro, []):
         if re.search(rf"(?<![\w*]){re.escape(name)}(?!\w)", element.get("params") or ""):
             return element.attribute_place("params")
     return None
@@ -102,7 +102,7 @@ def _parameter(description: Description, name: str, call: Place) -> Place | None
 def rename_property(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove a property that equals the built-in value; rename a different one."""
     name = problem.data["name"]
-    found = definitions(context.description)
+    found = get_definitions(context.description)
     properties = found.properties.get(name, [])
     macros = [macro for same in found.macros.values() for macro in same]
     if len(properties) != 1 or any(
@@ -110,24 +110,26 @@ def rename_property(problem: Problem, context: FixContext) -> Proposal | None:
     ):
         return None
     (element,), value = properties, number(properties[0].get("value"))
-    if value is not None and math.isclose(value, _constant(name), rel_tol=1e-3):
+    if value is not None and math.isclose(value, _get_constant(name), rel_tol=1e-3):
         return unsafe(f"remove it, because xacro has '{name}'", remove_element(element))
     new = f"{name}_value"
     if any(new.encode() in file.data for file in context.description.files):
         return None
     spans = [
-        span for file in context.description.files for span in _uses_in_expressions(file, name, new)
+        span
+        for file in context.description.files
+        for span in _rename_in_expressions(file, name, new)
     ]
     return unsafe(f"rename it to '{new}'", set_attribute(element, "name", new), *spans)
 
 
-def _constant(name: str) -> float:
+def _get_constant(name: str) -> float:
     """Get the value of a built-in constant; infinity for other names."""
     found = getattr(math, name, math.inf)
     return found if isinstance(found, float) else math.inf
 
 
-def _uses_in_expressions(file: SourceFile, name: str, new: str) -> Iterator[Span]:
+def _rename_in_expressions(file: SourceFile, name: str, new: str) -> Iterator[Span]:
     """Yield the edits of a property's name in expressions of a file, outside comments."""
     text = re.sub(rb"<!--.*?-->", lambda m: b" " * len(m[0]), file.data, flags=re.DOTALL)
     word = re.compile(rb"(?<![\w.'\"])" + name.encode() + rb"(?![\w('\"])")
@@ -147,7 +149,7 @@ def unknown_xacro_attribute(description: Description) -> Iterator[Problem]:
 
     xacro ignores it: a misspelled ``defualt`` leaves a property without a value.
     """
-    for match, root, place in _warned(description, _ATTRIBUTE):
+    for match, root, place in _match_warnings(description, _ATTRIBUTE):
         names = match[2].split(", ")
         at = place
         spans = place.file.attribute_spans(place.start)
@@ -165,7 +167,7 @@ def deprecated_global_function(description: Description) -> Iterator[Problem]:
     ``load_yaml``, ``sorted`` and ``range`` are now in the namespaces ``xacro`` and ``python``. The
     old names still work, with a warning.
     """
-    for match, root, place in _warned(description, _DEPRECATED):
+    for match, root, place in _match_warnings(description, _DEPRECATED):
         message = f"{match[1]}() is deprecated; write {match[2]}()"
         data = {"name": match[1], "write": match[2]}
         yield Problem(root, message, at=place, data=data)

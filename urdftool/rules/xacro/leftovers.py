@@ -11,15 +11,15 @@ from ...source.location import Place
 from ..fix import (
     FixContext,
     Proposal,
-    attribute_at,
-    element_at,
+    find_attribute,
+    find_element,
     substitute,
     substitute_text,
     unsafe,
 )
 from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from .definitions import definitions
+from .definitions import get_definitions
 
 _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
 
@@ -45,7 +45,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
     ``xmlns:xacro``; this is one finding.
     """
     root = description.document.root
-    found = [item for element in root.walk() for item in _leftovers(element)]
+    found = [item for element in root.walk() for item in _find_expressions(element)]
     if description.expansion is None:
         if found:
             element, text, place = found[0]
@@ -64,15 +64,15 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 remedy += ".urdf.xacro"
             yield Problem(
                 element,
-                f"'{_short(text)}' is not expanded{more}; {remedy}",
+                f"'{_shorten(text)}' is not expanded{more}; {remedy}",
                 at=place,
                 severity=WARNING if meant else None,
-                effects=_readers_of(element),
+                effects=_select_effects(element),
             )
         return
     if not found:
         return
-    known = definitions(description)
+    known = get_definitions(description)
     names = {*known.properties, *known.arguments}
     for macros in known.macros.values():
         for macro in macros:
@@ -82,22 +82,22 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
         if braced is None or "${" in text or "$(" in text:
             yield Problem(
                 element,
-                f"'{_short(text)}' is not expanded, because '$$' escapes it; write one '$'",
+                f"'{_shorten(text)}' is not expanded, because '$$' escapes it; write one '$'",
                 at=place,
-                effects=_readers_of(element),
+                effects=_select_effects(element),
             )
         elif place is not None or braced[1] in names:
             yield Problem(
                 element,
-                f"'{_short(text)}' is not expanded, because '$' is missing; "
+                f"'{_shorten(text)}' is not expanded, because '$' is missing; "
                 f"write '${{{braced[1]}}}' for '{braced[0]}'",
                 at=place,
                 data={"name": braced[1]},
-                effects=_readers_of(element),
+                effects=_select_effects(element),
             )
 
 
-def _readers_of(element: Element) -> tuple[str, ...]:
+def _select_effects(element: Element) -> tuple[str, ...]:
     """Select the effects of readers that read an element."""
     above: Element | None = element
     tags = []
@@ -111,7 +111,7 @@ def _readers_of(element: Element) -> tuple[str, ...]:
     return ("urdfdom (robot)",) if not tags or tags[-1] in ("link", "joint", "material") else ()
 
 
-def _leftovers(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
+def _find_expressions(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
     """Yield values with an expression: the element, the text, and the place of its attribute."""
     for name, text in element.attributes.items():
         if is_unexpanded(text):
@@ -121,7 +121,7 @@ def _leftovers(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
         yield element, " ".join(text.split()), None
 
 
-def _short(text: str) -> str:
+def _shorten(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "…"
 
 
@@ -131,14 +131,14 @@ def add_dollar(problem: Problem, context: FixContext) -> Proposal | None:
     name = problem.data.get("name", "")
     if not name:
         return None
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     pattern = rf"(?<!\$)\{{{name}\}}"
     new = rf"${{{name}}}"
     if found is not None:
         if not _is_in_scope(name, found[0], context):
             return None
         return unsafe(f"write ${{{name}}}", substitute(*found, pattern, new))
-    element = element_at(problem) or problem.element
+    element = find_element(problem) or problem.element
     if element.children or not _is_in_scope(name, element, context):
         return None
     return unsafe(f"write ${{{name}}}", substitute_text(element, pattern, new))
@@ -146,7 +146,7 @@ def add_dollar(problem: Problem, context: FixContext) -> Proposal | None:
 
 def _is_in_scope(name: str, element: Element, context: FixContext) -> bool:
     """Tell whether a name is a property, or a parameter of the macro around an element."""
-    known = definitions(context.description)
+    known = get_definitions(context.description)
     if name in known.properties:
         return True
     for macros in known.macros.values():

@@ -8,14 +8,14 @@ from ...source.description import Description
 from ...source.document import Document, Element
 from ..fix import FixContext, Proposal, rename_element, safe, set_attribute, unsafe
 from ..rule import ERROR, INFO, SAFE, UNSAFE, Problem, rule
-from ..words import words
-from .definitions import macro_names
+from ..words import split_words
+from .definitions import get_macro_names
 
 XMLNS = "http://www.ros.org/wiki/xacro"
 
 _TAGS = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
-_OTHERS = frozenset(("gazebo", "ros2_control", "mujoco", "transmission", "plugin", "sensor"))
-_URDF = words(
+_DIALECT_TAGS = frozenset(("gazebo", "ros2_control", "mujoco", "transmission", "plugin", "sensor"))
+_URDF = split_words(
     "robot link joint material inertial visual collision origin mass inertia geometry box cylinder "
     "sphere capsule mesh color texture parent child axis limit dynamics mimic safety_controller "
     "calibration"
@@ -71,20 +71,20 @@ def unprefixed_xacro_tag(document: Document, description: Description) -> Iterat
     """
     if "xmlns:xacro" not in document.root.attributes:
         return
-    macros = macro_names(description)
+    macros = get_macro_names(description)
     for element in document.root.children:
-        yield from _unprefixed(element, macros)
+        yield from _find_unprefixed(element, macros)
 
 
-def _unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Problem]:
+def _find_unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Problem]:
     tag = element.tag
-    if tag in _OTHERS:
+    if tag in _DIALECT_TAGS:
         return
     if tag in _TAGS or (tag in macros and tag not in _URDF):
         what = "is not expanded" if tag in _TAGS else "does not call the macro"
         yield Problem(element, f"<{tag}> without the prefix xacro: {what}; write <xacro:{tag}>")
     for child in element.children:
-        yield from _unprefixed(child, macros)
+        yield from _find_unprefixed(child, macros)
 
 
 @unprefixed_xacro_tag.fix(UNSAFE)

@@ -10,7 +10,7 @@ from ...source.document import Element
 from ..fix import FixContext, Proposal, remove_element, set_attribute, set_text, unsafe
 from ..renaming import find_joint_references, find_link_references
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
-from .definitions import definitions, names_in
+from .definitions import get_definitions, get_names
 
 _CONDITIONS = ("xacro:if", "xacro:unless")
 
@@ -25,17 +25,17 @@ def _is_conditional(element: Element) -> bool:
     return False
 
 
-def _includes_may_vary(description: Description) -> bool:
+def _has_varying_includes(description: Description) -> bool:
     """Tell whether other arguments could include other files."""
     return any(
         element.tag == "xacro:include"
         and (_is_conditional(element) or "$(arg" in (element.get("filename") or ""))
-        for document in definitions(description).documents
+        for document in get_definitions(description).documents
         for element in document.root.walk()
     )
 
 
-def _text(description: Description) -> str:
+def _join_texts(description: Description) -> str:
     """Get the text of all files, without comments."""
     text = "\n".join(file.data.decode(file.encoding, "replace") for file in description.files)
     return re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
@@ -57,13 +57,13 @@ def unused_arg(description: Description) -> Iterator[Problem]:
         return
     entry = description.files[0]
     declared = [
-        name for kind, name in names_in(description, entry) if kind == "arg" and "$" not in name
+        name for kind, name in get_names(description, entry) if kind == "arg" and "$" not in name
     ]
-    text = _text(description) if declared else ""
+    text = _join_texts(description) if declared else ""
     unread = [name for name in dict.fromkeys(declared) if not _is_read(name, text)]
-    if not unread or _includes_may_vary(description):
+    if not unread or _has_varying_includes(description):
         return
-    arguments = definitions(description).arguments
+    arguments = get_definitions(description).arguments
     for name in unread:
         element = next((e for e in arguments.get(name, ()) if e.file.path == entry.path), None)
         if element is None:
@@ -94,11 +94,13 @@ def unused_property(description: Description) -> Iterator[Problem]:
 
     It is left over, or its use is misspelled.
     """
-    if description.expansion is None or _includes_may_vary(description):
+    if description.expansion is None or _has_varying_includes(description):
         return
     entry = description.files[0].path
-    expressions = " ".join(re.findall(r"\$\{[^}]*\}|macro=\"[^\"]*\"|\^\|?\w*", _text(description)))
-    for name, elements in definitions(description).properties.items():
+    expressions = " ".join(
+        re.findall(r"\$\{[^}]*\}|macro=\"[^\"]*\"|\^\|?\w*", _join_texts(description))
+    )
+    for name, elements in get_definitions(description).properties.items():
         element = elements[0]
         if element.file.path != entry or "$" in name or element.children:
             continue
@@ -122,15 +124,15 @@ def unused_macro(description: Description) -> Iterator[Problem]:
 
     Macros of included files are not checked, because a robot rarely needs a whole library.
     """
-    if description.expansion is None or _includes_may_vary(description):
+    if description.expansion is None or _has_varying_includes(description):
         return
     entry = description.files[0].path
     text = None
-    for name, elements in definitions(description).macros.items():
+    for name, elements in get_definitions(description).macros.items():
         element = elements[0]
         if element.file.path != entry:
             continue
-        text = text or _text(description)
+        text = text or _join_texts(description)
         if not re.search(rf"<xacro:{re.escape(name)}[\s/>]|macro\s*=\s*[\"'][^\"']*{name}", text):
             yield Problem(
                 element,
@@ -163,12 +165,12 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
     names = [
         name
         for file in description.files
-        for kind, name in names_in(description, file)
+        for kind, name in get_names(description, file)
         if kind == "macro"
     ]
     if len(names) == len(set(names)):
         return
-    found = definitions(description)
+    found = get_definitions(description)
     if any(
         element.tag == "xacro:include" and "ns" in element.attributes
         for document in found.documents
@@ -178,7 +180,7 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
     for name, elements in found.macros.items():
         certain = [element for element in elements if not _is_conditional(element)]
         for element in certain[1:]:
-            if _same(element, certain[0]):
+            if _is_equal(element, certain[0]):
                 continue
             other = certain[0].place
             where = f"line {other.line}"
@@ -192,14 +194,14 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
             )
 
 
-def _same(a: Element, b: Element) -> bool:
+def _is_equal(a: Element, b: Element) -> bool:
     """Tell whether two elements are equal."""
     return (
         a.tag == b.tag
         and a.attributes == b.attributes
         and a.text.split() == b.text.split()
         and len(a.children) == len(b.children)
-        and all(_same(c, d) for c, d in zip(a.children, b.children, strict=True))
+        and all(_is_equal(c, d) for c, d in zip(a.children, b.children, strict=True))
     )
 
 
@@ -216,7 +218,7 @@ def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
     If the macro is called twice, two links or joints have the same name, and readers reject the
     robot.
     """
-    for macros in definitions(description).macros.values():
+    for macros in get_definitions(description).macros.values():
         for macro in macros:
             parameters = re.findall(
                 r"(\w*prefix\w*|\bside\b|\bnamespace\b)", macro.get("params") or ""

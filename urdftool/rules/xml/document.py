@@ -10,7 +10,7 @@ from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import FixContext, Proposal, Span, safe, set_attribute, unsafe
-from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, holding, rule
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule, select_holding
 
 _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
 
@@ -70,7 +70,7 @@ def content_before_declaration() -> tuple[Problem, ...]:
     return ()
 
 
-_BELONGS = {
+_ROOT_REMEDIES = {
     "sdf": "check SDF files with 'gz sdf --check'",
     "mujoco": "check MJCF files with the MuJoCo compiler",
     "launch": "a launch file is not a robot description",
@@ -117,13 +117,13 @@ def wrong_root() -> tuple[Problem, ...]:
     return ()
 
 
-def fault_of_root(root: Element) -> str:
+def describe_root(root: Element) -> str:
     """Describe a root that is not ``<robot>``, and the probable format of the file."""
-    belongs = _BELONGS.get(root.tag, 'a robot description starts with <robot name="…">')
+    belongs = _ROOT_REMEDIES.get(root.tag, 'a robot description starts with <robot name="…">')
     return f"the root element is <{root.tag}>; {belongs}"
 
 
-_NAMELESS = {
+_NAME_EFFECTS = {
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a robot)": "reject it",
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a link or joint)": "reject the robot",
     "mujoco (a robot)": "accepts it",
@@ -133,7 +133,7 @@ _NAMELESS = {
 
 @rule(
     WARNING,
-    effects=_NAMELESS,
+    effects=_NAME_EFFECTS,
 )
 def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
@@ -154,23 +154,23 @@ def missing_name(description: Description) -> Iterator[Problem]:
             case = (f"a {element.tag}", *["a link or joint"] * (element.tag in ("link", "joint")))
             yield Problem(
                 element,
-                _nameless(element),
+                _describe_missing_name(element),
                 at=at,
                 severity=severity,
-                effects=holding(_NAMELESS, *case),
+                effects=select_holding(_NAME_EFFECTS, *case),
             )
 
 
 @missing_name.full
-def every_missing_name(robot: Robot) -> Iterator[Problem]:
+def report_missing_names(robot: Robot) -> Iterator[Problem]:
     """Report each link and joint of the robot without a name."""
     parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
     for part in parts:
         if not part.name:
-            yield Problem(part, _nameless(part.element))
+            yield Problem(part, _describe_missing_name(part.element))
 
 
-def _nameless(element: Element) -> str:
+def _describe_missing_name(element: Element) -> str:
     how = "an empty name" if "name" in element.attributes else "no name"
     return f'<{element.tag}> has {how}; write name="…"'
 

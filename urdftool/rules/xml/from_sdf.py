@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..fix import (
     Change,
     Proposal,
     escape_attribute,
+    get_written_lines,
+    get_written_value,
     is_written_inside,
     remove_attribute,
     remove_element,
@@ -16,8 +18,6 @@ from ..fix import (
     safe,
     set_attribute,
     unsafe,
-    written_lines,
-    written_value,
 )
 from .vocabulary_table import VOCABULARY
 
@@ -46,7 +46,7 @@ def propose_urdf_spelling(element: Element, parent: Element) -> Proposal | None:
             f'write {name}="{text}"', remove_element(element), set_attribute(parent, name, text)
         )
     if tag == "pose" and not element.children:
-        return _as_origin(element, parent, text)
+        return _convert_pose(element, parent, text)
     if inside == "joint" and tag == "joint_properties":
         known = {"damping", "friction"}
         if parent.child("dynamics") is None and known & element.attributes.keys() <= known:
@@ -63,7 +63,7 @@ def propose_urdf_spelling(element: Element, parent: Element) -> Proposal | None:
                 )
         return None
     if (inside, tag) == ("collision", "surface"):
-        return _surface(element, parent)
+        return _move_surface(element, parent)
     if inside == "geometry":
         return move_out_of_geometry(element, parent)
     return None
@@ -81,15 +81,15 @@ def move_out_of_geometry(element: Element, geometry: Element) -> Proposal | None
         return None
     if not (is_written_inside(element, geometry) and is_written_inside(geometry, shape)):
         return None
-    lines = tuple(written_lines(element))
+    lines = tuple(get_written_lines(element))
     is_first = element is geometry.children[0]
     make = safe if element.tag == "material" and not is_first else unsafe
     message = f"move the <{element.tag}> to the <{shape.tag}>"
     return make(message, remove_element(element), Change("after", geometry, blocks=(lines,)))
 
 
-def _as_origin(element: Element, parent: Element, text: str) -> Proposal | None:
-    values = numbers(text, 6)
+def _convert_pose(element: Element, parent: Element, text: str) -> Proposal | None:
+    values = parse_numbers(text, 6)
     if values is None:
         return None
     if not any(values):
@@ -101,20 +101,20 @@ def _as_origin(element: Element, parent: Element, text: str) -> Proposal | None:
     return unsafe(f"write {line}", replace_element(element, (line,)))
 
 
-def _surface(element: Element, collision: Element) -> Proposal | None:
+def _move_surface(element: Element, collision: Element) -> Proposal | None:
     """Move a ``<surface>`` to the ``<gazebo>`` block that Gazebo reads."""
     link = collision.parent
     if link is None or link.tag != "link" or link.parent is None or not element.children:
         return None
     if sum(child.tag == "collision" for child in link.children) != 1:
         return None
-    name = written_value(link, "name")
+    name = get_written_value(link, "name")
     if not name:
         return None
     lines = (
         f'<gazebo reference="{escape_attribute(name)}">',
         "\t<collision>",
-        *(f"\t\t{line}" for line in written_lines(element)),
+        *(f"\t\t{line}" for line in get_written_lines(element)),
         "\t</collision>",
         "</gazebo>",
     )

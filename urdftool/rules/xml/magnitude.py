@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ...model.read import numbers
+from ...model.read import parse_numbers
 from ..rule import ERROR, Problem, rule
-from ..words import words
+from ..words import split_words
 from .vocabulary_table import VOCABULARY
 
-_MEASURED = words("origin mass inertia box cylinder capsule sphere mesh color axis mimic")
+_MEASURED = split_words("origin mass inertia box cylinder capsule sphere mesh color axis mimic")
 """Elements with measured numbers; a limit may have any value."""
 
 _LONGEST = 30
@@ -35,7 +35,7 @@ def immense_number(robot: Robot, *, largest: float = 1e30) -> Iterator[Problem]:
                 text = element.attributes.get(name)
                 if text is None or not _may_be_large(text):
                     continue
-                if any(abs(value) > largest for value in numbers(text, count) or ()):
+                if any(abs(value) > largest for value in parse_numbers(text, count) or ()):
                     yield Problem(
                         part,
                         f'{name}="{text}" of <{element.tag}> in {part.element.tag} '

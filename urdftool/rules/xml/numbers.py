@@ -7,16 +7,16 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...source.description import Description
 from ...source.document import Element
-from ...source.tags import value_span
-from ..fix import FixContext, Proposal, attribute_at, safe, set_attribute, substitute, unsafe
-from ..rule import BOTH, ERROR, UNSAFE, Problem, holding, rule
+from ...source.tags import locate_value
+from ..fix import FixContext, Proposal, find_attribute, safe, set_attribute, substitute, unsafe
+from ..rule import BOTH, ERROR, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
-from .owner import owner
-from .unread import effects_read
-from .vocabulary_table import VOCABULARY, census
+from .ignored_attributes import select_read_effects
+from .owner import describe_owner
+from .vocabulary_table import VOCABULARY, get_census
 
 _VECTORS = {
     tag: tuple((name, count) for name, count in kind.numbers.items() if count > 1)
@@ -77,28 +77,30 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
     for tag, vectors in _VECTORS.items():
         if not vectors:
             continue
-        for element in census(robot).known[tag]:
+        for element in get_census(robot).known[tag]:
             for name, count in vectors:
                 text = element.attributes.get(name)
                 if text is None:
                     continue
                 words = text.split()
-                if len(words) == count or is_unexpanded(text) or any(map(_fault, words)):
+                if len(words) == count or is_unexpanded(text) or any(map(_describe_defect, words)):
                     continue
                 amount = "too few numbers" if len(words) < count else "too many numbers"
                 yield Problem(
                     element,
-                    _of_arity(element, name, len(words), count),
+                    _describe_arity(element, name, len(words), count),
                     at=element.attribute_place(name),
-                    effects=effects_read(
-                        holding(_WRONG_ARITY, *_where(element), amount), element, name
+                    effects=select_read_effects(
+                        select_holding(_WRONG_ARITY, *_get_conditions(element), amount),
+                        element,
+                        name,
                     ),
                 )
 
 
-def _of_arity(element: Element, name: str, written: int, count: int) -> str:
-    where = f"{name} of <{element.tag}> in {owner(element)}"
-    return f"{where} has {_counted(written)}; write {count}"
+def _describe_arity(element: Element, name: str, written: int, count: int) -> str:
+    where = f"{name} of <{element.tag}> in {describe_owner(element)}"
+    return f"{where} has {_format_count(written)}; write {count}"
 
 
 _PLACES = {
@@ -116,7 +118,7 @@ _VECTOR_OF = {
 }
 
 
-def _where(element: Element) -> tuple[str, ...]:
+def _get_conditions(element: Element) -> tuple[str, ...]:
     """Get the conditions of effects that apply to a number in an element."""
     above: Element | None = element
     while above is not None and above.tag not in _PLACES:
@@ -126,7 +128,7 @@ def _where(element: Element) -> tuple[str, ...]:
     return (*place, kind) if kind else place
 
 
-def _counted(count: int) -> str:
+def _format_count(count: int) -> str:
     return {0: "no number", 1: "one number"}.get(count, f"{count} numbers")
 
 
@@ -149,7 +151,7 @@ def complete_vector(problem: Problem, context: FixContext) -> Proposal | None:
 
     The scale is unsafe because urdfdom drops a mesh with one number, and loads it after the fix.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     element, name = found
@@ -176,14 +178,14 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
     ``inf``. urdfdom discards the element that contains the number; PyBullet reads the leading
     number. With a trailing space in a mass, the link has no mass, and Gazebo deletes it.
     """
-    known = census(robot).known
+    known = get_census(robot).known
     for tag, names in _SCALARS.items():
         for name in names:
             for element in known[tag]:
                 text = element.attributes.get(name)
-                if text is not None and (fault := _fault(text)):
+                if text is not None and (fault := _describe_defect(text)):
                     if not is_unexpanded(text):
-                        yield _unreadable(element, name, fault, text)
+                        yield _report_invalid_number(element, name, fault, text)
     for tag, vectors in _VECTORS.items():
         for name, _ in vectors:
             for element in known[tag]:
@@ -191,14 +193,14 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
                 if text is None:
                     continue
                 for word in text.split():
-                    if fault := _fault(word):
+                    if fault := _describe_defect(word):
                         if not is_unexpanded(text):
-                            yield _unreadable(element, name, fault, word)
+                            yield _report_invalid_number(element, name, fault, word)
                         break
 
 
 @not_a_number.full
-def every_unreadable_number(robot: Robot) -> Iterator[Problem]:
+def report_invalid_numbers(robot: Robot) -> Iterator[Problem]:
     """Report each attribute without the required finite numbers, with its link or joint.
 
     Numbers with a trailing space are not reported, because they can be read. The pose of the robot
@@ -211,28 +213,28 @@ def every_unreadable_number(robot: Robot) -> Iterator[Problem]:
         kind = VOCABULARY.get(element.tag)
         for name, count in kind.numbers.items() if kind is not None else ():
             text = element.get(name)
-            if text is not None and numbers(text, count) is None:
+            if text is not None and parse_numbers(text, count) is None:
                 yield Problem(
                     holder,
-                    _unusable(element, name, text, count),
+                    _describe_invalid_attribute(element, name, text, count),
                     at=element.attribute_place(name),
                     data={"part": holder.tag, "element": element.tag, "attribute": name},
                 )
 
 
-def _unusable(element: Element, name: str, text: str, count: int) -> str:
+def _describe_invalid_attribute(element: Element, name: str, text: str, count: int) -> str:
     for word in text.split() if count > 1 else [text]:
         if number(word) is None:
-            return _of_number(element, name, _fault(word))
-    return _of_arity(element, name, len(text.split()), count)
+            return _describe_number(element, name, _describe_defect(word))
+    return _describe_arity(element, name, len(text.split()), count)
 
 
-def _fault(text: str) -> str:
+def _describe_defect(text: str) -> str:
     """Describe the defect of a number's text, with its remedy; empty for a valid number."""
     try:
         value = float(text)
     except ValueError:
-        return _unreadable_text(text)
+        return _describe_text(text)
     if value - value != 0.0:
         return f"'{text}', which is not finite; write a number"
     if text[-1].isspace():
@@ -249,12 +251,12 @@ def has_readable_numbers(element: Element) -> bool:
         if text is None:
             continue
         words = text.split() if count > 1 else [text]
-        if len(words) != count or any(map(_fault, words)):
+        if len(words) != count or any(map(_describe_defect, words)):
             return False
     return True
 
 
-def _kind(text: str) -> str:
+def _get_text_condition(text: str) -> str:
     """Get the condition of effects that applies to a number's text."""
     if not text.strip():
         return "nothing written"
@@ -270,7 +272,7 @@ def _kind(text: str) -> str:
 _UNIT = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*[^\W\d_]+[²³]?")
 
 
-def _unreadable_text(text: str) -> str:
+def _describe_text(text: str) -> str:
     stripped = text.strip()
     if not stripped:
         return "no number; write one"
@@ -291,21 +293,21 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _unreadable(element: Element, name: str, fault: str, word: str) -> Problem:
-    in_drake = _in_drake(element, name, word)
+def _report_invalid_number(element: Element, name: str, fault: str, word: str) -> Problem:
+    in_drake = _get_drake_conditions(element, name, word)
     if "three dampings" in in_drake:
         fault = f"three numbers, '{word}', which only Drake reads; other readers require one"
-    conditions = (*_where(element), _kind(word), *in_drake)
+    conditions = (*_get_conditions(element), _get_text_condition(word), *in_drake)
     return Problem(
         element,
-        _of_number(element, name, fault),
+        _describe_number(element, name, fault),
         at=element.attribute_place(name),
-        effects=effects_read(holding(_NOT_A_NUMBER, *conditions), element, name),
+        effects=select_read_effects(select_holding(_NOT_A_NUMBER, *conditions), element, name),
     )
 
 
-def _of_number(element: Element, name: str, fault: str) -> str:
-    return f"{name} of <{element.tag}> in {owner(element)} has {fault}"
+def _describe_number(element: Element, name: str, fault: str) -> str:
+    return f"{name} of <{element.tag}> in {describe_owner(element)} has {fault}"
 
 
 def _is_damping_of_planar(element: Element, name: str) -> bool:
@@ -318,25 +320,27 @@ _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 _SHAPES = ("box", "cylinder", "capsule", "sphere")
 
 
-def _in_drake(element: Element, name: str, word: str) -> tuple[str, ...]:
+def _get_drake_conditions(element: Element, name: str, word: str) -> tuple[str, ...]:
     """Get the conditions of Drake's effects for the first invalid number of an attribute.
 
     Drake reads the leading number. It rejects a vector whose invalid number is not the last,
     several numbers in place of one, text without a leading number, and 0 for a box, cylinder or
     capsule. For the damping of a planar joint it requires three numbers.
     """
-    if _kind(word) == "a blank behind it":
+    if _get_text_condition(word) == "a blank behind it":
         return ()
     begins = _NUMBER.match(word)
     words = element.attributes[name].split()
     if _is_damping_of_planar(element, name):
-        sound = len(words) == 3 and not any(map(_fault, words))
+        sound = len(words) == 3 and not any(map(_describe_defect, words))
         return ("three dampings",) if sound else ("no use to Drake",)
     count = VOCABULARY[element.tag].numbers[name]
-    several = count == 1 and len(words) > 1 and not _fault(words[0]) and _NUMBER.match(words[1])
+    several = (
+        count == 1 and len(words) > 1 and not _describe_defect(words[0]) and _NUMBER.match(words[1])
+    )
     if begins is None or several or (count > 1 and (len(words) != count or word != words[-1])):
         return ("no use to Drake",)
-    if count > 1 and any(map(_fault, words[:-1])):
+    if count > 1 and any(map(_describe_defect, words[:-1])):
         return ("no use to Drake",)
     value = float(begins[1])
     if element.tag in _SHAPES and (value < 0 or (value == 0 and element.tag != "sphere")):
@@ -367,7 +371,7 @@ def write_number(problem: Problem, context: FixContext) -> Proposal | None:
     The fix is unsafe because urdfdom drops the inertial or the shape with such a number, and loads
     it after the fix.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     element, name = found
@@ -400,22 +404,24 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
     if description.expansion is not None or not _TABBED.search(robot.element.file.data):
         return
     for tag, vectors in _VECTORS.items():
-        for element in census(robot).known[tag] if vectors else ():
+        for element in get_census(robot).known[tag] if vectors else ():
             spans = element.file.attribute_spans(element.start)
             for name, count in vectors:
                 if name not in spans:
                     continue
-                start, end = value_span(element.file.data, spans[name])
+                start, end = locate_value(element.file.data, spans[name])
                 if _UNREADABLE.search(element.file.data, start, end):
                     parts = sum(1 for part in element.file.data[start:end].split(b" ") if part)
                     amount = "too few numbers" if parts < count else "enough numbers"
                     yield Problem(
                         element,
-                        f"{name} of <{tag}> in {owner(element)} has a tab or line break "
+                        f"{name} of <{tag}> in {describe_owner(element)} has a tab or line break "
                         "between its numbers; write single spaces",
                         at=element.attribute_place(name),
-                        effects=effects_read(
-                            holding(_TABBED_VECTOR, *_where(element), amount), element, name
+                        effects=select_read_effects(
+                            select_holding(_TABBED_VECTOR, *_get_conditions(element), amount),
+                            element,
+                            name,
                         ),
                     )
 
@@ -427,7 +433,7 @@ def write_blanks(problem: Problem, context: FixContext) -> Proposal | None:
     The fix is unsafe because urdfdom and PyBullet, which split only at spaces, read different
     values after it.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     element, name = found

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...source.document import Element
 
 
-def owner(element: Element) -> str:
+def describe_owner(element: Element) -> str:
     """Describe the nearest named element around an element: ``link 'arm'``, ``material 'red'``."""
     around: Element | None = element
     while around is not None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.document import Element
-from ..fix import FixContext, Proposal, attribute_at, safe, substitute, unsafe
+from ..fix import FixContext, Proposal, find_attribute, safe, substitute, unsafe
 from ..rule import BOTH, ERROR, Problem, rule
 
 
@@ -39,14 +39,14 @@ def padded_reference(robot: Robot) -> Iterator[Problem]:
     for element, attribute in references:
         text = element.attributes.get(attribute)
         if text and text not in names and text.strip() in names:
-            yield _padded(element, attribute, text)
+            yield _report_padded(element, attribute, text)
     for element in (part.element for parts in (robot.links, robot.joints) for part in parts):
         name = element.attributes.get("name", "")
         if name not in used and name != name.strip() and name.strip() in used:
-            yield _padded(element, "name", name)
+            yield _report_padded(element, "name", name)
 
 
-def _padded(element: Element, attribute: str, text: str) -> Problem:
+def _report_padded(element: Element, attribute: str, text: str) -> Problem:
     return Problem(
         element,
         f"{attribute} of <{element.tag}> is '{text}', with a space at its start or end; "
@@ -63,7 +63,7 @@ def remove_blank(problem: Problem, context: FixContext) -> Proposal | None:
     without it. It is unsafe for a mimic joint or a ``<gazebo>`` block, which readers ignore before
     the fix.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     element, name = found

@@ -11,16 +11,16 @@ from ..fix import (
     FixContext,
     Proposal,
     are_equal_elements,
-    element_at,
+    find_element,
+    get_written_lines,
     remove_element,
     replace_element,
     safe,
     unsafe,
-    written_lines,
 )
 from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule
-from .owner import owner
-from .vocabulary_table import VOCABULARY, census, misspelt_children
+from .owner import describe_owner
+from .vocabulary_table import VOCABULARY, find_misspelled_children, get_census
 
 
 @rule(
@@ -37,7 +37,7 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
     urdfdom, and therefore ROS and Gazebo, take the first and ignore the others; MuJoCo rejects the
     file. Remove the wrong one.
     """
-    known = census(robot).known
+    known = get_census(robot).known
     for tag in ("link", "inertial", "visual", "collision", "material", "joint"):
         kind = VOCABULARY[tag]
         single = {child for child in kind.children if child not in kind.many}
@@ -49,14 +49,14 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
                 if child.tag in seen:
                     yield Problem(
                         child,
-                        f"second <{child.tag}> in the <{tag}> of {owner(child)}: "
+                        f"second <{child.tag}> in the <{tag}> of {describe_owner(child)}: "
                         "readers take only the first; remove one",
                     )
                 elif child.tag in single:
                     seen.add(child.tag)
 
 
-def shapes_in(geometry: Element) -> list[Element]:
+def list_shapes(geometry: Element) -> list[Element]:
     """List the shapes of a ``<geometry>``, without misplaced elements of URDF."""
     return [
         child
@@ -98,14 +98,14 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
     urdfdom takes the first, MuJoCo and Drake prefer a box. So parts of the link are not drawn, or
     make no contact. Write a separate ``<visual>`` or ``<collision>`` for each shape.
     """
-    for geometry in census(robot).known["geometry"]:
-        shapes = shapes_in(geometry)
+    for geometry in get_census(robot).known["geometry"]:
+        shapes = list_shapes(geometry)
         if len(shapes) > 1 and geometry.children[0] is shapes[0]:
             first, second = shapes[:2]
             around = geometry.parent.tag if geometry.parent is not None else "visual"
             yield Problem(
                 second,
-                f"{around} of {owner(second)} has a <{second.tag}> next to its "
+                f"{around} of {describe_owner(second)} has a <{second.tag}> next to its "
                 f"<{first.tag}>, but readers take only one; "
                 f"write a separate <{around}> for each",
             )
@@ -120,14 +120,14 @@ def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
     if geometry is None or part is None or part.tag not in ("visual", "collision"):
         return None
     changes: list[Change] = []
-    for other in shapes_in(geometry)[1:]:
-        inside = [line for c in part.all("origin") for line in written_lines(c)]
-        material = [line for c in part.all("material") for line in written_lines(c)]
+    for other in list_shapes(geometry)[1:]:
+        inside = [line for c in part.all("origin") for line in get_written_lines(c)]
+        material = [line for c in part.all("material") for line in get_written_lines(c)]
         lines = (
             f"<{part.tag}>",
             *(f"\t{line}" for line in inside),
             "\t<geometry>",
-            *(f"\t\t{line}" for line in written_lines(other)),
+            *(f"\t\t{line}" for line in get_written_lines(other)),
             "\t</geometry>",
             *(f"\t{line}" for line in material),
             f"</{part.tag}>",
@@ -156,21 +156,21 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
         if shape.geometry is not None:
             continue
         element = shape.element.child("geometry")
-        if element is None and "geometry" in misspelt_children(shape.element).values():
+        if element is None and "geometry" in find_misspelled_children(shape.element).values():
             continue
         at = element if element is not None else shape
-        yield Problem(link, _without_shape(link, shape), at=at)
+        yield Problem(link, _describe_missing_shape(link, shape), at=at)
 
 
 @empty_geometry.full
-def every_empty_geometry(robot: Robot) -> Iterator[Problem]:
+def report_empty_geometries(robot: Robot) -> Iterator[Problem]:
     """Report each visual and collision without a shape, also if ``<geometry>`` is misspelled."""
     for link, shape in robot.shapes:
         if shape.geometry is None:
-            yield Problem(link, _without_shape(link, shape), at=shape)
+            yield Problem(link, _describe_missing_shape(link, shape), at=shape)
 
 
-def _without_shape(link: Link, shape: Visual | Collision) -> str:
+def _describe_missing_shape(link: Link, shape: Visual | Collision) -> str:
     kind, element = shape.element.tag, shape.element.child("geometry")
     what = "no <geometry>" if element is None else "an empty <geometry>"
     return f"{kind} of link '{link.name}' has {what}; write a shape, or remove the {kind}"
@@ -179,10 +179,10 @@ def _without_shape(link: Link, shape: Visual | Collision) -> str:
 @empty_geometry.fix(UNSAFE)
 def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the shape of the only counterpart; without one, remove the visual or collision."""
-    element = element_at(problem)
+    element = find_element(problem)
     while element is not None and element.tag not in ("visual", "collision"):
         element = element.parent
-    if element is None or misspelt_children(element):
+    if element is None or find_misspelled_children(element):
         return None
     geometry = element.child("geometry")
     if geometry is not None and geometry.children:
@@ -191,7 +191,7 @@ def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
     other = "collision" if element.tag == "visual" else "visual"
     shapes = [g for c in link.all(other) for g in c.all("geometry")] if link is not None else []
     if len(shapes) == 1 and len(shapes[0].children) == 1:
-        lines = tuple(written_lines(shapes[0]))
+        lines = tuple(get_written_lines(shapes[0]))
         origin = element.child("origin")
         if geometry is not None:
             change = replace_element(geometry, lines)

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ...model.pose import rotation_of_quaternion, rpy_of_rotation
-from ...model.read import numbers
+from ...model.pose import rotation_from_quaternion, rpy_from_rotation
+from ...model.read import parse_numbers
 from ...source.description import Description
 from ...source.document import Document, Element, parse
 from ...source.location import Place
@@ -16,19 +16,19 @@ from ..fix import (
     FixContext,
     Proposal,
     Span,
-    attribute_at,
-    element_at,
+    find_attribute,
+    find_element,
     format_numbers,
     remove_attribute,
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, INFO, UNSAFE, Problem, holding, rule
+from ..rule import ERROR, INFO, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
-from .owner import owner
-from .vocabulary_table import census, is_for_another_reader
+from .owner import describe_owner
+from .vocabulary_table import get_census, is_for_another_reader
 
-_LATER = ("acceleration", "deceleration", "jerk")
+_LIMITS_OF_1_2 = ("acceleration", "deceleration", "jerk")
 
 
 @rule(
@@ -52,7 +52,7 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
         return
     known = version.strip() in ("1.1", "1.2")
     what = "requires urdfdom 5.1 or 6" if known else "does not exist"
-    uses_newer = known and next(_newer(robot, 1.0), None) is not None
+    uses_newer = known and next(_report_newer_features(robot, 1.0), None) is not None
     remedy = "remove its new features, and write 1.0" if uses_newer else "write 1.0, or remove it"
     yield Problem(
         robot,
@@ -62,7 +62,7 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
     )
 
 
-_OF_LATER = {
+_FEATURE_EFFECTS = {
     "urdfdom, gz, gazebo-classic, pinocchio (a capsule in a visual)": (
         "drop the visuals and collisions of the link, at least from this one on"
     ),
@@ -87,7 +87,7 @@ def write_version(problem: Problem, context: FixContext) -> Proposal | None:
 
 @rule(
     ERROR,
-    effects=_OF_LATER,
+    effects=_FEATURE_EFFECTS,
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
     """The robot has a feature of a later URDF version.
@@ -97,43 +97,43 @@ def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
     capsule is an info in a robot for a different reader, such as Drake.
     """
     version = (robot.version or "1.0").strip()
-    yield from _newer(robot, {"1.1": 1.1, "1.2": 1.2}.get(version, 1.0))
+    yield from _report_newer_features(robot, {"1.1": 1.1, "1.2": 1.2}.get(version, 1.0))
 
 
-def _newer(robot: Robot, version: float) -> Iterator[Problem]:
-    known = census(robot).known
+def _report_newer_features(robot: Robot, version: float) -> Iterator[Problem]:
+    known = get_census(robot).known
     if version < 1.1:
         for element in known["capsule"]:
             yield Problem(
                 element,
-                f"{owner(element)} has a <capsule>, which is not in URDF 1.0; "
+                f"{describe_owner(element)} has a <capsule>, which is not in URDF 1.0; "
                 "for ROS and Gazebo, write a <cylinder> and two <sphere>s",
                 severity=INFO if is_for_another_reader(robot.element) else None,
-                effects=holding(_OF_LATER, _case_of(element)),
+                effects=select_holding(_FEATURE_EFFECTS, _get_condition(element)),
             )
         for element in known["origin"]:
             if "quat_xyzw" in element.attributes and "rpy" not in element.attributes:
                 yield Problem(
                     element,
-                    f"readers of URDF 1.0 ignore quat_xyzw in {owner(element)}; write rpy",
+                    f"readers of URDF 1.0 ignore quat_xyzw in {describe_owner(element)}; write rpy",
                     at=element.attribute_place("quat_xyzw"),
-                    effects=holding(_OF_LATER, "a quaternion"),
+                    effects=select_holding(_FEATURE_EFFECTS, "a quaternion"),
                 )
     if version < 1.2:
         for element in known["limit"]:
-            for name in _LATER:
+            for name in _LIMITS_OF_1_2:
                 if name in element.attributes:
                     yield Problem(
                         element,
-                        f"readers of URDF {version} ignore {name} of {owner(element)}, "
+                        f"readers of URDF {version} ignore {name} of {describe_owner(element)}, "
                         "which requires 1.2",
                         at=element.attribute_place(name),
                         severity=INFO,
-                        effects=holding(_OF_LATER, "a later limit"),
+                        effects=select_holding(_FEATURE_EFFECTS, "a later limit"),
                     )
 
 
-def _case_of(capsule: Element) -> str:
+def _get_condition(capsule: Element) -> str:
     shapes = capsule.parent and capsule.parent.parent
     in_visual = shapes is not None and shapes.tag == "visual"
     return "a capsule in a visual" if in_visual else "a capsule in a collision"
@@ -142,15 +142,15 @@ def _case_of(capsule: Element) -> str:
 @feature_needs_newer_version.fix(UNSAFE)
 def write_rpy(problem: Problem, context: FixContext) -> Proposal | None:
     """Write a quaternion as rpy."""
-    element = element_at(problem)
+    element = find_element(problem)
     if element is None:
         return None
     if element.tag == "origin" and "quat_xyzw" in element.attributes:
-        quaternion = numbers(element.get("quat_xyzw"), 4)
+        quaternion = parse_numbers(element.get("quat_xyzw"), 4)
         if quaternion is None or math.hypot(*quaternion) < 1e-9:
             return None
         x, y, z, w = quaternion
-        rpy = format_numbers(rpy_of_rotation(rotation_of_quaternion((w, x, y, z))), 12)
+        rpy = format_numbers(rpy_from_rotation(rotation_from_quaternion((w, x, y, z))), 12)
         return unsafe(
             f'write rpy="{rpy}"',
             remove_attribute(element, "quat_xyzw"),
@@ -170,22 +170,22 @@ def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
 
     Readers that support both reject them, other readers take ``rpy``.
     """
-    for element in census(robot).known["origin"]:
+    for element in get_census(robot).known["origin"]:
         if "rpy" in element.attributes and "quat_xyzw" in element.attributes:
             yield Problem(
                 element,
-                f"<origin> of {owner(element)} has both rpy and quat_xyzw; write only rpy",
+                f"<origin> of {describe_owner(element)} has both rpy and quat_xyzw; write only rpy",
                 at=element.attribute_place("quat_xyzw"),
             )
 
 
-_KEY = re.compile(r":(?=\s)")
+_COLON_SPACE = re.compile(r":(?=\s)")
 
 
 @rpy_and_quat.fix(UNSAFE)
 def keep_rpy(problem: Problem, context: FixContext) -> Proposal | None:
     """Keep rpy, which readers of URDF 1.0 take."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     return unsafe("keep rpy", remove_attribute(found[0], "quat_xyzw"))
@@ -205,7 +205,7 @@ def colon_space_in_comment(document: Document, description: Description) -> Iter
     """
     if document.file is not description.files[0]:
         return
-    found = [comment for comment in document.comments if _KEY.search(comment.text)]
+    found = [comment for comment in document.comments if _COLON_SPACE.search(comment.text)]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(

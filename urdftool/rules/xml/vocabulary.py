@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
-from ...model.read import number, numbers
+from ...model.read import number, parse_numbers
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import (
     FixContext,
     Proposal,
-    attribute_at,
+    find_attribute,
     remove_attribute,
     rename_attribute,
     rename_element,
@@ -20,13 +20,19 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import BOTH, ERROR, INFO, WARNING, Problem, holding, rule
-from ..xacro.definitions import macro_names
+from ..rule import BOTH, ERROR, INFO, WARNING, Problem, rule, select_holding
+from ..xacro.definitions import get_macro_names
 from .from_sdf import propose_urdf_spelling
-from .owner import owner
-from .vocabulary_table import DIALECT_ATTRIBUTES, VOCABULARY, attributes_of, census, meant
+from .owner import describe_owner
+from .vocabulary_table import (
+    DIALECT_ATTRIBUTES,
+    VOCABULARY,
+    get_attributes,
+    get_census,
+    suggest_word,
+)
 
-_ELSEWHERE = {
+_ELEMENT_REMEDIES = {
     ("robot", "inertial"): "write it inside a <link>",
     ("robot", "visual"): "write it inside a <link>",
     ("robot", "collision"): "write it inside a <link>",
@@ -85,7 +91,7 @@ _ELSEWHERE = {
 }
 """Remedy for a misplaced element, by parent and tag."""
 
-_NOT_LOST = frozenset((("collision", "material"),))
+_HARMLESS = frozenset((("collision", "material"),))
 """Elements that readers ignore without a loss."""
 
 _OTHER_NAMES = {
@@ -115,7 +121,7 @@ _OTHER_NAMES = {
 }
 """Attribute that a wrong name stands for, by element and name."""
 
-_INSTEAD = {
+_ATTRIBUTE_REMEDIES = {
     ("axis", "rpy"): "write the rotated axis in xyz",
     ("origin", "x"): 'write xyz="x y z"',
     ("box", "x"): 'write size="x y z"',
@@ -140,7 +146,7 @@ _INSTEAD = {
 _XACRO = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
 """Tags of xacro, here without their prefix."""
 
-_REMARKS = frozenset(("name", "id", "comment", "note", "description"))
+_DOCUMENTATION = frozenset(("name", "id", "comment", "note", "description"))
 """Attributes that document an element; readers lose nothing."""
 
 _REDUNDANT = ("iyx", "izx", "izy")
@@ -154,7 +160,7 @@ _WITH_DEFAULT = {
 }
 """Optional attributes, by element."""
 
-_FURTHER = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
+_RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
 """Rarely used attributes, by element."""
 
 
@@ -175,9 +181,9 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     elements in a URDF are ignored too. An element that is not similar to any of URDF may be for a
     different program; it is an info.
     """
-    unknown = census(robot).unknown
+    unknown = get_census(robot).unknown
     in_xacro = bool(unknown) and description.expansion is not None
-    of_xacro = _XACRO | macro_names(description) if in_xacro else frozenset()
+    of_xacro = _XACRO | get_macro_names(description) if in_xacro else frozenset()
     other: dict[tuple[str, str], list[Element]] = {}
     for element in unknown:
         parent = element.parent
@@ -185,19 +191,19 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             continue
         if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
-        word = meant(element.tag, VOCABULARY[parent.tag].children)
-        instead = _ELSEWHERE.get((parent.tag, element.tag))
-        if (parent.tag, element.tag) in _NOT_LOST or (word is None and not instead):
+        word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
+        instead = _ELEMENT_REMEDIES.get((parent.tag, element.tag))
+        if (parent.tag, element.tag) in _HARMLESS or (word is None and not instead):
             other.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
-            what = f"<{element.tag}> does not belong in {_the(parent)}; {instead}"
+            what = f"<{element.tag}> does not belong in {_describe(parent)}; {instead}"
             yield Problem(element, what, alike=(parent.tag, element.tag))
         elif word is not None and word != element.tag.lower():
-            what = f"{_the(parent)} has the unknown element <{element.tag}>; write <{word}>"
+            what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{word}>"
             yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
     for kind, elements in other.items():
-        where = f"{_the(elements[0].parent)}{_more(elements)}"
-        why = _ELSEWHERE.get(kind, "URDF readers ignore it")
+        where = f"{_describe(elements[0].parent)}{_format_count(elements)}"
+        why = _ELEMENT_REMEDIES.get(kind, "URDF readers ignore it")
         message = f"<{kind[1]}> does not belong in {where}; {why}"
         yield Problem(elements[0], message, severity=INFO, alike=(*kind, len(elements) > 1))
 
@@ -207,7 +213,7 @@ def _is_misplaced(element: Element, geometry: Element) -> bool:
     return element.tag in VOCABULARY and element is not geometry.children[0]
 
 
-_OF_ATTRIBUTE = {
+_ATTRIBUTE_EFFECTS = {
     "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
         "ignore it, without a message"
     ),
@@ -227,7 +233,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     proposal = propose_urdf_spelling(element, parent)
     if proposal is not None:
         return proposal
-    word = meant(element.tag, VOCABULARY[parent.tag].children)
+    word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
     if word is None:
         return None
     if parent.child(word) is not None and word not in VOCABULARY[parent.tag].many:
@@ -237,7 +243,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
 
 @rule(
     WARNING,
-    effects=_OF_ATTRIBUTE,
+    effects=_ATTRIBUTE_EFFECTS,
     group="robot",
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
@@ -251,16 +257,20 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """
     nothing: frozenset[str] = frozenset()
     other: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
-    for tag, elements in census(robot).known.items():
-        known = {*attributes_of(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
+    for tag, elements in get_census(robot).known.items():
+        known = {*get_attributes(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
         for element in elements:
             if element.attributes.keys() <= known:
                 continue
-            yield from _misspelt_attributes(element, known)
-            strange = [n for n in _strange_attributes(element, known) if _is_mere(element, n)]
+            yield from _report_misspelled_attributes(element, known)
+            strange = [
+                n
+                for n in _iterate_unknown_attributes(element, known)
+                if _is_unsuggested(element, n)
+            ]
             for severity in (WARNING, INFO):
                 is_info = severity is INFO
-                names = tuple(n for n in strange if _is_remark(element, n) == is_info)
+                names = tuple(n for n in strange if _is_ignorable(element, n) == is_info)
                 if names:
                     other.setdefault((tag, names, severity), []).append(element)
     for (_, names, severity), elements in other.items():
@@ -269,59 +279,65 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
         words, them = ("attributes", "them") if len(names) > 1 else ("attribute", "it")
         yield Problem(
             first,
-            f"{_the(first)}{_more(elements)} has the unknown {words} {which}; "
+            f"{_describe(first)}{_format_count(elements)} has the unknown {words} {which}; "
             f"URDF readers ignore {them}",
             at=first.attribute_place(names[0]),
             severity=severity,
-            effects=holding(_OF_ATTRIBUTE),
+            effects=select_holding(_ATTRIBUTE_EFFECTS),
             alike=(first.tag, len(names) > 1, len(elements) > 1),
         )
 
 
-def _is_remark(element: Element, name: str) -> bool:
+def _is_ignorable(element: Element, name: str) -> bool:
     """Tell whether readers lose nothing if they ignore an attribute."""
-    if name in _REMARKS:
+    if name in _DOCUMENTATION:
         return True
     tag = element.tag
-    optional = (*_WITH_DEFAULT.get(tag, ()), *_FURTHER.get(tag, ()))
-    needed = set(attributes_of(tag)).difference(optional)
+    optional = (*_WITH_DEFAULT.get(tag, ()), *_RARE.get(tag, ()))
+    needed = set(get_attributes(tag)).difference(optional)
     return bool(needed) and needed <= element.attributes.keys()
 
 
-def _strange_attributes(element: Element, known: set[str]) -> Iterator[str]:
+def _iterate_unknown_attributes(element: Element, known: set[str]) -> Iterator[str]:
     for name in element.attributes:
         if name not in known and ":" not in name and name not in _REDUNDANT:
-            if not _is_zero_turn(element, name):
+            if not _is_zero_rotation(element, name):
                 yield name
 
 
-def _is_zero_turn(element: Element, name: str) -> bool:
+def _is_zero_rotation(element: Element, name: str) -> bool:
     """Tell whether an attribute is a zero rotation of an axis, which has no effect."""
     text = element.attributes[name]
     return (element.tag, name) == ("axis", "rpy") and set(text) <= set("+-0. ")
 
 
-def _is_mere(element: Element, name: str) -> bool:
+def _is_unsuggested(element: Element, name: str) -> bool:
     """Tell whether the intended attribute is unknown."""
     kind = (element.tag, name)
-    return kind not in _INSTEAD and kind not in _OTHER_NAMES and _word(element, name) is None
+    return (
+        kind not in _ATTRIBUTE_REMEDIES
+        and kind not in _OTHER_NAMES
+        and _suggest_attribute(element, name) is None
+    )
 
 
-def _word(element: Element, name: str) -> str | None:
-    return meant(name, [w for w in attributes_of(element.tag) if w not in element.attributes])
+def _suggest_attribute(element: Element, name: str) -> str | None:
+    return suggest_word(
+        name, [w for w in get_attributes(element.tag) if w not in element.attributes]
+    )
 
 
-def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
-    for name in _strange_attributes(element, known):
-        what = f"{_the(element)} has the unknown attribute '{name}'"
+def _report_misspelled_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
+    for name in _iterate_unknown_attributes(element, known):
+        what = f"{_describe(element)} has the unknown attribute '{name}'"
         at = element.attribute_place(name)
         kind = (element.tag, name)
-        if kind in _INSTEAD:
-            effects = holding(_OF_ATTRIBUTE)
-            message = f"{what}; {_INSTEAD[kind]}"
+        if kind in _ATTRIBUTE_REMEDIES:
+            effects = select_holding(_ATTRIBUTE_EFFECTS)
+            message = f"{what}; {_ATTRIBUTE_REMEDIES[kind]}"
             yield Problem(element, message, at=at, effects=effects, alike=kind)
             continue
-        word = _OTHER_NAMES.get(kind) or _word(element, name)
+        word = _OTHER_NAMES.get(kind) or _suggest_attribute(element, name)
         if word is not None and word != name.lower():
             has_default = word in _WITH_DEFAULT.get(element.tag, ())
             yield Problem(
@@ -331,27 +347,33 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
                 data={"write": word},
                 alike=(element.tag, word),
                 severity=WARNING if kind in _OTHER_NAMES else ERROR,
-                effects=holding(_OF_ATTRIBUTE, *["one with a default is meant"] * has_default),
+                effects=select_holding(
+                    _ATTRIBUTE_EFFECTS, *["one with a default is meant"] * has_default
+                ),
             )
 
 
 @unknown_attribute.fix(BOTH)
 def write_known_attribute(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the attribute with the most similar name."""
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is None:
         return None
     element, name = found
     if (element.tag, name) == ("axis", "rpy"):
         return safe("remove it: an axis has no rotation", remove_attribute(element, name))
-    free = [word for word in attributes_of(element.tag) if word not in element.attributes]
+    free = [word for word in get_attributes(element.tag) if word not in element.attributes]
     direct = {"pos", "position", "rot", "rotation", "orientation", "mass", "min", "max", "height"}
     direct |= {"dimensions", "uri", "file", "url", "name", "value"}
     word: str | None = problem.data.get("write")
-    if word is None or word not in free or (name not in direct and meant(name, free) != word):
+    if (
+        word is None
+        or word not in free
+        or (name not in direct and suggest_word(name, free) != word)
+    ):
         return None
     count = VOCABULARY[element.tag].numbers.get(word)
-    if count is not None and numbers(element.get(name), count) is None:
+    if count is not None and parse_numbers(element.get(name), count) is None:
         if count != 1 or number(element.get(name)) is None:
             return None
     return unsafe(f"write {word}", rename_attribute(element, name, word))
@@ -371,23 +393,23 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
     URDF is in lower case, and readers compare names exactly. They reject the robot for a joint of
     type ``Revolute``, and ignore ``<Inertial>`` without a message.
     """
-    for element in census(robot).unknown:
+    for element in get_census(robot).unknown:
         parent = element.parent
         lower = element.tag.lower()
         if parent is None or parent.tag == "geometry" or lower == element.tag:
             continue
         if lower in VOCABULARY[parent.tag].children:
-            what = f"{_the(parent)} has the unknown element <{element.tag}>; write <{lower}>"
+            what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{lower}>"
             yield Problem(element, what)
-    for tag, elements in census(robot).known.items():
-        known = set(attributes_of(tag))
+    for tag, elements in get_census(robot).known.items():
+        known = set(get_attributes(tag))
         for element in elements:
             if element.attributes.keys() <= known:
                 continue
             for name in element.attributes:
                 lower = name.lower()
                 if name != lower and lower in known and lower not in element.attributes:
-                    what = f"{_the(element)} has the unknown attribute '{name}'; write {lower}"
+                    what = f"{_describe(element)} has the unknown attribute '{name}'; write {lower}"
                     yield Problem(element, what, at=element.attribute_place(name))
     for joint in robot.joints:
         if joint.type != joint.type.lower() and joint.type.lower() in _TYPES:
@@ -401,17 +423,21 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
 _TYPES = frozenset(("revolute", "continuous", "prismatic", "fixed", "floating", "planar"))
 
 
-def _more(elements: list[Element]) -> str:
+def _format_count(elements: list[Element]) -> str:
     return f" (and {len(elements) - 1} more)" if len(elements) > 1 else ""
 
 
-def _the(element: Element | None) -> str:
+def _describe(element: Element | None) -> str:
     """Describe an element: ``link 'arm'``, or ``<inertial> of link 'arm'``."""
     if element is None:
         return "the document"
     if element.tag in ("link", "joint"):
-        return owner(element)
-    return f"<{element.tag}>" if element.tag == "robot" else f"<{element.tag}> of {owner(element)}"
+        return describe_owner(element)
+    return (
+        f"<{element.tag}>"
+        if element.tag == "robot"
+        else f"<{element.tag}> of {describe_owner(element)}"
+    )
 
 
 @wrong_case_keyword.fix(BOTH)
@@ -421,7 +447,7 @@ def write_lower_case(problem: Problem, context: FixContext) -> Proposal | None:
     The fix is safe for a joint type, a parent or a child, because every reader rejects the robot
     without it. It is unsafe for other keywords, which readers ignore before the fix.
     """
-    found = attribute_at(problem)
+    found = find_attribute(problem)
     if found is not None:
         element, name = found
         if name == "type" and element.tag == "joint":

@@ -9,7 +9,7 @@ from ...model.elements import Robot
 from ...source.document import Element
 
 
-class Kind(NamedTuple):
+class ElementType(NamedTuple):
     """An element of URDF.
 
     Attributes:
@@ -25,33 +25,33 @@ class Kind(NamedTuple):
     many: tuple[str, ...] = ()
 
 
-def _scalars(*names: str) -> dict[str, int]:
+def _count_one(*names: str) -> dict[str, int]:
     return dict.fromkeys(names, 1)
 
 
-VOCABULARY: dict[str, Kind] = {
-    "robot": Kind(("link", "joint", "material"), words=("name", "version")),
-    "link": Kind(
+VOCABULARY: dict[str, ElementType] = {
+    "robot": ElementType(("link", "joint", "material"), words=("name", "version")),
+    "link": ElementType(
         ("inertial", "visual", "collision"),
         words=("name", "type"),
         many=("visual", "collision"),
     ),
-    "inertial": Kind(("origin", "mass", "inertia")),
-    "mass": Kind(numbers=_scalars("value")),
-    "inertia": Kind(numbers=_scalars("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
-    "visual": Kind(("origin", "geometry", "material"), words=("name",)),
-    "collision": Kind(("origin", "geometry"), words=("name",)),
-    "origin": Kind(numbers={"xyz": 3, "rpy": 3, "quat_xyzw": 4}),
-    "geometry": Kind(("box", "cylinder", "sphere", "mesh", "capsule"), words=("name",)),
-    "box": Kind(numbers={"size": 3}),
-    "cylinder": Kind(numbers=_scalars("radius", "length")),
-    "sphere": Kind(numbers=_scalars("radius")),
-    "capsule": Kind(numbers=_scalars("radius", "length")),
-    "mesh": Kind(numbers={"scale": 3}, words=("filename",)),
-    "material": Kind(("color", "texture"), words=("name",)),
-    "color": Kind(numbers={"rgba": 4}),
-    "texture": Kind(words=("filename",)),
-    "joint": Kind(
+    "inertial": ElementType(("origin", "mass", "inertia")),
+    "mass": ElementType(numbers=_count_one("value")),
+    "inertia": ElementType(numbers=_count_one("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
+    "visual": ElementType(("origin", "geometry", "material"), words=("name",)),
+    "collision": ElementType(("origin", "geometry"), words=("name",)),
+    "origin": ElementType(numbers={"xyz": 3, "rpy": 3, "quat_xyzw": 4}),
+    "geometry": ElementType(("box", "cylinder", "sphere", "mesh", "capsule"), words=("name",)),
+    "box": ElementType(numbers={"size": 3}),
+    "cylinder": ElementType(numbers=_count_one("radius", "length")),
+    "sphere": ElementType(numbers=_count_one("radius")),
+    "capsule": ElementType(numbers=_count_one("radius", "length")),
+    "mesh": ElementType(numbers={"scale": 3}, words=("filename",)),
+    "material": ElementType(("color", "texture"), words=("name",)),
+    "color": ElementType(numbers={"rgba": 4}),
+    "texture": ElementType(words=("filename",)),
+    "joint": ElementType(
         (
             "origin",
             "parent",
@@ -65,20 +65,20 @@ VOCABULARY: dict[str, Kind] = {
         ),
         words=("name", "type"),
     ),
-    "parent": Kind(words=("link",)),
-    "child": Kind(words=("link",)),
-    "axis": Kind(numbers={"xyz": 3}),
-    "limit": Kind(
-        numbers=_scalars(
+    "parent": ElementType(words=("link",)),
+    "child": ElementType(words=("link",)),
+    "axis": ElementType(numbers={"xyz": 3}),
+    "limit": ElementType(
+        numbers=_count_one(
             "lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"
         )
     ),
-    "dynamics": Kind(numbers=_scalars("damping", "friction")),
-    "mimic": Kind(numbers=_scalars("multiplier", "offset"), words=("joint",)),
-    "safety_controller": Kind(
-        numbers=_scalars("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
+    "dynamics": ElementType(numbers=_count_one("damping", "friction")),
+    "mimic": ElementType(numbers=_count_one("multiplier", "offset"), words=("joint",)),
+    "safety_controller": ElementType(
+        numbers=_count_one("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
     ),
-    "calibration": Kind(numbers=_scalars("rising", "falling", "reference_position")),
+    "calibration": ElementType(numbers=_count_one("rising", "falling", "reference_position")),
 }
 
 DIALECTS: dict[str, frozenset[str]] = {
@@ -136,12 +136,12 @@ class Census(NamedTuple):
     unknown: list[Element]
 
 
-def census(robot: Robot) -> Census:
+def get_census(robot: Robot) -> Census:
     """Sort the elements of a robot as written."""
-    return robot.memo.get("census", lambda: _census(robot.element))
+    return robot.memo.get("census", lambda: _make_census(robot.element))
 
 
-def _census(root: Element) -> Census:
+def _make_census(root: Element) -> Census:
     known: dict[str, list[Element]] = {tag: [] for tag in VOCABULARY}
     unknown = []
     todo = [root]
@@ -180,27 +180,27 @@ def is_for_another_reader(root: Element) -> bool:
     )
 
 
-def attributes_of(tag: str) -> tuple[str, ...]:
+def get_attributes(tag: str) -> tuple[str, ...]:
     """Get the attributes of a URDF element."""
     kind = VOCABULARY[tag]
     return (*kind.words, *kind.numbers)
 
 
-def meant(word: str, words: Iterable[str]) -> str | None:
+def suggest_word(word: str, words: Iterable[str]) -> str | None:
     """Find the word that a misspelled one stands for; None if none or several are similar.
 
     Similar is one edit in a word of up to four letters and two in a longer one: an added, missing,
     wrong letter or two swapped. Case is ignored.
     """
     lower = word.lower()
-    found = [(_slips(lower, candidate.lower()), candidate) for candidate in words]
+    found = [(_compute_edit_distance(lower, candidate.lower()), candidate) for candidate in words]
     found.sort()
     if not found or found[0][0] > (1 if len(word) <= 4 else 2):
         return None
     return None if len(found) > 1 and found[1][0] == found[0][0] else found[0][1]
 
 
-def _slips(a: str, b: str) -> int:
+def _compute_edit_distance(a: str, b: str) -> int:
     """Compute the edit distance of two words (optimal string alignment); 9 if it is large."""
     if abs(len(a) - len(b)) > 2:
         return 9
@@ -217,17 +217,17 @@ def _slips(a: str, b: str) -> int:
     return row[-1]
 
 
-def misspelt_attributes(element: Element) -> dict[str, str]:
+def find_misspelled_attributes(element: Element) -> dict[str, str]:
     """Find misspelled attributes of an element, with the correct names."""
-    known = attributes_of(element.tag)
+    known = get_attributes(element.tag)
     free = [name for name in known if name not in element.attributes]
     strange = [name for name in element.attributes if name not in known]
-    return {name: word for name in strange if (word := meant(name, free))}
+    return {name: word for name in strange if (word := suggest_word(name, free))}
 
 
-def misspelt_children(element: Element) -> dict[str, str]:
+def find_misspelled_children(element: Element) -> dict[str, str]:
     """Find misspelled tags in an element, with the correct names."""
     known = VOCABULARY[element.tag].children
     strange = {child.tag for child in element.children if child.tag not in known}
     strange -= DIALECTS.get(element.tag, frozenset())
-    return {tag: word for tag in strange if (word := meant(tag, known))}
+    return {tag: word for tag in strange if (word := suggest_word(tag, known))}

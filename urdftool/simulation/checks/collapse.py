@@ -8,7 +8,7 @@ import numpy as np
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
-from ...model.pose import rotation_of_quaternion
+from ...model.pose import rotation_from_quaternion
 from ..fault import Fault
 from ..recording import Array
 from ..run import Run
@@ -19,7 +19,7 @@ def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
     recording, bodies, bounds = run.recording, run.bodies, run.thresholds
     moved = np.abs(recording.positions[-1] - recording.positions[0])
     alone = {
-        column: _sunk_alone(run, column)
+        column: _measure_sunk_alone(run, column)
         for column, joint in enumerate(bodies.joints)
         if joint.name not in recording.targets and joint.leader is None
         if moved[column]
@@ -33,7 +33,7 @@ def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
         return
     column = max(alone, key=lambda number: abs(alone[number]))
     name = bodies.joints[column].name
-    whole = _sunk(run)
+    whole = _measure_sunk(run)
     if (
         whole >= bounds.collapse_depth * bodies.size
         and abs(alone[column]) >= bounds.collapse_share * bodies.size
@@ -53,22 +53,22 @@ def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
         robot.joint[name].place,
         "joint",
         name,
-        "nothing holds the joint: " + _why_loose(run),
+        "nothing holds the joint: " + _explain_why_loose(run),
         "missing-control-plugin",
     )
 
 
-def _sunk(run: Run) -> float:
+def _measure_sunk(run: Run) -> float:
     """Measure how far the center of mass of what joints carry sank [m].
 
     That is the whole robot but a fixed root: legs carry a free one.
     """
     numbers = range(int(run.bodies.fixed_base), len(run.bodies.bodies))
-    first_at, last_at = (run.center_of_mass(numbers, moment) for moment in (0, -1))
+    first_at, last_at = (run.compute_center_of_mass(numbers, moment) for moment in (0, -1))
     return 0.0 if first_at is None or last_at is None else first_at[2] - last_at[2]
 
 
-def _sunk_alone(run: Run, column: int) -> float:
+def _measure_sunk_alone(run: Run, column: int) -> float:
     """Measure how far the load of a joint sank by the motion of this joint alone [m]."""
     bodies, poses = run.bodies.bodies, run.recording.poses
     child = column + 1
@@ -76,7 +76,7 @@ def _sunk_alone(run: Run, column: int) -> float:
     for number in range(child + 1, len(bodies)):
         if bodies[number].parent in beyond:
             beyond.add(number)
-    centre = run.center_of_mass(beyond, 0)
+    centre = run.compute_center_of_mass(beyond, 0)
     if centre is None:
         return 0.0
     own = _turn(poses[0, child]).T @ (centre - poses[0, child, :3])
@@ -91,10 +91,10 @@ def _sunk_alone(run: Run, column: int) -> float:
 
 def _turn(pose: Array) -> Array:
     x, y, z, w = pose[3:].tolist()
-    return np.array(rotation_of_quaternion((w, x, y, z)))
+    return np.array(rotation_from_quaternion((w, x, y, z)))
 
 
-def _why_loose(run: Run) -> str:
+def _explain_why_loose(run: Run) -> str:
     if run.settings.controls is not None:
         return "no controller drives it"
     if run.settings.hold == "none":

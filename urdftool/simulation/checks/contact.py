@@ -7,41 +7,43 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ...diagnostic import Severity
-from ...formats.common.extent import shape_points
+from ...formats.common.extent import get_shape_points
 from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
-from ...model.pose import Pose, pose_of
-from ..extent import bounding_box, shape_corners
+from ...model.pose import Pose, make_pose
+from ..extent import compute_bounding_box, get_shape_corners
 from ..fault import Fault
-from ..overlap import primitive_triangles
+from ..overlap import tessellate_primitive_triangles
 from ..recording import GROUND, Array
 from ..run import Run
-from ..shapes import lowest_height
+from ..shapes import compute_lowest_height
 from .final_state import FinalState
 from .interpenetration import check_interpenetration
 
 
 def check_contacts(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Report contacts that should not be, and parts that should make contact and do not."""
-    yield from _starting_in_ground(robot, run)
+    yield from _report_starting_in_ground(robot, run)
     yield from check_interpenetration(robot, run)
     if not state.fell and run.recording.ended != "lost":
-        yield from _ground_penetration(robot, run)
-        told = {fault.name: fault for fault in _missing_contact(robot, run)}
+        yield from _report_ground_penetration(robot, run)
+        told = {fault.name: fault for fault in _report_missing_contact(robot, run)}
         told |= {
-            fault.name: fault for fault in _submerged_visuals(robot, run) if fault.name not in told
+            fault.name: fault
+            for fault in _report_submerged_visuals(robot, run)
+            if fault.name not in told
         }
         yield from told.values()
-        yield from (f for f in _unlike_their_copies(robot, run, state) if f.name not in told)
+        yield from (f for f in _report_unlike_copies(robot, run, state) if f.name not in told)
 
 
-def _ground_depth(run: Run) -> float:
+def _get_ground_depth(run: Run) -> float:
     """Return the depth of a contact with the ground that is reported [m]."""
     return max(run.thresholds.ground_depth * run.bodies.size, run.thresholds.contact_depth)
 
 
-def _starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
     for contact in run.recording.start_contacts:
-        if contact.other == GROUND and contact.depth > _ground_depth(run):
+        if contact.other == GROUND and contact.depth > _get_ground_depth(run):
             if run.bodies.fixed_base and contact.one in run.bodies.bodies[0].links:
                 continue
             yield Fault(
@@ -57,10 +59,10 @@ def _starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
             )
 
 
-def _ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
     grounded = [contact for contact in run.recording.contacts if contact.other == GROUND]
     deepest = max(grounded, key=lambda contact: contact.depth, default=None)
-    if deepest is not None and deepest.depth > _ground_depth(run):
+    if deepest is not None and deepest.depth > _get_ground_depth(run):
         yield Fault(
             "sank-in",
             Severity.ERROR,
@@ -73,7 +75,7 @@ def _ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report visuals on or below the ground whose link has nothing to make contact with."""
     if not any(body.shapes for body in run.bodies.bodies):
         return  # nothing of it touches, which is said
@@ -82,19 +84,20 @@ def _missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
         seen = [name for name in body.links if robot.link[name].visuals]
         if not seen or (number == 0 and run.bodies.fixed_base):
             continue
-        pose = run.end.pose(number)
+        pose = run.end.get_pose(number)
         gap = run.thresholds.ground_gap
         highest = gap
         if body.shapes:
             seen = [name for name in seen if not robot.link[name].collisions]
-            highest = -_ground_depth(run)
+            highest = -_get_ground_depth(run)
             if number not in parents:  # a foot on the end of a leg, of which the rest may touch
                 turn, at = np.array(pose.rotation), np.array(pose.translation)
                 highest = min(
-                    gap, lowest_height(body.shapes, turn, at) - run.thresholds.foot_protrusion
+                    gap,
+                    compute_lowest_height(body.shapes, turn, at) - run.thresholds.foot_protrusion,
                 )
         for name in seen:
-            points = _visual_points(robot, name, shape_points)
+            points = _collect_visual_points(robot, name, get_shape_points)
             if not len(points):
                 continue
             place = pose @ body.places[name]
@@ -114,27 +117,27 @@ def _missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
                 )
 
 
-def _submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report visuals below the ground that the collision geometry of their link does not reach."""
-    least = _ground_depth(run)
+    least = _get_ground_depth(run)
     for number, body in enumerate(run.bodies.bodies):
         if number == 0 and run.bodies.fixed_base:
             continue
-        pose = run.end.pose(number)
+        pose = run.end.get_pose(number)
         turn, at = np.array(pose.rotation), np.array(pose.translation)
         for name in body.links:
             shapes = [shape for shape in body.shapes if shape.link == name]
-            if not shapes or lowest_height(shapes, turn, at) < -least:
+            if not shapes or compute_lowest_height(shapes, turn, at) < -least:
                 continue  # one that is as deep sank in, which is said
             place = pose @ body.places[name]
-            box = bounding_box(robot, robot.link[name].visuals)
-            if box is None or _lowest_corner(box, place) >= -least:
+            box = compute_bounding_box(robot, robot.link[name].visuals)
+            if box is None or _compute_lowest_corner(box, place) >= -least:
                 continue
-            points = _visual_points(robot, name, shape_corners)
+            points = _collect_visual_points(robot, name, get_shape_corners)
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             low, high = float(heights.min()), float(heights.max())
             if -low > least and -low > run.thresholds.submerged_visual * (high - low):
-                bounds = [shape.bounds() for shape in shapes]
+                bounds = [shape.get_bounds() for shape in shapes]
                 size = max(float((upper - lower).max()) for lower, upper in bounds)
                 small = size < run.thresholds.small_collision * float(
                     (points.max(axis=0) - points.min(axis=0)).max()
@@ -155,19 +158,21 @@ def _submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
                 )
 
 
-def _lowest_corner(box: tuple[Array, Array], place: Pose) -> float:
+def _compute_lowest_corner(box: tuple[Array, Array], place: Pose) -> float:
     """Compute how low a box reaches whose frame is at a pose in the world [m]."""
     up = np.array(place.rotation[2])
     middle = float(up @ (box[0] + box[1])) / 2 + place.translation[2]
     return middle - float(np.abs(up) @ (box[1] - box[0])) / 2
 
 
-def _unlike_their_copies(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+def _report_unlike_copies(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Report links without collision geometry whose copies carry the robot."""
-    feet = {look: name for name in state.supports if (look := _visual_key(robot, name)) is not None}
+    feet = {
+        look: name for name in state.supports if (look := _get_visual_key(robot, name)) is not None
+    }
     for body in run.bodies.bodies[1:]:
         for name in body.links:
-            look = None if robot.link[name].collisions else _visual_key(robot, name)
+            look = None if robot.link[name].collisions else _get_visual_key(robot, name)
             twin = None if look is None else feet.get(look)
             if twin is not None:
                 yield Fault(
@@ -183,15 +188,15 @@ def _unlike_their_copies(robot: Robot, run: Run, state: FinalState) -> Iterator[
                 )
 
 
-def _visual_key(robot: Robot, name: str) -> tuple[object, ...] | None:
+def _get_visual_key(robot: Robot, name: str) -> tuple[object, ...] | None:
     """Return a key of a link's visuals, equal for copies; None without visuals."""
     visuals = robot.link[name].visuals
     if not visuals:
         return None
-    return tuple(_geometry_key(visual.geometry) for visual in visuals)
+    return tuple(_collect_geometry_key(visual.geometry) for visual in visuals)
 
 
-def _geometry_key(geometry: Geometry | None) -> tuple[object, ...]:
+def _collect_geometry_key(geometry: Geometry | None) -> tuple[object, ...]:
     if isinstance(geometry, Mesh):
         return geometry.filename, *(abs(factor) for factor in geometry.scale)
     if isinstance(geometry, Box):
@@ -203,7 +208,9 @@ def _geometry_key(geometry: Geometry | None) -> tuple[object, ...]:
     return (id(geometry),)
 
 
-def _visual_points(robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]) -> Array:
+def _collect_visual_points(
+    robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]
+) -> Array:
     """Collect points of a link's visuals, in its frame; round ones are sampled.
 
     ``read`` gives those of the others: all of a mesh take long to read, the outermost are known.
@@ -211,8 +218,8 @@ def _visual_points(robot: Robot, name: str, read: Callable[[Robot, Visual], Arra
     found = [np.zeros((0, 3))]
     for shape in robot.link[name].visuals:
         if isinstance(shape.geometry, (Cylinder, Sphere, Capsule)):
-            pose = pose_of(shape.origin)
-            corners = primitive_triangles(shape).reshape(-1, 3)
+            pose = make_pose(shape.origin)
+            corners = tessellate_primitive_triangles(shape).reshape(-1, 3)
             found.append(corners @ np.array(pose.rotation).T + np.array(pose.translation))
         elif (points := read(robot, shape)) is not None:
             found.append(points)

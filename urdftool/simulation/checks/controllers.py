@@ -9,14 +9,14 @@ import numpy as np
 from ...diagnostic import Severity
 from ...errors import UrdftoolError
 from ...model.elements import Robot
-from ...model.pose import rotation_of_quaternion
+from ...model.pose import rotation_from_quaternion
 from ...source.document import read_file
 from ...source.location import Place
 from ..control import POSITION, VELOCITY, Control
 from ..fault import Fault
 from ..rigid_bodies import RigidBodyJoint
 from ..run import Run
-from .joints import needed_effort, sag_bound
+from .joints import compute_needed_effort, get_sag_bound
 
 
 def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
@@ -24,14 +24,14 @@ def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
     controls = run.settings.controls
     if controls is None:
         return
-    yield from _not_controlled(robot, run)
+    yield from _report_not_controlled(robot, run)
     for column, joint in enumerate(run.bodies.joints):
         control = controls.get(joint.name)
         if control is None or control.pid is None or joint.name not in run.recording.targets:
             continue
-        unstable = _unstable(run, column, joint, control)
+        unstable = _explain_unstable(run, column, joint, control)
         if unstable:
-            yield _fault(
+            yield _report_fault(
                 "unstable-gains",
                 f"joint '{joint.name}' shakes under the gains of controller '{control.controller}'",
                 control,
@@ -39,10 +39,12 @@ def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
                 unstable,
             )
         elif run.recording.ended != "lost":
-            yield from _too_weak(run, column, joint, control)
+            yield from _report_too_weak(run, column, joint, control)
 
 
-def _fault(kind: str, message: str, control: Control, joint: RigidBodyJoint, cause: str) -> Fault:
+def _report_fault(
+    kind: str, message: str, control: Control, joint: RigidBodyJoint, cause: str
+) -> Fault:
     return Fault(kind, Severity.ERROR, message, _place(control), "joint", joint.name, cause)
 
 
@@ -54,7 +56,7 @@ def _place(control: Control) -> Place | None:
         return None
 
 
-def _not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
     held = set(run.recording.held)
     names = [j.name for j in run.bodies.joints if j.name not in held and j.leader is None]
     if not names:
@@ -70,13 +72,13 @@ def _not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
     )
 
 
-def _unstable(run: Run, column: int, joint: RigidBodyJoint, control: Control) -> str:
+def _explain_unstable(run: Run, column: int, joint: RigidBodyJoint, control: Control) -> str:
     """Explain why a joint shakes by its gains; empty if it does not, or not because of them."""
     pid, recording = control.pid, run.recording
     assert pid is not None
     if recording.ended != "lost" and not _shakes(run, column, joint):
         return ""
-    step, inertia = run.settings.timestep, moved_inertia(run, column)
+    step, inertia = run.settings.timestep, compute_moved_inertia(run, column)
     unit = "kg" if joint.kind == "prismatic" else "kg·m²"
     if inertia <= 0:
         return ""
@@ -118,15 +120,17 @@ def _shakes(run: Run, column: int, joint: RigidBodyJoint) -> bool:
     return turns >= bounds.shake_reversals and float(np.ptp(positions)) > least
 
 
-def _too_weak(run: Run, column: int, joint: RigidBodyJoint, control: Control) -> Iterator[Fault]:
+def _report_too_weak(
+    run: Run, column: int, joint: RigidBodyJoint, control: Control
+) -> Iterator[Fault]:
     pid, recording = control.pid, run.recording
     assert pid is not None
     target, now = recording.targets[joint.name], float(recording.positions[-1, column])
-    bound = sag_bound(joint, run)
+    bound = get_sag_bound(joint, run)
     if abs(now - target) <= bound:
         return
     length, force = ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
-    need = needed_effort(run, column)
+    need = compute_needed_effort(run, column)
     used = abs(float(recording.efforts[-1, column]))
     load = abs(need) if need is not None else used
     parts = []
@@ -145,7 +149,7 @@ def _too_weak(run: Run, column: int, joint: RigidBodyJoint, control: Control) ->
             parts.append("i does nothing without an i_clamp, which is zero where none is written")
         elif not pid.i:
             parts.append("or an i with an i_clamp above that")
-    yield _fault(
+    yield _report_fault(
         "sags",
         f"joint '{joint.name}' is to be at {target:.3g} {length}, and controller "
         f"'{control.controller}' leaves it at {now:.3g} {length}",
@@ -155,7 +159,7 @@ def _too_weak(run: Run, column: int, joint: RigidBodyJoint, control: Control) ->
     )
 
 
-def moved_inertia(run: Run, column: int) -> float:
+def compute_moved_inertia(run: Run, column: int) -> float:
     """Compute the inertia that a joint moves alone, at the start of a run [kg·m², kg]."""
     bodies, first = run.bodies.bodies, column + 1
     beyond = {first}
@@ -168,7 +172,7 @@ def moved_inertia(run: Run, column: int) -> float:
 
     def turn(number: int) -> np.ndarray:
         x, y, z, w = pose[number, 3:].tolist()
-        return np.array(rotation_of_quaternion((w, x, y, z)))
+        return np.array(rotation_from_quaternion((w, x, y, z)))
 
     axis = turn(first) @ np.array(joint.axis)
     total = 0.0

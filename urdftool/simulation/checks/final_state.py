@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model.pose import IDENTITY, matrix_product, rotation_of_quaternion, transpose
+from ...model.pose import IDENTITY, multiply_matrices, rotation_from_quaternion, transpose
 from ..recording import GROUND, Array
 from ..run import Run
-from ..shapes import Shape, lowest_height
+from ..shapes import Shape, compute_lowest_height
 
 
 @dataclass(frozen=True)
@@ -41,14 +41,14 @@ class FinalState:
     fell: bool
 
 
-def final_state(run: Run) -> FinalState:
+def measure_final_state(run: Run) -> FinalState:
     """Measure the end of a run."""
     recording, bodies = run.recording, run.bodies
     root = recording.poses[:, 0, :]
     good = np.isfinite(root).all(axis=1)
     first, last = root[0], root[good][-1]
     supports = tuple(dict.fromkeys(c.one for c in recording.contacts if c.other == GROUND))
-    centre = run.center_of_mass(range(len(bodies.bodies)), -1)
+    centre = run.compute_center_of_mass(range(len(bodies.bodies)), -1)
     gain = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf).max()
     size = max(bodies.size, 1e-3)
     lost = (
@@ -59,27 +59,27 @@ def final_state(run: Run) -> FinalState:
         recording.still_since,
         float(first[2] - last[2]),
         float(math.hypot(*(last[:2] - first[:2]))),
-        tilt_of(first, last, run),
+        measure_tilt(first, last, run),
         centre,
-        None if centre is None else _margin(run, centre),
+        None if centre is None else _measure_margin(run, centre),
         supports,
         float(gain),
         bool(lost and not bodies.fixed_base),
     )
 
 
-def tilt_of(first: Array, last: Array, run: Run) -> float:
+def measure_tilt(first: Array, last: Array, run: Run) -> float:
     """Measure how far the root's upright axis is turned at the end [rad]."""
     x, y, z, w = last[3:]
-    now = rotation_of_quaternion((w, x, y, z))
+    now = rotation_from_quaternion((w, x, y, z))
     upright = IDENTITY.rotation
-    turned = matrix_product(now, transpose(upright))
+    turned = multiply_matrices(now, transpose(upright))
     return math.acos(max(-1.0, min(1.0, turned[2][2])))
 
 
-def _margin(run: Run, centre: tuple[float, float, float]) -> float | None:
+def _measure_margin(run: Run, centre: tuple[float, float, float]) -> float | None:
     """Measure from the center of mass, along gravity, to the support polygon's nearest edge [m]."""
-    points = footprint(run)
+    points = collect_footprint(run)
     if not len(points):
         return None
     below = np.array([centre[0] + centre[2] * math.tan(run.settings.slope), centre[1]])
@@ -93,7 +93,7 @@ def support_margin(points: Array, at: Array) -> float:
         points: Shape (n, 2), at least one.
         at: Shape (2,).
     """
-    corners = _corners(sorted(set(map(tuple, points.tolist()))))
+    corners = _compute_corners(sorted(set(map(tuple, points.tolist()))))
     if len(corners) < 3:  # a point or a line has no inside
         along = points - points.mean(axis=0)
         _, _, axes = np.linalg.svd(along, full_matrices=True)
@@ -110,7 +110,7 @@ def support_margin(points: Array, at: Array) -> float:
     return margin
 
 
-def _corners(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+def _compute_corners(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Compute the convex hull of sorted points, counterclockwise, by Andrew's chains."""
     found: list[tuple[float, float]] = []
     for order in (points, points[::-1]):
@@ -126,14 +126,14 @@ def _corners(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return found
 
 
-def initial_support_links(run: Run) -> list[str]:
+def find_initial_support_links(run: Run) -> list[str]:
     """Find the links whose shapes reach lowest at the start."""
     bottoms: dict[str, float] = {}
     for body, pose in zip(run.bodies.bodies, run.recording.poses[0], strict=True):
         x, y, z, w = pose[3:].tolist()
-        turn = np.array(rotation_of_quaternion((w, x, y, z)))
+        turn = np.array(rotation_from_quaternion((w, x, y, z)))
         for shape in body.shapes:
-            bottom = lowest_height([shape], turn, pose[:3])
+            bottom = compute_lowest_height([shape], turn, pose[:3])
             bottoms[shape.link] = min(bottom, bottoms.get(shape.link, math.inf))
     least = min(bottoms.values(), default=0.0)
     return [
@@ -143,7 +143,7 @@ def initial_support_links(run: Run) -> list[str]:
     ]
 
 
-def footprint(run: Run) -> Array:
+def collect_footprint(run: Run) -> Array:
     """Collect the points of the plane that carry the robot at the end [m], shape (n, 2)."""
     touching = run.recording.carrying
     found = [np.array([contact.point[:2] for contact in touching]).reshape(-1, 2)]
@@ -152,21 +152,22 @@ def footprint(run: Run) -> Array:
         shapes = [shape for shape in body.shapes if shape.link in links]
         if not shapes:
             continue
-        pose = run.end.pose(number)
+        pose = run.end.get_pose(number)
         turn, at = np.array(pose.rotation), np.array(pose.translation)
         highest = (
-            lowest_height(shapes, turn, at) + run.thresholds.footprint_height * run.bodies.size
+            compute_lowest_height(shapes, turn, at)
+            + run.thresholds.footprint_height * run.bodies.size
         )
         for shape in shapes:
-            corners = _placed_corners(shape) @ turn.T + at
+            corners = _place_corners(shape) @ turn.T + at
             found.append(corners[corners[:, 2] <= highest, :2])
     return np.concatenate(found)
 
 
-def _placed_corners(shape: Shape) -> Array:
+def _place_corners(shape: Shape) -> Array:
     """Place the corners of a shape in its body's frame, (n, 3); round shapes have none."""
     if shape.kind not in ("mesh", "box"):
         return np.zeros((0, 3))
-    turned = shape.corners() @ np.array(shape.pose.rotation).T
+    turned = shape.get_corners() @ np.array(shape.pose.rotation).T
     placed: Array = turned + np.array(shape.pose.translation)
     return placed

@@ -9,16 +9,16 @@ import numpy as np
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..fault import Fault
-from ..overlap import penetration_depth
+from ..overlap import measure_penetration_depth
 from ..recording import GROUND, Array, Contact
 from ..rigid_bodies import RigidBody
 from ..run import Run
 from ..state import StateSnapshot
 from .mechanism import find_mechanism
-from .misplaced_collision import misplaced_collision
+from .misplaced_collision import explain_misplaced_collision
 
 
-def overlap_depth(start: StateSnapshot) -> float:
+def get_overlap_depth(start: StateSnapshot) -> float:
     """Return the depth of an overlap that is reported [m]."""
     bounds = start.thresholds
     return max(bounds.overlap_depth * start.bodies.size, bounds.contact_depth)
@@ -27,17 +27,17 @@ def overlap_depth(start: StateSnapshot) -> float:
 def precompute_overlaps(robot: Robot, start: StateSnapshot) -> None:
     """Compute what :func:`check_interpenetration` needs of a start, and keep it there."""
     for contact in start.contacts:
-        if contact.other != GROUND and contact.depth >= overlap_depth(start):
-            depth = _depth(robot, start, start, contact)
-            _misplaced(robot, start, start, contact)
-            if depth >= overlap_depth(start) and not _are_joined(start, contact):
-                _mechanism_of(robot, start, contact)
+        if contact.other != GROUND and contact.depth >= get_overlap_depth(start):
+            depth = _measure_depth(robot, start, start, contact)
+            _choose_misplaced(robot, start, start, contact)
+            if depth >= get_overlap_depth(start) and not _are_joined(start, contact):
+                _name_mechanism(robot, start, contact)
 
 
 def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report links that overlap at the start, or at the end only."""
     bodies = run.bodies.bodies
-    least = overlap_depth(run.start)
+    least = get_overlap_depth(run.start)
     at_start = {_pair(contact) for contact in run.start.contacts}
     new = [contact for contact in run.end.contacts if _pair(contact) not in at_start]
     contacts = [(run.start, contact) for contact in run.start.contacts]
@@ -46,24 +46,24 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
     for snapshot, contact in contacts:
         if contact.other == GROUND or contact.depth < least:
             continue
-        depth = _depth(robot, run.start, snapshot, contact)
+        depth = _measure_depth(robot, run.start, snapshot, contact)
         if depth < least:
             continue
-        beside = _misplaced(robot, run.start, snapshot, contact)
+        beside = _choose_misplaced(robot, run.start, snapshot, contact)
         if beside is not None:
             if beside[0] in blamed:
                 continue  # it is in another neighbour, too, for the same reason
             blamed.add(beside[0])
         joined = _are_joined(run.start, contact)
-        numbers = run.start.body_of(contact.one), run.start.body_of(contact.other)
-        thin = min(_extents(bodies[number]).min() for number in numbers)
-        brought = "" if joined or snapshot is run.start else _moved_by(run, numbers)
+        numbers = run.start.get_body(contact.one), run.start.get_body(contact.other)
+        thin = min(_measure_extents(bodies[number]).min() for number in numbers)
+        brought = "" if joined or snapshot is run.start else _name_moving_joint(run, numbers)
         fails = beside is not None or bool(
             not joined and depth > run.thresholds.overlap_failure * thin and not brought
         )
         mechanism = ""
         if fails and beside is None:
-            mechanism = _mechanism_of(robot, run.start, contact)
+            mechanism = _name_mechanism(robot, run.start, contact)
             fails = not mechanism
         when = "at the start" if snapshot is run.start else "at rest"
         named = beside[0] if beside else contact.one
@@ -76,7 +76,7 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
             named,
             beside[1]
             if beside
-            else _why_ignored(run, numbers)
+            else _explain_why_ignored(run, numbers)
             if joined
             else brought
             or mechanism
@@ -85,18 +85,19 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _mechanism_of(robot: Robot, start: StateSnapshot, contact: Contact) -> str:
+def _name_mechanism(robot: Robot, start: StateSnapshot, contact: Contact) -> str:
     """Name the mechanism that two links belong to; empty if none."""
     links = contact.one, contact.other
-    numbers = start.body_of(contact.one), start.body_of(contact.other)
-    return start.cached(
-        ("mechanism", *links), lambda: find_mechanism(robot, start, links, _between(start, numbers))
+    numbers = start.get_body(contact.one), start.get_body(contact.other)
+    return start.get_or_compute(
+        ("mechanism", *links),
+        lambda: find_mechanism(robot, start, links, _list_between(start, numbers)),
     )
 
 
-def _why_ignored(run: Run, numbers: tuple[int, int]) -> str:
+def _explain_why_ignored(run: Run, numbers: tuple[int, int]) -> str:
     """Explain why links that overlap about their joint do not push each other in this run."""
-    count = len(_between(run.start, numbers))
+    count = len(_list_between(run.start, numbers))
     if count < 2:
         return "the links share a joint, so engines ignore this contact"
     if run.settings.self_collision:
@@ -107,11 +108,13 @@ def _why_ignored(run: Run, numbers: tuple[int, int]) -> str:
     )
 
 
-def _moved_by(run: Run, numbers: tuple[int, int]) -> str:
+def _name_moving_joint(run: Run, numbers: tuple[int, int]) -> str:
     """Say which joint took two bodies into each other since the start; empty if none did."""
     moved = run.recording.positions[-1] - run.recording.positions[0]
-    columns = [number - 1 for number in _between(run.start, numbers)]
-    far = [column for column in columns if abs(moved[column]) > _overlap_motion(run, column)]
+    columns = [number - 1 for number in _list_between(run.start, numbers)]
+    far = [
+        column for column in columns if abs(moved[column]) > _compute_overlap_motion(run, column)
+    ]
     if not far or run.settings.self_collision:
         return ""
     most = max(far, key=lambda column: abs(float(moved[column])))
@@ -122,27 +125,29 @@ def _moved_by(run: Run, numbers: tuple[int, int]) -> str:
     )
 
 
-def _overlap_motion(run: Run, column: int) -> float:
+def _compute_overlap_motion(run: Run, column: int) -> float:
     bounds, joint = run.thresholds, run.bodies.joints[column]
     return bounds.overlap_slide if joint.kind == "prismatic" else bounds.overlap_turn
 
 
-def _depth(robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact) -> float:
+def _measure_depth(
+    robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact
+) -> float:
     """Measure how deep two links overlap [m], at most as deep as their triangles.
 
     Where those are not deep enough to count, it may be 0.
     """
-    least = overlap_depth(start)
+    least = get_overlap_depth(start)
     if _are_joined(start, contact):
         return contact.depth
     links = contact.one, contact.other
-    depth = snapshot.cached(
-        ("overlap", *links), lambda: penetration_depth(robot, snapshot, *links, least)
+    depth = snapshot.get_or_compute(
+        ("overlap", *links), lambda: measure_penetration_depth(robot, snapshot, *links, least)
     )
     return contact.depth if depth is None else min(depth, contact.depth)
 
 
-def _misplaced(
+def _choose_misplaced(
     robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact
 ) -> tuple[str, str] | None:
     """Choose the one of two joined links whose collision geometry is misplaced, and say why."""
@@ -151,12 +156,12 @@ def _misplaced(
 
     def look() -> tuple[str, str] | None:
         for link, other in ((contact.one, contact.other), (contact.other, contact.one)):
-            why = misplaced_collision(robot, snapshot, link, snapshot.body_of(other))
+            why = explain_misplaced_collision(robot, snapshot, link, snapshot.get_body(other))
             if why is not None:
                 return link, why
         return None
 
-    return snapshot.cached(("misplaced", contact.one, contact.other), look)
+    return snapshot.get_or_compute(("misplaced", contact.one, contact.other), look)
 
 
 def _are_joined(start: StateSnapshot, contact: Contact) -> bool:
@@ -164,11 +169,11 @@ def _are_joined(start: StateSnapshot, contact: Contact) -> bool:
 
     Such parts overlap around their joint by design.
     """
-    numbers = start.body_of(contact.one), start.body_of(contact.other)
-    return start.cached(("joined", *numbers), lambda: _share_joint(start, numbers))
+    numbers = start.get_body(contact.one), start.get_body(contact.other)
+    return start.get_or_compute(("joined", *numbers), lambda: _is_share_joint(start, numbers))
 
 
-def _between(start: StateSnapshot, numbers: tuple[int, int]) -> list[int]:
+def _list_between(start: StateSnapshot, numbers: tuple[int, int]) -> list[int]:
     """List the bodies whose joints are between two bodies."""
     bodies = start.bodies.bodies
     above: list[list[int]] = []
@@ -181,21 +186,21 @@ def _between(start: StateSnapshot, numbers: tuple[int, int]) -> list[int]:
     return [index for chain in above for index in chain[: chain.index(common)]]
 
 
-def _share_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
+def _is_share_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
     bodies = start.bodies.bodies
-    path = _between(start, numbers)
+    path = _list_between(start, numbers)
     between = {*path, *(bodies[index].parent for index in path)} - set(numbers)
     if not any(bodies[index].shapes for index in between):
         return True
     places = start.poses[path, :3]
     apart = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
-    smaller = min(_extents(bodies[number]).max() for number in numbers)
+    smaller = min(_measure_extents(bodies[number]).max() for number in numbers)
     return bool(apart < start.thresholds.compound_joint * smaller)
 
 
-def _extents(body: RigidBody) -> Array:
+def _measure_extents(body: RigidBody) -> Array:
     """Measure the box around the collision geometry of a body [m], shape (3,)."""
-    boxes = [shape.bounds() for shape in body.shapes]
+    boxes = [shape.get_bounds() for shape in body.shapes]
     low = np.min([low for low, _ in boxes], axis=0)
     high = np.max([high for _, high in boxes], axis=0)
     edges: Array = high - low
@@ -208,7 +213,7 @@ def _pair(contact: Contact) -> frozenset[str]:
 
 def check_sweep(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report links that overlap where a joint moves through its limits."""
-    least = overlap_depth(run.start)
+    least = get_overlap_depth(run.start)
     for joint in run.swept:
         hits = sorted((hit for hit in joint.hits if hit.depth > least), key=lambda hit: -hit.depth)
         if not hits:

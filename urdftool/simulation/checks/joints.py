@@ -9,7 +9,7 @@ import numpy as np
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
-from ...model.pose import rotation_of_quaternion
+from ...model.pose import rotation_from_quaternion
 from ..control import is_driven
 from ..fault import Fault
 from ..model_checks.bodies import is_impossible
@@ -27,22 +27,22 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     if not recording.joints:
         return
     if recording.ended != "lost" and not state.fell:
-        sagging = list(_sagging(robot, run, state))
+        sagging = list(_report_sagging(robot, run, state))
         yield from sagging
-        yield from _beyond_limits(robot, run)
-        yield from _misled_mimics(robot, run)
+        yield from _report_beyond_limits(robot, run)
+        yield from _report_misled_mimics(robot, run)
         if not sagging:
             yield from check_collapse(robot, run)
-            yield from _near_effort_limit(robot, run)
-    yield from _without_effort(robot, run)
-    yield from _not_held(robot, run)
-    yield from _capped_damping(robot, run)
+            yield from _report_near_effort_limit(robot, run)
+    yield from _report_without_effort(robot, run)
+    yield from _report_not_held(robot, run)
+    yield from _report_capped_damping(robot, run)
     for name, value in run.bodies.moved_start.items():
         yield Fault(
             "zero-outside-limits",
             Severity.INFO,
             f"joint '{name}' cannot be at zero and starts at {value:.4g}, its nearest limit",
-            _joint(robot, name).place,
+            _make_joint(robot, name).place,
             "joint",
             name,
             rule="zero-outside-limits",
@@ -76,11 +76,11 @@ def _open_loops(robot: Robot) -> Iterator[Fault]:
             )
 
 
-def _joint(robot: Robot, name: str) -> Joint:
+def _make_joint(robot: Robot, name: str) -> Joint:
     return robot.joint[name]
 
 
-def sag_bound(joint: RigidBodyJoint, run: Run) -> float:
+def get_sag_bound(joint: RigidBodyJoint, run: Run) -> float:
     """Return how far a held joint may be off its target [rad, m]."""
     bounds = run.thresholds
     if joint.kind == "prismatic":
@@ -96,22 +96,22 @@ def _limit_bound(joint: RigidBodyJoint, run: Run) -> float:
     return bounds.limit_turn
 
 
-def _units(joint: RigidBodyJoint) -> tuple[str, str]:
+def _collect_units(joint: RigidBodyJoint) -> tuple[str, str]:
     return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
 
 
-def _sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+def _report_sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     recording = run.recording
     for column, joint in enumerate(run.bodies.joints):
         if joint.name not in recording.targets or is_driven(run.settings.controls, joint.name):
             continue
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
-        if not abs(now - target) > sag_bound(joint, run):
+        if not abs(now - target) > get_sag_bound(joint, run):
             continue
         if state.settled is not None and _rolls(run, column):
             continue  # it was set down so, or slid; whether it stands does not depend on it
-        need = needed_effort(run, column)
-        length, force = _units(joint)
+        need = compute_needed_effort(run, column)
+        length, force = _collect_units(joint)
         allowed = joint.effort
         if allowed is None:
             why = "no effort is written, and it was held without bound: something pushes it away"
@@ -128,13 +128,13 @@ def _sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
             why = f"it may use {allowed:.4g} {force}, which was not enough"
         else:
             why = f"it uses {abs(used):.4g} of the {allowed:.4g} {force} that it may: "
-            why += _why_idle(run, column)
+            why += _explain_why_idle(run, column)
         yield Fault(
             "sags",
             Severity.ERROR,
             f"joint '{joint.name}' is held at {target:.3g} {length} and "
             f"{'is' if state.settled is None else 'came to rest'} at {now:.3g} {length}",
-            (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
+            (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
             why,
@@ -159,7 +159,7 @@ def _rolls(run: Run, column: int) -> bool:
     return bool(np.linalg.norm(off) < run.thresholds.wheel_offset * run.bodies.size)
 
 
-def _why_idle(run: Run, column: int) -> str:
+def _explain_why_idle(run: Run, column: int) -> str:
     """Explain why a joint is off its target though it could use more effort."""
     body = run.bodies.bodies[column + 1]
     if body.properties is not None and is_impossible(
@@ -169,7 +169,7 @@ def _why_idle(run: Run, column: int) -> str:
     return "it is blocked, or moves too slowly to be there in time"
 
 
-def needed_effort(run: Run, column: int) -> float | None:
+def compute_needed_effort(run: Run, column: int) -> float | None:
     """Compute the effort that a joint needs to hold its load where the run began [N·m, N].
 
     The static balance of weights: each body beyond the joint pulls at its center of mass, and its
@@ -185,16 +185,16 @@ def needed_effort(run: Run, column: int) -> float | None:
     links = {link for number in beyond for link in bodies[number].links}
     if any(contact.other == GROUND and contact.one in links for contact in recording.contacts):
         return None
-    gravity = np.array(run.settings.gravity_at(math.inf))
+    gravity = np.array(run.settings.compute_gravity_at(math.inf))
     pose = recording.poses[0]
-    turn = _rotation(pose[first])
+    turn = _get_rotation(pose[first])
     joint = bodies[first].joint
     assert joint is not None
     axis = turn @ np.array(joint.axis)
     total = joint.stiffness * (float(recording.positions[0, column]) - joint.spring_rest)
     for number in beyond:
         mass, center = bodies[number].weight
-        centre = pose[number, :3] + _rotation(pose[number]) @ center
+        centre = pose[number, :3] + _get_rotation(pose[number]) @ center
         weight = mass * gravity
         if joint.kind == "prismatic":
             total -= float(axis @ weight)
@@ -203,12 +203,12 @@ def needed_effort(run: Run, column: int) -> float | None:
     return total
 
 
-def _rotation(pose: np.ndarray) -> np.ndarray:
+def _get_rotation(pose: np.ndarray) -> np.ndarray:
     x, y, z, w = pose[3:].tolist()
-    return np.array(rotation_of_quaternion((w, x, y, z)))
+    return np.array(rotation_from_quaternion((w, x, y, z)))
 
 
-def _misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report mimic joints that their leader takes beyond a limit of their own."""
     columns = {name: column for column, name in enumerate(run.recording.joints)}
     for joint in run.bodies.joints:
@@ -218,15 +218,15 @@ def _misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
         asked = joint.multiplier * led + joint.offset
         if not max(joint.lower - asked, asked - joint.upper) > _limit_bound(joint, run):
             continue
-        length, _ = _units(joint)
+        length, _ = _collect_units(joint)
         side, limit = ("upper", joint.upper) if asked > joint.upper else ("lower", joint.lower)
-        mimic = _joint(robot, joint.name).mimic
+        mimic = _make_joint(robot, joint.name).mimic
         yield Fault(
             "beyond-limit",
             Severity.ERROR,
             f"joint '{joint.name}' follows '{joint.leader}' to {asked:.3g} {length}, beyond its "
             f"own {side} limit {limit:.3g}",
-            (mimic or _joint(robot, joint.name)).place,
+            (mimic or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
             "the multiplier or offset of its <mimic> is wrong, or its limits are",
@@ -234,20 +234,20 @@ def _misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
     for column, joint in enumerate(run.bodies.joints):
         now = float(run.recording.positions[-1, column])
         past = max(joint.lower - now, now - joint.upper)
         if not past > _limit_bound(joint, run):
             continue
-        length, _ = _units(joint)
+        length, _ = _collect_units(joint)
         side = "upper" if now > joint.upper else "lower"
         limit = joint.upper if now > joint.upper else joint.lower
         yield Fault(
             "beyond-limit",
             Severity.ERROR,
             f"joint '{joint.name}' is at {now:.3g} {length}, beyond its {side} limit {limit:.3g}",
-            (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
+            (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
             "it starts there, or what it mimics takes it there"
@@ -257,7 +257,7 @@ def _beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
     recording = run.recording
     if run.recording.still_since is None:
         return
@@ -265,23 +265,23 @@ def _near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
         used = abs(float(recording.efforts[-1, column]))
         near = run.thresholds.near_effort * (joint.effort or 0.0)
         if joint.name in recording.targets and joint.effort and used > near:
-            need = needed_effort(run, column)
+            need = compute_needed_effort(run, column)
             idle = need is not None and abs(need) < near
             if idle or _rolls(run, column):
                 continue  # it is on its way back, or wheels push against each other
-            _, force = _units(joint)
+            _, force = _collect_units(joint)
             yield Fault(
                 "near-effort-limit",
                 Severity.INFO,
                 f"joint '{joint.name}' uses {used:.4g} {force} to stand, of {joint.effort:.4g} it "
                 "may",
-                (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
+                (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
                 "joint",
                 joint.name,
             )
 
 
-def _without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
     names = [
         joint.name
         for joint in run.bodies.joints
@@ -294,7 +294,7 @@ def _without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
             Severity.INFO,
             f"joint '{names[0]}'{more} {'have' if more else 'has'} no effort above zero, and "
             f"{'were' if more else 'was'} held without bound",
-            _joint(robot, names[0]).place,
+            _make_joint(robot, names[0]).place,
             "joint",
             names[0],
             "write <limit effort> to see whether it can bear its load; Gazebo drives no joint of "
@@ -303,12 +303,12 @@ def _without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
     for joint in run.bodies.joints:
         had = run.recording.capped.get(joint.name)
         if had is None:
             continue
-        length, force = _units(joint)
+        length, force = _collect_units(joint)
         part = robot.joint[joint.name]
         least = run.settings.timestep * had / joint.damping
         yield Fault(
@@ -325,7 +325,7 @@ def _capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _not_held(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_not_held(robot: Robot, run: Run) -> Iterator[Fault]:
     if run.settings.hold != "actuated":
         return
     held = set(run.recording.held)
@@ -336,7 +336,7 @@ def _not_held(robot: Robot, run: Run) -> Iterator[Fault]:
             "not-held",
             Severity.INFO,
             f"nothing held {shown}: the file actuates other joints",
-            _joint(robot, names[0]).place,
+            _make_joint(robot, names[0]).place,
             "joint",
             names[0],
         )

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...model.elements import Robot
-from ...model.kinematics import link_poses, with_mimics
-from ..overlap import triangle_penetration
+from ...model.kinematics import add_mimic_positions, link_poses
+from ..overlap import measure_triangle_penetration
 from ..recording import Array
 from ..rigid_bodies import RigidBody, RigidBodyJoint
 from ..state import StateSnapshot
@@ -35,7 +35,7 @@ def find_mechanism(
         between: The bodies whose joints are between these two, as numbers.
     """
     bodies = start.bodies.bodies
-    ends = start.body_of(links[0]), start.body_of(links[1])
+    ends = start.get_body(links[0]), start.get_body(links[1])
     joints = [joint for number in between if (joint := bodies[number].joint) is not None]
     if _is_serial(bodies, ends):
         if _slides(start, between):
@@ -64,7 +64,7 @@ def _slides(start: StateSnapshot, between: Sequence[int]) -> bool:
         joint = start.bodies.bodies[number].joint
         if joint is None or joint.kind != "prismatic":
             return False
-        axes.append(np.array(start.pose(number).rotation) @ np.array(joint.axis))
+        axes.append(np.array(start.get_pose(number).rotation) @ np.array(joint.axis))
     return len(axes) > 1 and all(
         abs(float(axis @ axes[0])) > math.cos(start.thresholds.rod_angle) for axis in axes
     )
@@ -72,7 +72,7 @@ def _slides(start: StateSnapshot, between: Sequence[int]) -> bool:
 
 def _is_coaxial(start: StateSnapshot, ends: tuple[int, int]) -> bool:
     """Tell whether two bodies are long, one thinner than the other, and on one axis."""
-    found = [_long_axis(start, number) for number in ends]
+    found = [_find_long_axis(start, number) for number in ends]
     if found[0] is None or found[1] is None:
         return False
     (middle, along, width), (other, direction, thickness) = found[0], found[1]
@@ -84,20 +84,23 @@ def _is_coaxial(start: StateSnapshot, ends: tuple[int, int]) -> bool:
     return bool(off < start.thresholds.rod_offset * min(width, thickness))
 
 
-def _long_axis(start: StateSnapshot, number: int) -> tuple[Array, Array, float] | None:
+def _find_long_axis(start: StateSnapshot, number: int) -> tuple[Array, Array, float] | None:
     """Find center, long axis and width of a body's collision geometry, in the world [m].
 
     None where it is not clearly longer than wide.
     """
     corners = []
     for shape in start.bodies.bodies[number].shapes:
-        points = shape.corners()
+        points = shape.get_corners()
         turn, at = np.array(shape.pose.rotation), np.array(shape.pose.translation)
         corners.append(points @ turn.T + at)
     if not corners:
         return None
     points = np.concatenate(corners)
-    turn, at = np.array(start.pose(number).rotation), np.array(start.pose(number).translation)
+    turn, at = (
+        np.array(start.get_pose(number).rotation),
+        np.array(start.get_pose(number).translation),
+    )
     points = points @ turn.T + at
     _, axes = np.linalg.eigh(np.cov((points - points.mean(axis=0)).T))
     low, high = (points @ axes).min(axis=0), (points @ axes).max(axis=0)
@@ -113,10 +116,10 @@ def _keeps_overlap(
     robot: Robot, start: StateSnapshot, links: tuple[str, str], joints: Sequence[RigidBodyJoint]
 ) -> bool:
     """Tell whether two links overlap as deep wherever the one joint is that moves both."""
-    leaders = {_leader(start, joint).name for joint in joints}
+    leaders = {_find_leader(start, joint).name for joint in joints}
     if len(leaders) != 1:
         return False
-    leader = _leader(start, joints[0])
+    leader = _find_leader(start, joints[0])
     here = start.bodies.positions[leader.name]
     lower, upper = max(leader.lower, here - _WIDE), min(leader.upper, here + _WIDE)
     if not lower < upper:
@@ -127,8 +130,8 @@ def _keeps_overlap(
         for joint in start.bodies.joints:
             if joint.leader is not None:
                 positions.pop(joint.name, None)  # which follow
-        poses = link_poses(robot, with_mimics(robot, positions))
-        depth = triangle_penetration(robot, poses, *links)
+        poses = link_poses(robot, add_mimic_positions(robot, positions))
+        depth = measure_triangle_penetration(robot, poses, *links)
         if depth is None:
             return False
         depths.append(depth)
@@ -137,7 +140,7 @@ def _keeps_overlap(
     return min(depths) > 0 and max(depths) - min(depths) <= varies
 
 
-def _leader(start: StateSnapshot, joint: RigidBodyJoint) -> RigidBodyJoint:
+def _find_leader(start: StateSnapshot, joint: RigidBodyJoint) -> RigidBodyJoint:
     """Find the joint at the end of a chain of mimic joints."""
     known = {one.name: one for one in start.bodies.joints}
     while joint.leader is not None and joint.leader in known:

@@ -12,18 +12,20 @@ from collections.abc import Iterable
 import numpy as np
 
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
-from ...model.pose import Pose, pose_of
-from ..extent import bounding_box, shape_corners
-from ..mesh_cache import cached_for, outermost_points
-from ..overlap import primitive_triangles
+from ...model.pose import Pose, make_pose
+from ..extent import compute_bounding_box, get_shape_corners
+from ..mesh_cache import compute_once, get_outermost_points
+from ..overlap import tessellate_primitive_triangles
 from ..recording import Array
 from ..shapes import Shape, is_without_extent
-from ..solids import Solids, hulls
+from ..solids import Solids, compute_hulls
 from ..state import StateSnapshot
 from .thresholds import Thresholds
 
 
-def misplaced_collision(robot: Robot, snapshot: StateSnapshot, link: str, other: int) -> str | None:
+def explain_misplaced_collision(
+    robot: Robot, snapshot: StateSnapshot, link: str, other: int
+) -> str | None:
     """Say why collision geometry that overlaps a neighbor's is misplaced; None if it is not.
 
     Args:
@@ -34,39 +36,44 @@ def misplaced_collision(robot: Robot, snapshot: StateSnapshot, link: str, other:
     """
     part, bounds = robot.link[link], snapshot.thresholds
     box, shown_box = (
-        bounding_box(robot, part.collisions),
-        bounding_box(robot, visuals_with_known_pose(part)),
+        compute_bounding_box(robot, part.collisions),
+        compute_bounding_box(robot, list_visuals_with_known_pose(part)),
     )
     if box is None:
         return None
     if shown_box is not None and (moved := _copy_moved(box, shown_box, bounds)):
         return f"the collision of '{link}' is as large as what is seen of it, and {moved:.3g} m off"
     bodies = snapshot.bodies.bodies
-    own = snapshot.body_of(link)
+    own = snapshot.get_body(link)
     around = _is_housing(box, shown_box, snapshot, link, other)
     if around and bodies[other].parent == own:
         return None
-    there = snapshot.link_pose(link).inverse() @ snapshot.pose(other)
+    there = snapshot.link_pose(link).inverse() @ snapshot.get_pose(other)
     at = {name: there @ place for name, place in bodies[other].places.items()}
-    touches = _collision_solids(robot, snapshot, own, link)
-    theirs = _union(_collision_solids(robot, snapshot, other, name).moved(at[name]) for name in at)
+    touches = _build_collision_solids(robot, snapshot, own, link)
+    theirs = _make_union(
+        _build_collision_solids(robot, snapshot, other, name).transform(at[name]) for name in at
+    )
     smaller = min(touches.volume, theirs.volume)
     if not smaller:
         return None
 
     def share() -> float:  # the same for both of two bodies of a link each
         key = ("share", frozenset((link, *at)))
-        return snapshot.cached(key, lambda: touches.shared(theirs)) / smaller
+        return snapshot.get_or_compute(key, lambda: touches.compute_shared_volume(theirs)) / smaller
 
-    seen = _visual_solids(robot, snapshot, link)
-    shown = _union(_visual_solids(robot, snapshot, name).moved(at[name]) for name in at)
+    seen = _build_visual_solids(robot, snapshot, link)
+    shown = _make_union(
+        _build_visual_solids(robot, snapshot, name).transform(at[name]) for name in at
+    )
     if shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
         if _may_fit_better(touches, box, off, bounds) and share() > bounds.neighbor_overlap:
-            more = _fits_better(touches, off, seen, theirs, bounds)
+            more = _measure_better_fit(touches, off, seen, theirs, bounds)
             if more > bounds.better_fit and (
                 _is_nearer_mass(part, box, off)
-                or touches.shared(seen | shown) < (1 - bounds.outside_visuals) * touches.volume
+                or touches.compute_shared_volume(seen | shown)
+                < (1 - bounds.outside_visuals) * touches.volume
             ):
                 return (
                     f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
@@ -85,12 +92,12 @@ def misplaced_collision(robot: Robot, snapshot: StateSnapshot, link: str, other:
         return None
     if not seen:
         return None
-    unlike = snapshot.cached(("unlike", link), lambda: _are_unlike(touches, seen, bounds))
+    unlike = snapshot.get_or_compute(("unlike", link), lambda: _are_unlike(touches, seen, bounds))
     if not (unlike or is_offset_from_com(robot, link)) or share() <= bounds.neighbor_gain:
         return None
-    gain = share() - seen.shared(theirs) / smaller
+    gain = share() - seen.compute_shared_volume(theirs) / smaller
     if gain > bounds.neighbor_gain:
-        gain = min(gain, share() - seen.shared(shown) / smaller)
+        gain = min(gain, share() - seen.compute_shared_volume(shown) / smaller)
     if gain <= bounds.neighbor_gain:
         return None
     if unlike:
@@ -103,7 +110,9 @@ def misplaced_collision(robot: Robot, snapshot: StateSnapshot, link: str, other:
 
 def _are_unlike(touches: Solids, seen: Solids, bounds: Thresholds) -> bool:
     """Tell whether less is in both solids than if one were the other."""
-    return touches.shared(seen) < bounds.unlike_overlap * min(touches.volume, seen.volume)
+    return touches.compute_shared_volume(seen) < bounds.unlike_overlap * min(
+        touches.volume, seen.volume
+    )
 
 
 def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array], bounds: Thresholds) -> float:
@@ -126,7 +135,7 @@ def _may_fit_better(
     return swept > bounds.better_fit * touches.volume
 
 
-def _fits_better(
+def _measure_better_fit(
     touches: Solids, off: Array, seen: Solids, theirs: Solids, bounds: Thresholds
 ) -> float:
     """Measure how much more of a collision is in its visual when it is moved, as a part of it.
@@ -138,10 +147,12 @@ def _fits_better(
         theirs: What touches of the neighbour, of which it may share no more when it is moved.
         bounds: The thresholds.
     """
-    moved = touches.moved(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
-    more = (moved.shared(seen) - touches.shared(seen)) / touches.volume
-    grown = (1 + bounds.neighbor_growth) * touches.shared(theirs)
-    if more <= bounds.better_fit or moved.shared(theirs) > grown:
+    moved = touches.transform(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
+    more = (
+        moved.compute_shared_volume(seen) - touches.compute_shared_volume(seen)
+    ) / touches.volume
+    grown = (1 + bounds.neighbor_growth) * touches.compute_shared_volume(theirs)
+    if more <= bounds.better_fit or moved.compute_shared_volume(theirs) > grown:
         return 0.0
     return more
 
@@ -172,7 +183,7 @@ def _is_housing(
         other: Number of the neighbour's body.
     """
     bodies = snapshot.bodies.bodies
-    own = snapshot.body_of(link)
+    own = snapshot.get_body(link)
     place = bodies[own].places[link].inverse()
     centre, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
     if bodies[other].parent == own:  # the joint is the neighbour's
@@ -187,57 +198,58 @@ def _is_housing(
     return float(np.linalg.norm(centre - joint)) < snapshot.thresholds.housing_offset * size
 
 
-def _union(some: Iterable[Solids]) -> Solids:
+def _make_union(some: Iterable[Solids]) -> Solids:
     found = [solids for solids in some if solids]
     if len(found) == 1:
         return found[0]
     return Solids(part for solids in found for part in solids.parts)
 
 
-def _collision_solids(robot: Robot, snapshot: StateSnapshot, body: int, link: str) -> Solids:
+def _build_collision_solids(robot: Robot, snapshot: StateSnapshot, body: int, link: str) -> Solids:
     """Build the convex pieces of a link's collision geometry in its frame, as engines have them."""
 
     def make() -> Solids:
         shapes = [shape for shape in snapshot.bodies.bodies[body].shapes if shape.link == link]
         collisions = [c for c in robot.link[link].collisions if not is_without_extent(c)]
-        return _union(
-            _collision_solid(robot, shape, collision).moved(pose_of(collision.origin))
+        return _make_union(
+            _build_collision_solid(robot, shape, collision).transform(make_pose(collision.origin))
             for shape, collision in zip(shapes, collisions, strict=True)
         )
 
-    return snapshot.cached(("touching", link), make)
+    return snapshot.get_or_compute(("touching", link), make)
 
 
-def _collision_solid(robot: Robot, shape: Shape, collision: Collision) -> Solids:
+def _build_collision_solid(robot: Robot, shape: Shape, collision: Collision) -> Solids:
     """Build the convex pieces of a collision in its own frame."""
     geometry = collision.geometry
     if isinstance(geometry, Mesh):
         counts = tuple(map(len, shape.pieces))  # what is tried on bodies may have other pieces
         key = ("solids", geometry.filename, geometry.scale, counts)
-        return cached_for(robot, key, lambda: hulls(shape.pieces))
-    return hulls([primitive_triangles(collision).reshape(-1, 3)])
+        return compute_once(robot, key, lambda: compute_hulls(shape.pieces))
+    return compute_hulls([tessellate_primitive_triangles(collision).reshape(-1, 3)])
 
 
-def _visual_solids(robot: Robot, snapshot: StateSnapshot, link: str) -> Solids:
+def _build_visual_solids(robot: Robot, snapshot: StateSnapshot, link: str) -> Solids:
     """Build the hulls of a link's visuals in its frame."""
-    return snapshot.cached(
+    return snapshot.get_or_compute(
         ("seen", link),
-        lambda: _union(
-            _visual_solid(robot, look) for look in visuals_with_known_pose(robot.link[link])
+        lambda: _make_union(
+            _make_visual_solid(robot, look)
+            for look in list_visuals_with_known_pose(robot.link[link])
         ),
     )
 
 
-def _visual_solid(robot: Robot, look: Visual) -> Solids:
-    geometry, pose = look.geometry, pose_of(look.origin)
+def _make_visual_solid(robot: Robot, look: Visual) -> Solids:
+    geometry, pose = look.geometry, make_pose(look.origin)
     if isinstance(geometry, Mesh):
-        points = outermost_points(robot, geometry)
+        points = get_outermost_points(robot, geometry)
         if points is None:
             return Solids([])
         key = ("look", geometry.filename, geometry.scale)
-        return cached_for(robot, key, lambda: hulls([points])).moved(pose)
-    corners = shape_corners(robot, look)
-    return Solids([]) if corners is None else hulls([corners])
+        return compute_once(robot, key, lambda: compute_hulls([points])).transform(pose)
+    corners = get_shape_corners(robot, look)
+    return Solids([]) if corners is None else compute_hulls([corners])
 
 
 def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
@@ -250,7 +262,8 @@ def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
     """
     link = robot.link[name]
     touches, seen = (
-        bounding_box(robot, group) for group in (link.collisions, visuals_with_known_pose(link))
+        compute_bounding_box(robot, group)
+        for group in (link.collisions, list_visuals_with_known_pose(link))
     )
     if touches is None:
         return False
@@ -261,7 +274,7 @@ def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
     return bool((shared < overlap * smaller - 1e-6).any())
 
 
-def visuals_with_known_pose(link: Link) -> list[Visual]:
+def list_visuals_with_known_pose(link: Link) -> list[Visual]:
     """List the visuals of a link without glTF, whose up axis readers differ in."""
     return [
         visual
@@ -276,7 +289,7 @@ def visuals_with_known_pose(link: Link) -> list[Visual]:
 def is_offset_from_com(robot: Robot, name: str) -> bool:
     """Tell whether a link's center of mass is more than half a box outside its collision box."""
     link = robot.link[name]
-    touches = bounding_box(robot, link.collisions)
+    touches = compute_bounding_box(robot, link.collisions)
     if touches is None or not link.mass or link.inertial is None:
         return False
     centre = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))

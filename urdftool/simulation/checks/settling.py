@@ -9,7 +9,7 @@ import numpy as np
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
-from ..engines.registry import alternatives
+from ..engines.registry import name_alternative
 from ..fault import Fault, quote_names
 from ..recording import Array, Recording
 from ..run import Run
@@ -25,7 +25,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
     heavy = max(bodies.mass * run.settings.gravity * size, 1e-9)
     blew = recording.ended == "lost" or state.gain > run.thresholds.energy_gain * heavy + 1e-3
     if blew and not state.fell:
-        name = _fastest_link(run)
+        name = _format_fastest_link(run)
         gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "beyond all bounds"
         yield Fault(
             "blew-up",
@@ -56,8 +56,8 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         )
         return
     if state.settled is None:
-        name, does = _fastest_motion(run)
-        joint = _fastest_joint(recording)
+        name, does = _find_fastest_motion(run)
+        joint = _collect_fastest_joint(recording)
         at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
         yield Fault(
             "not-settled",
@@ -79,28 +79,28 @@ def _time_of_most_energy(recording: Recording) -> float:
     return float(recording.times[int(total.argmax())])
 
 
-def _speeds(run: Run) -> Array:
+def _compute_speeds(run: Run) -> Array:
     found: Array = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, :3]), axis=1)
     return found
 
 
-def _fastest_link(run: Run) -> str:
-    return run.recording.bodies[int(_speeds(run).argmax())]
+def _format_fastest_link(run: Run) -> str:
+    return run.recording.bodies[int(_compute_speeds(run).argmax())]
 
 
-def _fastest_motion(run: Run) -> tuple[str, str]:
+def _find_fastest_motion(run: Run) -> tuple[str, str]:
     """Find the link that moves most at the end, and say how: it turns if none moves away."""
-    speeds = _speeds(run)
+    speeds = _compute_speeds(run)
     rates = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, 3:]), axis=1)
     turning = int(rates.argmax())
     bounds, window = run.thresholds, run.thresholds.settle_window
     slow = speeds.max() * window < bounds.settle_creep * run.bodies.size
     if slow and rates[turning] * window > bounds.settle_turn:
         return run.recording.bodies[turning], f"turns at {rates[turning]:.3g} rad/s"
-    return _fastest_link(run), f"moves at {speeds.max():.3g} m/s"
+    return _format_fastest_link(run), f"moves at {speeds.max():.3g} m/s"
 
 
-def _fastest_joint(recording: Recording) -> tuple[str, float] | None:
+def _collect_fastest_joint(recording: Recording) -> tuple[str, float] | None:
     if not recording.joints:
         return None
     rates = np.abs(np.nan_to_num(recording.rates[-1]))
@@ -139,7 +139,7 @@ def diagnose_motion(run: Run, drift: float) -> str:
     slow = slow and velocities[:, 3:].max() < bounds.creep_rate
     engine = recording.capabilities
     if slow and engine.creeps:
-        other = alternatives(engine.name, lambda known: not known.creeps)
+        other = name_alternative(engine.name, lambda known: not known.creeps)
         advice = f": {other} has others" if other else ""
         return f"it creeps, which may be the engine's contacts{advice}"
     return "parts push against each other, or it rolls"

@@ -9,11 +9,11 @@ import numpy as np
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
-from ...rules.gazebo.contact import contact_role
+from ...rules.gazebo.contact import get_contact_role
 from ..fault import Fault, quote_names
 from ..recording import GROUND, Contact
 from ..run import Run
-from ..shapes import lowest_height
+from ..shapes import compute_lowest_height
 from .final_state import FinalState
 
 
@@ -29,19 +29,19 @@ def check_support(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         return
     if not bodies.bodies[0].mass:
         return  # which is reported; engines hold such a root in the air
-    yield from _unsupported(robot, run, state)
-    yield from _wheels_in_the_air(robot, run, state)
-    yield from _body_on_ground(robot, run)
+    yield from _report_unsupported(robot, run, state)
+    yield from _report_wheels_in_the_air(robot, run, state)
+    yield from _report_body_on_ground(robot, run)
 
 
-def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Report a robot at rest that no contact with the ground could keep there."""
     bounds = run.thresholds
     weight = run.settings.gravity * math.fsum(body.weight[0] for body in run.bodies.bodies)
     carried = run.recording.carried
     least = max(bounds.support_margin * run.bodies.size, bounds.support_margin_min)
     root = robot.link[run.bodies.bodies[0].name]
-    names = quote_names(_carrying(run))
+    names = quote_names(_list_supporting_links(run))
     if weight > 0 and carried < bounds.carried_weight * weight:
         what = f"the ground carries {carried:.3g} N of the {weight:.3g} N that the robot weighs"
     elif state.margin is not None and state.margin < -least:
@@ -49,7 +49,7 @@ def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         what += f" of {names}"
     else:
         return
-    inner = _internal_overlaps(run)
+    inner = _list_internal_overlaps(run)
     if inner:
         pairs = ", ".join(f"'{c.one}' and '{c.other}' ({1000 * c.depth:.0f} mm)" for c in inner[:3])
         why = f"contacts inside the robot carry it: {pairs} overlap"
@@ -58,7 +58,7 @@ def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     yield Fault("unsupported", Severity.ERROR, what, root.place, "link", root.name, why)
 
 
-def _internal_overlaps(run: Run) -> list[Contact]:
+def _list_internal_overlaps(run: Run) -> list[Contact]:
     """List the overlaps of links that push each other, the deepest first."""
     if not run.settings.self_collision:
         return []
@@ -66,30 +66,30 @@ def _internal_overlaps(run: Run) -> list[Contact]:
     return sorted(found, key=lambda contact: -contact.depth)
 
 
-def _carrying(run: Run) -> list[str]:
+def _list_supporting_links(run: Run) -> list[str]:
     """List the links that carried the robot at the end, in the order of the file."""
     touching = {contact.one for contact in run.recording.carrying}
     return [name for body in run.bodies.bodies for name in body.links if name in touching]
 
 
-def _by_role(robot: Robot, run: Run, role: str) -> dict[int, str]:
+def _find_wheels_and_feet(robot: Robot, run: Run, role: str) -> dict[int, str]:
     """Find the bodies that are a wheel or a foot, each with the link that makes contact."""
     found: dict[int, str] = {}
     for number, body in enumerate(run.bodies.bodies):
         for name in body.links if number else ():
-            if contact_role(robot, robot.link[name]) == role:
+            if get_contact_role(robot, robot.link[name]) == role:
                 found.setdefault(number, name)
     return found
 
 
-def _wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    wheels = _by_role(robot, run, "wheel")
-    carrying = _carrying(run)
-    numbers = {run.start.body_of(name) for name in carrying}
+def _report_wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    wheels = _find_wheels_and_feet(robot, run, "wheel")
+    carrying = _list_supporting_links(run)
+    numbers = {run.start.get_body(name) for name in carrying}
     if len(wheels) < run.thresholds.supporting_parts or numbers & set(wheels) or not carrying:
         return
     name = next(iter(wheels.values()))
-    height = min(_height(run, number) for number in wheels)
+    height = min(_compute_height(run, number) for number in wheels)
     yield Fault(
         "wheels-off-ground",
         Severity.ERROR,
@@ -103,18 +103,18 @@ def _wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fa
     )
 
 
-def _height(run: Run, number: int) -> float:
+def _compute_height(run: Run, number: int) -> float:
     """Compute the height of a body's lowest point [m]."""
-    pose = run.end.pose(number)
+    pose = run.end.get_pose(number)
     shapes = run.bodies.bodies[number].shapes
-    return lowest_height(shapes, np.array(pose.rotation), np.array(pose.translation))
+    return compute_lowest_height(shapes, np.array(pose.rotation), np.array(pose.translation))
 
 
-def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report a chassis or trunk on the ground, of a robot with wheels or feet."""
-    wheels, feet = (_by_role(robot, run, role) for role in ("wheel", "foot"))
-    carrying = set(_carrying(run))
-    on_wheels = {run.start.body_of(name) for name in carrying} & set(wheels)
+    wheels, feet = (_find_wheels_and_feet(robot, run, role) for role in ("wheel", "foot"))
+    carrying = set(_list_supporting_links(run))
+    on_wheels = {run.start.get_body(name) for name in carrying} & set(wheels)
     if (
         not (len(wheels) >= run.thresholds.supporting_parts and on_wheels)
         and len(feet) < run.thresholds.supporting_parts
@@ -122,7 +122,7 @@ def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
         return
     root = run.bodies.bodies[0]
     for name in root.links:
-        if name not in carrying or contact_role(robot, robot.link[name]):
+        if name not in carrying or get_contact_role(robot, robot.link[name]):
             continue
         if all(shape.kind == "sphere" for shape in root.shapes if shape.link == name):
             continue  # a caster

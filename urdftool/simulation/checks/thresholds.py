@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ...errors import ConfigError
-from ...suggestions import did_you_mean
+from ...suggestions import suggest_name
 from ..rigid_bodies import TENSOR_ROUNDING
 
 
@@ -267,7 +267,9 @@ def read_thresholds(table: Mapping[str, Any], path: str | None = None) -> Thresh
     for key, value in table.items():
         name = key.replace("-", "_")
         if name not in types:
-            raise ConfigError(f"simulate has no threshold '{key}'{_hint(key, types)}", path=path)
+            raise ConfigError(
+                f"simulate has no threshold '{key}'{_format_hint(key, types)}", path=path
+            )
         whole = types[name] is int
         if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
             kind = "a whole number" if whole else "a number"
@@ -278,6 +280,6 @@ def read_thresholds(table: Mapping[str, Any], path: str | None = None) -> Thresh
     return Thresholds(**found)
 
 
-def _hint(key: str, names: Mapping[str, type]) -> str:
+def _format_hint(key: str, names: Mapping[str, type]) -> str:
     known = [name.replace("_", "-") for name in names]
-    return did_you_mean(key, known, 0.5) or "; docs/configuration.md lists them"
+    return suggest_name(key, known, 0.5) or "; docs/configuration.md lists them"

@@ -11,7 +11,7 @@ from ...diagnostic import Severity
 from ...model.elements import Robot
 from ..fault import Fault, quote_names
 from ..run import Run
-from .final_state import FinalState, initial_support_links
+from .final_state import FinalState, find_initial_support_links
 
 
 def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
@@ -28,16 +28,16 @@ def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
             top.place,
             "link",
             top.name,
-            _why_tilted(run, state),
+            _explain_why_tilted(run, state),
         )
     elif state.drift > thresholds.slide_distance * size:
         yield from _check_sliding(robot, run, state)
 
 
-def _why_tilted(run: Run, state: FinalState) -> str:
+def _explain_why_tilted(run: Run, state: FinalState) -> str:
     if _looks_like_manipulator(run):
         return "an arm is usually bolted down: --fixed-base simulates it so"
-    names = initial_support_links(run)
+    names = find_initial_support_links(run)
     if state.margin is not None and state.margin < 0:
         why = "its centre of mass is not above where it touches the floor"
     elif state.supports:
@@ -69,10 +69,10 @@ def _check_sliding(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]
     slick = [
         name
         for name in names
-        if (friction := run.bodies.bodies[run.start.body_of(name)].surface.friction) is not None
+        if (friction := run.bodies.bodies[run.start.get_body(name)].surface.friction) is not None
         and friction < abs(math.tan(slope))
     ]
-    rolled = _rolled(run, dict.fromkeys((*supports, *initial_support_links(run))))
+    rolled = _choose_rolled_links(run, dict.fromkeys((*supports, *find_initial_support_links(run))))
     name = rolled[0] if rolled else slick[0] if slick else names[0]
     yield Fault(
         "slid",
@@ -83,15 +83,15 @@ def _check_sliding(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]
         robot.link[name].place,
         "link",
         name,
-        _why(run, rolled, slick),
+        _format_why(run, rolled, slick),
         "implausible-friction" if slick and not rolled else "",
     )
 
 
-def _why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
+def _format_why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
     slope = run.settings.slope
     if rolled and slope:
-        joint = run.bodies.bodies[run.start.body_of(rolled[0])].joint
+        joint = run.bodies.bodies[run.start.get_body(rolled[0])].joint
         held = joint is not None and joint.name in run.recording.targets
         brake = "held with less effort than it takes" if held else "and nothing brakes them"
         return f"its wheels turned, {brake}"
@@ -102,12 +102,12 @@ def _why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
     return "it was pushed, or rolls"
 
 
-def _rolled(run: Run, names: Iterable[str]) -> list[str]:
+def _choose_rolled_links(run: Run, names: Iterable[str]) -> list[str]:
     """Choose the links on a continuous joint that turned."""
     turned = np.abs(run.recording.positions[-1] - run.recording.positions[0])
     found = []
     for name in names:
-        number = run.start.body_of(name)
+        number = run.start.get_body(name)
         joint = run.bodies.bodies[number].joint
         if (
             joint is not None

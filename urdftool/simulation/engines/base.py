@@ -83,10 +83,10 @@ class World(Protocol):
     def is_broken(self) -> bool:
         """Tell whether the engine reports that its state is not finite."""
 
-    def contacts(self) -> list[Contact]:
+    def list_contacts(self) -> list[Contact]:
         """List the contacts with the plane."""
 
-    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+    def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
         """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
 
     def set_joint_position(self, joint: int, value: float) -> None:

@@ -16,7 +16,7 @@ from ..recording import Array, Contact, Hit, Recording, Swept
 from ..rigid_bodies import RigidBodyModel
 from ..settings import Settings
 from .base import Capabilities, Sample, World
-from .registry import alternatives, load_engine
+from .registry import load_engine, name_alternative
 
 SAMPLE = 1 / 30
 """Time between samples, as near as the timestep allows [s]."""
@@ -62,7 +62,7 @@ def _check_joints(known: Capabilities, count: int) -> None:
     most = known.max_joints
     if most is None or count <= most:
         return
-    other = alternatives(known.name, lambda c: c.max_joints is None or c.max_joints >= count)
+    other = name_alternative(known.name, lambda c: c.max_joints is None or c.max_joints >= count)
     raise ModelError(
         f"the robot has {count} moving joints; {known.title} takes at most {most}"
         + (f"; {other} takes more" if other else "")
@@ -79,14 +79,16 @@ def settle(
     interval = every * settings.timestep
     watch = Stillness(bodies, interval, thresholds)
     late: deque[list[Contact]] = deque(maxlen=max(1, round(thresholds.settle_window / interval)))
-    start_contacts = world.overlaps()
+    start_contacts = world.find_overlaps()
     samples = [world.sample(0.0)]
     emit((samples[0]["poses"], start_contacts))
     began = perf_counter()
     still: float | None = None
     ended, done = "time", 0
     while done < steps and ended == "time":
-        world.set_gravity(settings.gravity_at(done * settings.timestep), samples[-1]["poses"])
+        world.set_gravity(
+            settings.compute_gravity_at(done * settings.timestep), samples[-1]["poses"]
+        )
         for _ in range(min(every, steps - done)):
             world.step()
             done += 1
@@ -95,7 +97,7 @@ def settle(
         if world.is_broken() or not _is_sane(sample, bodies):
             ended = "lost"
             break
-        late.append([touch for touch in world.contacts() if touch.force > 0])
+        late.append([touch for touch in world.list_contacts() if touch.force > 0])
         still = watch.add(sample["times"], sample["poses"], sample["positions"])
         if still is not None and sample["times"] > thresholds.settle_min_time:
             ended = "still"
@@ -111,7 +113,7 @@ def settle(
         held=bodies.held,
         targets={name: bodies.positions[name] for name in bodies.held},
         start_contacts=start_contacts,
-        contacts=world.contacts() + world.overlaps(ground=False),
+        contacts=world.list_contacts() + world.find_overlaps(ground=False),
         carrying=[touch for some in late for touch in some],
         carried=sum(touch.force for some in late for touch in some) / len(late)
         if late
@@ -199,7 +201,7 @@ def sweep_world(world: World, bodies: RigidBodyModel) -> list[Swept]:
     Overlaps of the start are left out. A continuous joint, and one without limits, goes through
     half a turn, or a meter, to each side.
     """
-    at_start = {_pair(contact) for contact in world.overlaps(ground=False)}
+    at_start = {_pair(contact) for contact in world.find_overlaps(ground=False)}
     found = []
     for number, joint in enumerate(bodies.joints):
         if joint.leader is not None:
@@ -209,31 +211,33 @@ def sweep_world(world: World, bodies: RigidBodyModel) -> list[Swept]:
             low, high = (-math.pi, math.pi) if joint.kind != "prismatic" else (-1.0, 1.0)
         hits: dict[frozenset[str], list[tuple[float, float, tuple[str, str]]]] = {}
         start = bodies.positions[joint.name]
-        for value in _values(low, high, start):
+        for value in _collect_values(low, high, start):
             world.set_joint_position(number, value)
-            for contact in world.overlaps(ground=False):
+            for contact in world.find_overlaps(ground=False):
                 if _pair(contact) not in at_start:
                     where = (value, contact.depth, (contact.one, contact.other))
                     hits.setdefault(_pair(contact), []).append(where)
         world.set_joint_position(number, start)
-        free_low, free_high = _free(low, high, start, [v for h in hits.values() for v, _, _ in h])
+        free_low, free_high = _get_free_range(
+            low, high, start, [v for h in hits.values() for v, _, _ in h]
+        )
         found.append(
-            Swept(joint.name, low, high, free_low, free_high, [_hit(h) for h in hits.values()])
+            Swept(joint.name, low, high, free_low, free_high, [_make_hit(h) for h in hits.values()])
         )
     return found
 
 
-def _hit(found: list[tuple[float, float, tuple[str, str]]]) -> Hit:
+def _make_hit(found: list[tuple[float, float, tuple[str, str]]]) -> Hit:
     values = [value for value, _, _ in found]
     return Hit(*found[0][2], min(values), max(values), max(depth for _, depth, _ in found))
 
 
-def _values(low: float, high: float, start: float) -> list[float]:
+def _collect_values(low: float, high: float, start: float) -> list[float]:
     inner = np.linspace(low, high, SWEEP_STEPS + 1)
     return sorted({*inner.tolist(), min(max(start, low), high)})
 
 
-def _free(low: float, high: float, start: float, hit: list[float]) -> tuple[float, float]:
+def _get_free_range(low: float, high: float, start: float, hit: list[float]) -> tuple[float, float]:
     """Return the range around the start in which nothing is hit."""
     below = [value for value in hit if value < start]
     above = [value for value in hit if value > start]

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 
 from ...errors import MissingDependency
-from ...extras import install_command, is_installed, missing
+from ...extras import install_command, is_installed, make_missing_error
 from .base import Capabilities, Engine
 
 REGISTRY = {
@@ -27,34 +27,34 @@ def load_engine(name: str) -> Engine:
     return engine
 
 
-def engine_names(option: str) -> tuple[str, ...]:
+def get_engine_names(option: str) -> tuple[str, ...]:
     """Return the engines that a value of ``--engine`` runs."""
     return tuple(REGISTRY)[:2] if option == BOTH else (option,)
 
 
-def library_of(name: str) -> str:
+def get_library(name: str) -> str:
     """Return the Python package that an engine imports."""
     return load_engine(name).capabilities.library
 
 
-def alternatives(name: str, suits: Callable[[Capabilities], bool]) -> str:
+def name_alternative(name: str, suits: Callable[[Capabilities], bool]) -> str:
     """Name the first other engine that suits, as ``--engine mujoco``; empty if none does."""
     others = (load_engine(other).capabilities for other in REGISTRY if other != name)
     return next((f"--engine {other.name}" for other in others if suits(other)), "")
 
 
-def default_engine() -> str:
+def choose_default_engine() -> str:
     """Choose the first engine that is installed.
 
     Raises:
         MissingDependency: None is installed.
     """
     for name in REGISTRY:
-        if is_installed(library_of(name)):
+        if is_installed(get_library(name)):
             return name
     raise MissingDependency(
-        f"'urdftool simulate' requires a physics engine, and none is installed: {_advice()}",
-        library=extra_library(),
+        f"'urdftool simulate' requires a physics engine, and none is installed: {_get_advice()}",
+        library=get_extra_library(),
     )
 
 
@@ -73,37 +73,37 @@ def check_engines(names: Iterable[str]) -> None:
         if is_installed(known.library):
             continue
         if engine.has_wheel():
-            raise missing(known.library, f"--engine {name}")
+            raise make_missing_error(known.library, f"--engine {name}")
         raise MissingDependency(
             f"{known.title} is not installed and has wheels for {known.wheels} only, not for "
-            f"{_here()}: {_advice()}",
+            f"{_format_here()}: {_get_advice()}",
             library=known.library,
         )
 
 
-def extra_library() -> str:
+def get_extra_library() -> str:
     """Return the engine's library that the extra ``simulate`` installs on this machine."""
     *preferred, last = REGISTRY
-    return library_of(next((name for name in preferred if load_engine(name).has_wheel()), last))
+    return get_library(next((name for name in preferred if load_engine(name).has_wheel()), last))
 
 
-def _advice() -> str:
+def _get_advice() -> str:
     """Say which engine can be installed on this machine, and how."""
     if load_engine(next(iter(REGISTRY))).has_wheel():
         return install_command("simulate")
     for name in REGISTRY:
-        if is_installed(library_of(name)):
+        if is_installed(get_library(name)):
             return f"use --engine {name}"
     for name in REGISTRY:
         if load_engine(name).has_wheel():
             return f"use --engine {name}, after {install_command('simulate')}"
     titles = " nor ".join(load_engine(name).capabilities.title for name in REGISTRY)
     return (
-        f"neither {titles} has a wheel for {_here()}; simulate on Linux, macOS or "
+        f"neither {titles} has a wheel for {_format_here()}; simulate on Linux, macOS or "
         "Windows on x86-64, or on Linux or macOS on ARM"
     )
 
 
-def _here() -> str:
+def _format_here() -> str:
     version = f"{sys.version_info[0]}.{sys.version_info[1]}"
     return f"Python {version} on {platform.system()} {platform.machine()}"

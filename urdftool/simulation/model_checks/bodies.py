@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...diagnostic import Severity
-from ...mechanics.tensor import SymmetricTensor, consistency
+from ...mechanics.tensor import SymmetricTensor, measure_consistency
 from ...model.elements import Robot
 from ..extent import measure_extent
 from ..fault import Fault
@@ -117,7 +117,7 @@ def is_impossible(tensor: SymmetricTensor, excess: float) -> bool:
         tensor: About the center of mass [kg·m²].
         excess: How far it may exceed the triangle inequality [1].
     """
-    found = consistency(tensor)
+    found = measure_consistency(tensor)
     return found.size == 0 or found.negativity > 1e-9 or found.excess > excess / (1 + excess)
 
 

@@ -11,7 +11,7 @@ from ...finding import Finding
 from ...lint.validate import validate
 from ...model.elements import Robot
 from ..fault import Fault
-from ..mesh_cache import cached_for
+from ..mesh_cache import compute_once
 from ..rigid_bodies import RigidBody, link_mass_properties
 from ..run import Run
 from .bodies import (
@@ -73,7 +73,7 @@ class Described(NamedTuple):
 
 def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
     """Report what rules find in the file and matters in a run, and what the engine misread."""
-    findings = cached_for(robot, "findings", lambda: validate(robot, "simulate"))
+    findings = compute_once(robot, "findings", lambda: validate(robot, "simulate"))
     known = {body.name for body in run.bodies.bodies if not body.mass}
     massless = frozenset(
         {body.name for body in massless_bodies(robot, run)} | large_massless_links(robot, run)

@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from ...mechanics.spatial_inertia import SpatialInertia
-from ...mechanics.tensor import principal_axes, tensor_of_matrix
+from ...mechanics.tensor import compute_principal_axes, from_matrix
 from ...model.elements import Link, Robot
 from ..checks.thresholds import Thresholds
 from ..extent import Extent, measure_extent
@@ -51,15 +51,17 @@ def slows_link(robot: Robot, link: Link, run: Run, *, placeholder: bool) -> bool
     heavy = share > bounds.light_link
     if not (heavy or _dominates(own.inertia, link.name, run)):
         return False
-    extent = _extent_around(robot, link, run)
-    reach = extent.reach(np.array(own.com))
+    extent = _measure_extent_around(robot, link, run)
+    reach = extent.measure_reach(np.array(own.com))
     if reach and spread > (bounds.gyration_reach if heavy else bounds.light_gyration_reach) * reach:
         return True
     if not heavy or not reach:
         return False
     if placeholder and _exceeds_solid(own.inertia, own.mass, extent, bounds):
         return True
-    around = _extent_around(robot, link, run, all_links=True)  # the mass may be in what is fixed
+    around = _measure_extent_around(
+        robot, link, run, all_links=True
+    )  # the mass may be in what is fixed
     return all(_is_too_wide(own.inertia, own.mass, one, bounds) for one in (extent, around))
 
 
@@ -74,27 +76,27 @@ def _slows_frame(robot: Robot, link: Link, own: SpatialInertia, spread: float, r
     ):
         return False
     center = np.array(body.places[link.name].transform(own.com))
-    at = np.array(run.start.pose(bodies.index(body)).transform(tuple(center.tolist())))
-    reach = float(np.linalg.norm(_frame_origins(run) - at, axis=1).max())
+    at = np.array(run.start.get_pose(bodies.index(body)).transform(tuple(center.tolist())))
+    reach = float(np.linalg.norm(_collect_frame_origins(run) - at, axis=1).max())
     return spread > reach  # on average farther than the farthest corner
 
 
-def _frame_origins(run: Run) -> Array:
+def _collect_frame_origins(run: Run) -> Array:
     """Collect frames of bodies and corners of their shapes at the start, shape (n, 3)."""
     found = []
     for number, body in enumerate(run.bodies.bodies):
-        pose = run.start.pose(number)
+        pose = run.start.get_pose(number)
         found.append(pose.translation)
         for shape in body.shapes:
             found += [
-                pose.transform(corner) for corner in product(*zip(*shape.bounds(), strict=True))
+                pose.transform(corner) for corner in product(*zip(*shape.get_bounds(), strict=True))
             ]
     return np.array(found)
 
 
 def _is_too_wide(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> bool:
     """Tell whether the mass of a tensor is spread beyond the shapes along an axis."""
-    moments, half = _halves(tensor, extent, bounds)
+    moments, half = _compute_halves(tensor, extent, bounds)
     spread = np.sqrt(np.maximum(0.0, moments.sum() / 2 - moments) / mass)
     worst = int((spread / half).argmax())
     return bool(
@@ -104,14 +106,14 @@ def _is_too_wide(tensor: Array, mass: float, extent: Extent, bounds: Thresholds)
 
 def _exceeds_solid(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> bool:
     """Tell whether a placeholder is larger than the tensor of a solid of the link's size."""
-    _, half = _halves(tensor, extent, bounds)
+    _, half = _compute_halves(tensor, extent, bounds)
     solid = mass / 3 * (float(half @ half) - half**2)
     return bool(tensor[0, 0] > bounds.placeholder_ratio * solid.min())
 
 
-def _halves(tensor: Array, extent: Extent, bounds: Thresholds) -> tuple[Array, Array]:
+def _compute_halves(tensor: Array, extent: Extent, bounds: Thresholds) -> tuple[Array, Array]:
     """Compute principal moments, and half the extent of the shapes along each axis [m]."""
-    moments, axes = principal_axes(tensor_of_matrix(tensor))
+    moments, axes = compute_principal_axes(from_matrix(tensor))
     along = extent.points @ axes
     half = (along.max(axis=0) - along.min(axis=0)) / 2
     return moments, np.maximum(half, bounds.sheet_thickness * half.max())
@@ -126,7 +128,9 @@ def _dominates(tensor: Array, name: str, run: Run) -> bool:
     )
 
 
-def _extent_around(robot: Robot, link: Link, run: Run, *, all_links: bool = False) -> Extent:
+def _measure_extent_around(
+    robot: Robot, link: Link, run: Run, *, all_links: bool = False
+) -> Extent:
     """Measure the extent of a link; without shapes, that of its rigid body, in its frame."""
     if has_shapes(robot, link.name) and not all_links:
         return measure_extent(robot, link.name)

@@ -16,17 +16,17 @@ from ...common.force_fallbacks import drop_invalid_parts
 from ...written import Written
 from ..options import Options
 from ..write import write
-from .dynamics import centroidal, mass_matrix, poses
-from .excuses import Excuses, excuses_of
+from .dynamics import compute_centroidal, compute_mass_matrix, compute_poses
+from .excuses import Excuses, sort_excuses
 from .flags import compare_base, compare_flags, compare_joint_physics
-from .loader import loads
-from .mechanism import Array, Hinge, Mechanism, inverse
+from .loader import run_loads
+from .mechanism import Array, Hinge, Mechanism, invert_pose
 from .others import compare_others
 from .plugins import compare_plugins
 from .reader import Frames, open_model, read_model
 from .sensors import compare_sensors
 from .shapes import compare_colors, compare_shapes
-from .source import base_of, mechanism_of, pose
+from .source import convert_mechanism, get_base, get_pose
 from .surfaces import compare_contact, compare_looks, compare_surface
 from .world import compare_world
 
@@ -56,7 +56,7 @@ class Pair:
         """Return the exported name of a link, or of its frame."""
         return self.renamed.get(("link", name), name)
 
-    def joint(self, name: str) -> str:
+    def get_joint(self, name: str) -> str:
         """Return the exported name of a joint."""
         return self.renamed.get(("joint", name), name)
 
@@ -73,7 +73,7 @@ class Pair:
             joint = self.robot.tree.parent_joint(name)
             if joint is None or not joint.is_fixed:
                 return None
-            inside, name = pose(joint.origin) @ inside, joint.parent
+            inside, name = get_pose(joint.origin) @ inside, joint.parent
         return None
 
 
@@ -95,8 +95,8 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     checks = compare(pair)
     if options.world:
         checks.append(compare_world(pair, place))
-    checks.append(_same_again(robot, written, options))
-    loaded = loads(robot, options, place)
+    checks.append(_check_same_again(robot, written, options))
+    loaded = run_loads(robot, options, place)
     return checks if loaded is None else [*checks, loaded]
 
 
@@ -108,16 +108,16 @@ def pair_of(robot: Robot, written: Written, place: Path, options: Options | None
 
     where = open_model(place)
     made = read_model(where, place, find)
-    excuses = excuses_of(written.losses, robot)
+    excuses = sort_excuses(written.losses, robot)
     options = options or Options()
-    source = mechanism_of(robot, options.actuator_config)
+    source = convert_mechanism(robot, options.actuator_config)
     return Pair(robot, source, made, written.renamed, excuses, options, where)
 
 
 def compare(pair: Pair) -> list[Check]:
     """Run all checks that need no external program."""
-    checks = [_tree(pair), *_motion(pair), _limits(pair)]
-    configurations = list(_configurations(pair.source, 1))
+    checks = [_check_tree(pair), *_collect_motion(pair), _check_limits(pair)]
+    configurations = list(_get_configurations(pair.source, 1))
     checks.append(compare_shapes(pair, "collisions", configurations))
     checks.append(compare_shapes(pair, "visuals", configurations))
     checks.append(compare_colors(pair))
@@ -127,7 +127,7 @@ def compare(pair: Pair) -> list[Check]:
     return checks
 
 
-def _configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
+def _get_configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
     """Return joint positions: all zero, then random within limits, or within π rad or 1 m."""
     random = np.random.default_rng(0)
     result: list[dict[str, float]] = [{}]
@@ -144,13 +144,13 @@ def _configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
     return result
 
 
-def _tree(pair: Pair) -> Check:
+def _check_tree(pair: Pair) -> Check:
     check = Check("tree", f"{len(pair.source.joints)} joints, types, links, leaders", 0.0)
     made = {joint.name: joint for joint in pair.made.joints}
     expected = [joint for joint in pair.source.joints if joint.kind not in ("fixed", "free")]
     for joint in expected:
-        other = made.pop(pair.joint(joint.name), None)
-        aspect, text = _tree_difference(pair, joint, other)
+        other = made.pop(pair.get_joint(joint.name), None)
+        aspect, text = _get_tree_difference(pair, joint, other)
         if text:
             excused = joint.name in pair.excuses.motion or (
                 aspect == "mimic" and joint.name in pair.excuses.mimic
@@ -165,7 +165,7 @@ def _tree(pair: Pair) -> Check:
     return check
 
 
-def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple[str, str]:
+def _get_tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple[str, str]:
     """Return the aspect in which a joint differs, and a description; empty texts if equal."""
     if other is None:
         return "joint", "is missing"
@@ -173,16 +173,16 @@ def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple[str
         return "kind", f"is {other.kind}, not {joint.kind}"
     for end in ("parent", "child"):
         name = getattr(joint, end)
-        body = _body_of(pair, name)
+        body = _get_body(pair, name)
         if body != getattr(other, end):
             return end, f"its {end} is '{getattr(other, end)}', not '{name}'"
-    expected = joint.mimic and (pair.joint(joint.mimic[0]), *joint.mimic[1:])
+    expected = joint.mimic and (pair.get_joint(joint.mimic[0]), *joint.mimic[1:])
     if expected != other.mimic:
         return "mimic", f"leader, multiplier and offset are {other.mimic}, not {expected}"
     return "", ""
 
 
-def _body_of(pair: Pair, link: str) -> str:
+def _get_body(pair: Pair, link: str) -> str:
     """Return the body that holds a link; without frames, the nearest above over fixed joints."""
     while pair.link(link) not in pair.made.frames:
         joint = pair.robot.tree.parent_joint(link)
@@ -192,36 +192,38 @@ def _body_of(pair: Pair, link: str) -> str:
     return pair.made.frames[pair.link(link)][0]
 
 
-def _motion(pair: Pair) -> list[Check]:
+def _collect_motion(pair: Pair) -> list[Check]:
     poses_seen = f"{CONFIGURATIONS + 1} configurations"
     frames = Check("frames", f"{len(pair.source.frames)} links, {poses_seen}", FRAMES)
     masses = Check("mass matrix", poses_seen, MASSES)
     weights = Check("gravity", f"{poses_seen}, required effort", WEIGHTS)
     totals = Check("whole", f"{poses_seen}, mass, center, inertia", TOTALS)
-    orders = pair.source.in_order(), pair.made.in_order()
+    orders = pair.source.sort_joints(), pair.made.sort_joints()
     present = {joint.name for joint in orders[1] if joint.moves}
-    names = [j.name for j in orders[0] if j.moves and pair.joint(j.name) in present]
-    for q in _configurations(pair.source, CONFIGURATIONS):
-        renamed = {pair.joint(name): value for name, value in q.items()}
-        here = poses(pair.source, q, orders[0])
-        there = poses(pair.made, renamed, orders[1])
-        base = _base(pair, there)
+    names = [j.name for j in orders[0] if j.moves and pair.get_joint(j.name) in present]
+    for q in _get_configurations(pair.source, CONFIGURATIONS):
+        renamed = {pair.get_joint(name): value for name, value in q.items()}
+        here = compute_poses(pair.source, q, orders[0])
+        there = compute_poses(pair.made, renamed, orders[1])
+        base = _get_base(pair, there)
         there = {name: base @ pose for name, pose in there.items()}
         _compare_frames(pair, frames, here, there)
-        one = mass_matrix(pair.source, here, orders[0], names)
-        two = mass_matrix(pair.made, there, orders[1], [pair.joint(name) for name in names])
+        one = compute_mass_matrix(pair.source, here, orders[0], names)
+        two = compute_mass_matrix(
+            pair.made, there, orders[1], [pair.get_joint(name) for name in names]
+        )
         _compare_masses(pair, masses, weights, names, one, two)
         _compare_totals(pair, totals, here, there)
     return [frames, masses, weights, totals]
 
 
-def _base(pair: Pair, there: dict[str, Array]) -> Array:
+def _get_base(pair: Pair, there: dict[str, Array]) -> Array:
     """Return the transform of the exported robot's root to the identity, as in the source."""
-    base = base_of(pair.robot)
+    base = get_base(pair.robot)
     if base is None:
         return np.eye(4)
     body, inside = pair.made.frames.get(pair.link(base), ("world", np.eye(4)))
-    return inverse(there[body] @ inside)
+    return invert_pose(there[body] @ inside)
 
 
 def _compare_frames(
@@ -264,7 +266,7 @@ def _compare_masses(
 def _compare_totals(
     pair: Pair, check: Check, here: dict[str, Array], there: dict[str, Array]
 ) -> None:
-    one, two = centroidal(pair.source, here), centroidal(pair.made, there)
+    one, two = compute_centroidal(pair.source, here), compute_centroidal(pair.made, there)
     if one[0] == 0.0:
         return
     size = max(float(np.abs(one[2]).max()), 1e-30)
@@ -278,11 +280,11 @@ def _compare_totals(
         check.compare(off, f"{what} of the whole", known=pair.excuses.massy)
 
 
-def _limits(pair: Pair) -> Check:
+def _check_limits(pair: Pair) -> Check:
     check = Check("limits", "position, effort, velocity, damping, friction", LIMITS)
     made = {joint.name: joint for joint in pair.made.joints}
     for joint in pair.source.joints:
-        other = made.get(pair.joint(joint.name))
+        other = made.get(pair.get_joint(joint.name))
         if not joint.moves or other is None or not other.moves:
             continue
         for name, value in joint.limits.items():
@@ -295,7 +297,7 @@ def _limits(pair: Pair) -> Check:
     return check
 
 
-def _same_again(robot: Robot, written: Written, options: Options) -> Check:
+def _check_same_again(robot: Robot, written: Written, options: Options) -> Check:
     check = Check("again", f"{len(written.files)} files, the same bytes", 0.0)
     again = write(robot, options)
     for name, content in written.files.items():

@@ -6,12 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .mechanism import Array, Hinge, Mechanism, inverse, matrix
+from .mechanism import Array, Hinge, Mechanism, invert_pose, make_pose
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 
 
-def poses(robot: Mechanism, q: Mapping[str, float], order: Sequence[Hinge]) -> dict[str, Array]:
+def compute_poses(
+    robot: Mechanism, q: Mapping[str, float], order: Sequence[Hinge]
+) -> dict[str, Array]:
     """Compute the pose of each body in the model's frame.
 
     Args:
@@ -27,23 +29,25 @@ def poses(robot: Mechanism, q: Mapping[str, float], order: Sequence[Hinge]) -> d
                 robot.frames[f"//{name}"][1] if f"//{name}" in robot.frames else np.eye(4)
             )
     for joint in order:
-        motion = _motion(joint, q.get(joint.name, 0.0))
-        placed[joint.child] = placed[joint.parent] @ joint.before @ motion @ inverse(joint.after)
+        motion = _compute_motion(joint, q.get(joint.name, 0.0))
+        placed[joint.child] = (
+            placed[joint.parent] @ joint.before @ motion @ invert_pose(joint.after)
+        )
     return placed
 
 
-def _motion(joint: Hinge, position: float) -> Array:
+def _compute_motion(joint: Hinge, position: float) -> Array:
     if joint.kind == "prismatic":
-        return matrix(np.eye(3), joint.axis * position)
+        return make_pose(np.eye(3), joint.axis * position)
     if joint.kind == "revolute":
         x, y, z = joint.axis
         skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
         turn = np.eye(3) + np.sin(position) * skew + (1 - np.cos(position)) * skew @ skew
-        return matrix(turn, np.zeros(3))
+        return make_pose(turn, np.zeros(3))
     return np.eye(4)
 
 
-def mass_matrix(
+def compute_mass_matrix(
     robot: Mechanism, placed: Mapping[str, Array], order: Sequence[Hinge], names: Sequence[str]
 ) -> tuple[Array, Array]:
     """Compute the mass matrix of some joints with a fixed base, and the gravity forces [N·m or N].
@@ -86,7 +90,7 @@ def mass_matrix(
     return inertia, weight
 
 
-def centroidal(robot: Mechanism, placed: Mapping[str, Array]) -> tuple[float, Array, Array]:
+def compute_centroidal(robot: Mechanism, placed: Mapping[str, Array]) -> tuple[float, Array, Array]:
     """Compute total mass, center of mass, and inertia about it, in the model's frame."""
     total = float(sum(body.mass for body in robot.bodies.values()))
     if total == 0.0:

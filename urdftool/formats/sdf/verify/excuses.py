@@ -57,7 +57,7 @@ class Excuses:
     declared: DeclaredLosses = field(default_factory=DeclaredLosses)
 
 
-def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
+def sort_excuses(losses: list[Finding], robot: Robot) -> Excuses:
     """Sort losses by the differences that they explain."""
     blocks = (block.element for block in robot.gazebo if not block.reference)
     more = any(block.child(tag) for block in blocks for tag in ("link", "model", "include"))
@@ -68,18 +68,18 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
         if loss.severity > Severity.INFO:  # losses of severity info do not change the behavior
             declared.add((rule, name))
             if rule in BLOCKS and not name:
-                declared |= {(rule, block) for block in _blocks_at(robot, loss)}
+                declared |= {(rule, block) for block in _list_blocks_at(robot, loss)}
         if rule in MASS:
             made.massy = True
-            made.heavy |= {joint.name for joint in _above(robot, name)}
-        if rule in MOTION or (rule == "lossy-floating" and _carried(robot, name)):
+            made.heavy |= {joint.name for joint in _get_parent_joints(robot, name)}
+        if rule in MOTION or (rule == "lossy-floating" and _is_moved_by_parents(robot, name)):
             made.motion.add(name)
             joint = robot.joint.get(name)
             if joint is not None:
                 below = {joint.child, *robot.tree.descendants(joint.child)}
                 made.frames |= below
                 made.shapes |= below
-                made.heavy |= {j.name for link in below for j in _above(robot, link)}
+                made.heavy |= {j.name for link in below for j in _get_parent_joints(robot, link)}
                 made.massy = True
         if rule in LIMITS:
             made.limits.add(name)
@@ -95,7 +95,7 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
     return made
 
 
-def _blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
+def _list_blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
     """Yield the reference of the ``<gazebo>`` block in which a loss occurred."""
     for block in robot.gazebo:
         element, place = block.element, loss.location
@@ -104,13 +104,15 @@ def _blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
             yield block.reference or ""
 
 
-def _carried(robot: Robot, name: str) -> bool:
+def _is_moved_by_parents(robot: Robot, name: str) -> bool:
     """Tell whether joints above move the parent of a joint, which a free link does not follow."""
     joint = robot.joint.get(name)
-    return joint is not None and any(not j.is_fixed for j in _above(robot, joint.parent))
+    return joint is not None and any(
+        not j.is_fixed for j in _get_parent_joints(robot, joint.parent)
+    )
 
 
-def _above(robot: Robot, link: str) -> list[Joint]:
+def _get_parent_joints(robot: Robot, link: str) -> list[Joint]:
     chain = []
     for name in (link, *robot.tree.ancestors(link)):
         joint = robot.tree.parent_joint(name)

@@ -17,7 +17,7 @@ EXACT = 1e-9
 WORDS = {"true": "1", "yes": "1", "false": "0", "no": "0"}
 
 
-def value_of(text: str | None) -> Value:
+def get_value(text: str | None) -> Value:
     """Return numbers as a tuple, true and false as 1 and 0, and other text unchanged."""
     stripped = (text or "").strip()
     words = WORDS.get(stripped.lower(), stripped).split()
@@ -28,7 +28,7 @@ def value_of(text: str | None) -> Value:
     return found if all(map(math.isfinite, found)) else " ".join(words)
 
 
-def facts_of(element: ET.Element | Element, *, without: Iterable[str] = ()) -> Facts:
+def get_facts(element: ET.Element | Element, *, without: Iterable[str] = ()) -> Facts:
     """Return the values of an element's leaves and attributes by path.
 
     Elements without content have no facts.
@@ -50,16 +50,16 @@ def _collect(
     for name, text in attributes.items():
         if path or name not in ("name", "type"):
             if not name.startswith("xmlns"):
-                _put(facts, f"{path}@{_plain(name)}", value_of(text))
+                _put(facts, f"{path}@{_remove_namespace(name)}", get_value(text))
     kept = [child for child in children if isinstance(child.tag, str) and child.tag not in without]
     if path and not kept and (element.text or "").strip():
-        _put(facts, path, value_of(element.text))
+        _put(facts, path, get_value(element.text))
     for child in kept:
-        inner = f"{path}/{_plain(child.tag)}" if path else _plain(child.tag)
+        inner = f"{path}/{_remove_namespace(child.tag)}" if path else _remove_namespace(child.tag)
         _collect(facts, child, inner, frozenset())
 
 
-def _plain(tag: str) -> str:
+def _remove_namespace(tag: str) -> str:
     """Remove the namespace of a tag or attribute."""
     return re.sub(r"^(\{.*\}|\w+:)", "", tag)
 
@@ -74,21 +74,21 @@ def _put(facts: Facts, path: str, value: Value) -> None:
     facts[path] = value
 
 
-def differences(found: Mapping[str, Value], expected: Mapping[str, Value]) -> list[str]:
+def describe_differences(found: Mapping[str, Value], expected: Mapping[str, Value]) -> list[str]:
     """Describe the differences between facts."""
     texts = []
     for path in expected.keys() | found.keys():
         one, other = found.get(path), expected.get(path)
         if one is None:
-            texts.append(f"{path} is missing, {said(other)} expected")
+            texts.append(f"{path} is missing, {format_value(other)} expected")
         elif other is None:
-            texts.append(f"{path} is {said(one)}, which is not in the description")
-        elif not same(one, other):
-            texts.append(f"{path} is {said(one)}, not {said(other)}")
+            texts.append(f"{path} is {format_value(one)}, which is not in the description")
+        elif not is_equal(one, other):
+            texts.append(f"{path} is {format_value(one)}, not {format_value(other)}")
     return sorted(texts)
 
 
-def same(one: Value, other: Value) -> bool:
+def is_equal(one: Value, other: Value) -> bool:
     """Tell whether two values are equal; numbers up to rounding."""
     if isinstance(one, str) or isinstance(other, str):
         return one == other
@@ -97,7 +97,7 @@ def same(one: Value, other: Value) -> bool:
     return all(abs(a - b) <= EXACT * max(1.0, abs(a)) for a, b in zip(one, other, strict=True))
 
 
-def said(value: Value | None) -> str:
+def format_value(value: Value | None) -> str:
     """Format a value."""
     if isinstance(value, tuple):
         return " ".join(f"{part:.9g}" for part in value)
@@ -113,5 +113,5 @@ def compare_facts(
     known: bool = False,
 ) -> None:
     """Record each difference between facts in a row."""
-    for text in differences(found, expected):
+    for text in describe_differences(found, expected):
         (check.announced if known else check.differing).append(f"{about}: {text}")

@@ -6,14 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....model.read import numbers
+from ....model.read import parse_numbers
 from ...check import Check
 from .excuses import BLOCKS
-from .facts import EXACT, Facts, compare_facts, facts_of, value_of
-from .mechanism import Array, matrix, turned
+from .facts import EXACT, Facts, compare_facts, get_facts, get_value
+from .mechanism import Array, make_pose, rotate_by_angles
 from .reader import read_pose
-from .said import OF_LINKS, elements_of_whole, flags_said, joint_physics_said, text_of
-from .surfaces import own_links
+from .said import (
+    OF_LINKS,
+    get_expected_flags,
+    get_expected_joint_physics,
+    get_text,
+    list_elements_of_whole,
+)
+from .surfaces import list_own_links
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -35,21 +41,21 @@ def compare_base(pair: Pair) -> Check:
     check = Check("base", "static, pose of the model, joints to the world, kinematic links", EXACT)
     model = pair.where.model
     expected: Facts = {}
-    for element in elements_of_whole(pair.robot):
+    for element in list_elements_of_whole(pair.robot):
         if element.tag in FLAGS:
-            expected[element.tag] = value_of(text_of(element))
-    found = {tag: value_of(model.findtext(tag)) for tag in FLAGS if model.find(tag) is not None}
+            expected[element.tag] = get_value(get_text(element))
+    found = {tag: get_value(model.findtext(tag)) for tag in FLAGS if model.find(tag) is not None}
     for tag in ("placement_frame",):
         if model.get(tag):
-            found[tag] = value_of(model.get(tag))
-    known = pair.excuses.declared.of(BLOCKS, "")
+            found[tag] = get_value(model.get(tag))
+    known = pair.excuses.declared.has_for(BLOCKS, "")
     compare_facts(check, "the model", found, expected, known=known)
     off = float(np.abs(read_pose(model) - _place(pair)).max())
     check.compare(off, "the model is at another pose", known=known)
-    for link, node in own_links(pair):
-        flags = {k: v for k, v in flags_said(pair.robot, link).items() if k == "kinematic"}
-        said = {k: v for k, v in facts_of(node).items() if k == "kinematic"}
-        excused = pair.excuses.declared.of(BLOCKS, link.name)
+    for link, node in list_own_links(pair):
+        flags = {k: v for k, v in get_expected_flags(pair.robot, link).items() if k == "kinematic"}
+        said = {k: v for k, v in get_facts(node).items() if k == "kinematic"}
+        excused = pair.excuses.declared.has_for(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", said, flags, known=excused)
     _compare_held(pair, check)
     return check
@@ -60,12 +66,14 @@ def _place(pair: Pair) -> Array:
     pose = np.eye(4)
     origin = pair.robot.element.child("origin")
     if origin is not None:
-        xyz, rpy = (numbers(origin.get(name), 3) or (0.0, 0.0, 0.0) for name in ("xyz", "rpy"))
-        pose = matrix(turned(rpy), xyz)
-    for element in elements_of_whole(pair.robot):
-        six = numbers(element.text, 6) if element.tag == "pose" else None
+        xyz, rpy = (
+            parse_numbers(origin.get(name), 3) or (0.0, 0.0, 0.0) for name in ("xyz", "rpy")
+        )
+        pose = make_pose(rotate_by_angles(rpy), xyz)
+    for element in list_elements_of_whole(pair.robot):
+        six = parse_numbers(element.text, 6) if element.tag == "pose" else None
         if six is not None:
-            pose = matrix(turned(six[3:]), six[:3])
+            pose = make_pose(rotate_by_angles(six[3:]), six[:3])
     return pose
 
 
@@ -78,7 +86,7 @@ def _compare_held(pair: Pair, check: Check) -> None:
             name = group[name]
         return name
 
-    closing = {e.get("name") for e in elements_of_whole(pair.robot) if e.tag == "joint"}
+    closing = {e.get("name") for e in list_elements_of_whole(pair.robot) if e.tag == "joint"}
     for made in pair.made.joints:
         if made.kind == "fixed" and made.name not in closing:
             group[top(made.child)] = top(made.parent)
@@ -107,10 +115,10 @@ def compare_flags(pair: Pair) -> Check:
     """Compare gravity, damping and wind of links."""
     check = Check("link flags", "gravity, damping of motion, wind", EXACT)
     tags = {path for paths in OF_LINKS.values() for path in paths} - {"self_collide", "kinematic"}
-    for link, element in own_links(pair):
-        expected = {k: v for k, v in flags_said(pair.robot, link).items() if k in tags}
-        found = {k: v for k, v in facts_of(element).items() if k in tags}
-        known = pair.excuses.declared.of(BLOCKS, link.name)
+    for link, element in list_own_links(pair):
+        expected = {k: v for k, v in get_expected_flags(pair.robot, link).items() if k in tags}
+        found = {k: v for k, v in get_facts(element).items() if k in tags}
+        known = pair.excuses.declared.has_for(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, expected, known=known)
     return check
 
@@ -120,15 +128,15 @@ def compare_joint_physics(pair: Pair) -> Check:
     check = Check("joint physics", "springs, stiffness of limits, stops, feedback", EXACT)
     elements = {e.get("name"): e for e in pair.where.model.findall("joint")}
     for joint in pair.robot.joints:
-        element = elements.get(pair.joint(joint.name))
+        element = elements.get(pair.get_joint(joint.name))
         if element is None:
             continue
-        expected = joint_physics_said(pair.robot, joint)
+        expected = get_expected_joint_physics(pair.robot, joint)
         if element.find("axis") is None:
             expected = {k: v for k, v in expected.items() if not k.startswith("axis/")}
-        found = facts_of(element, without=("pose", "parent", "child", "sensor", "plugin"))
+        found = get_facts(element, without=("pose", "parent", "child", "sensor", "plugin"))
         found = {k: v for k, v in found.items() if k not in NUMBERS and "/mimic" not in k}
         expected = {k: v for k, v in expected.items() if k not in NUMBERS}
-        known = pair.excuses.declared.of(BLOCKS, joint.name)
+        known = pair.excuses.declared.has_for(BLOCKS, joint.name)
         compare_facts(check, f"joint '{joint.name}'", found, expected, known=known)
     return check

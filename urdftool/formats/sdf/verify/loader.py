@@ -20,7 +20,7 @@ _SECONDS = 60
 _IGNORED = ("Library error", "backtrace")
 
 
-def loads(robot: Robot, options: Options, place: Path) -> Check | None:
+def run_loads(robot: Robot, options: Options, place: Path) -> Check | None:
     """Run ``gz sdf -k`` or ``ign sdf -k``; return None if neither is installed or recent enough.
 
     For a reader older than the exported version, the robot is exported again in a version that it
@@ -39,7 +39,7 @@ def loads(robot: Robot, options: Options, place: Path) -> Check | None:
             said = _ask_older(tool, robot, replace(options, version=older[1], file="model.sdf"))
         elif older:
             return None
-        check.differing = _complaints(said or "")
+        check.differing = _collect_complaints(said or "")
         return check
     return None
 
@@ -72,7 +72,7 @@ def _ask_older(tool: str, robot: Robot, options: Options) -> str | None:
         return _ask(tool, place)
 
 
-def _complaints(said: str) -> list[str]:
+def _collect_complaints(said: str) -> list[str]:
     lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in said.splitlines()]
     return [
         line

@@ -88,7 +88,7 @@ class Mechanism:
     collisions: list[Shape] = field(default_factory=list)
     visuals: list[Shape] = field(default_factory=list)
 
-    def in_order(self) -> list[Hinge]:
+    def sort_joints(self) -> list[Hinge]:
         """Return the joints, parents before children; the first joint of each child body counts."""
         by_parent: dict[str, list[Hinge]] = {}
         hung: set[str] = set()
@@ -105,7 +105,7 @@ class Mechanism:
         return order
 
 
-def turned(rpy: Any) -> Array:
+def rotate_by_angles(rpy: Any) -> Array:
     """Compute the rotation matrix of fixed-axis angles about x, then y, then z [rad]."""
     (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
@@ -115,7 +115,7 @@ def turned(rpy: Any) -> Array:
     return product
 
 
-def by_quaternion(x: float, y: float, z: float, w: float) -> Array:
+def rotate_by_quaternion(x: float, y: float, z: float, w: float) -> Array:
     """Compute the rotation matrix of a quaternion of any length: v + 2 w q × v + 2 q × (q × v)."""
     x, y, z, w = np.array([x, y, z, w]) / np.linalg.norm([x, y, z, w])
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -123,7 +123,7 @@ def by_quaternion(x: float, y: float, z: float, w: float) -> Array:
     return rotation
 
 
-def matrix(rotation: Array, translation: Any) -> Array:
+def make_pose(rotation: Array, translation: Any) -> Array:
     """Return the 4 × 4 matrix of a rotation and a translation."""
     pose = np.eye(4)
     pose[:3, :3] = rotation
@@ -131,7 +131,7 @@ def matrix(rotation: Array, translation: Any) -> Array:
     return pose
 
 
-def inverse(pose: Array) -> Array:
+def invert_pose(pose: Array) -> Array:
     """Return the inverse of a pose."""
     back = np.eye(4)
     back[:3, :3] = pose[:3, :3].T

@@ -11,16 +11,16 @@ from ....model.elements import Joint, Link
 from ....source.document import Element
 from ...check import Check
 from .excuses import BLOCKS
-from .facts import EXACT, Facts, compare_facts, facts_of
-from .mechanism import inverse
+from .facts import EXACT, Facts, compare_facts, get_facts
+from .mechanism import invert_pose
 from .said import (
     LUMPING,
     NOWHERE,
     OF_COLLISIONS,
     OF_JOINTS,
     OF_LINKS,
-    elements_of,
-    elements_of_whole,
+    list_elements,
+    list_elements_of_whole,
 )
 
 if TYPE_CHECKING:
@@ -38,20 +38,22 @@ OTHER_ROWS = frozenset(
 def compare_others(pair: Pair) -> Check:
     """Compare the elements of blocks that are copied unchanged."""
     check = Check("other elements", "lights, projectors, batteries, and what else is copied", EXACT)
-    left = list(_written(pair))
-    for owner, name, element in _expected(pair):
+    left = list(_list_written(pair))
+    for owner, name, element in _list_expected(pair):
         about = f"<{element.tag}> of '{name}'" if name else f"<{element.tag}>"
-        known = pair.excuses.declared.of(BLOCKS, name)
+        known = pair.excuses.declared.has_for(BLOCKS, name)
         alike = [one for one in left if one[0] == owner and one[1].tag == element.tag]
-        wanted = facts_of(element, without=("pose",))
-        alike.sort(key=lambda one: _unlike(one[1], wanted))
+        wanted = get_facts(element, without=("pose",))
+        alike.sort(key=lambda one: _get_unlike(one[1], wanted))
         if not alike:
             check.compare(
-                np.inf, f"{about} is missing", known=known or pair.excuses.declared.of(BLOCKS, "")
+                np.inf,
+                f"{about} is missing",
+                known=known or pair.excuses.declared.has_for(BLOCKS, ""),
             )
             continue
         left.remove(alike[0])
-        found = facts_of(alike[0][1], without=("pose",))
+        found = get_facts(alike[0][1], without=("pose",))
         compare_facts(check, about, found, wanted, known=known)
         _compare_pose(pair, check, about, owner, name, alike[0][1], element, known)
     for owner, element in left:
@@ -60,14 +62,14 @@ def compare_others(pair: Pair) -> Check:
     return check
 
 
-def _unlike(element: Any, wanted: Facts) -> int:
-    found = facts_of(element, without=("pose",))
+def _get_unlike(element: Any, wanted: Facts) -> int:
+    found = get_facts(element, without=("pose",))
     return sum(found.get(path) != value for path, value in wanted.items())
 
 
-def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
+def _list_written(pair: Pair) -> Iterator[tuple[str, Any]]:
     model = pair.where.model
-    own = {pair.joint(joint.name) for joint in pair.robot.joints}
+    own = {pair.get_joint(joint.name) for joint in pair.robot.joints}
     for owner, node in (("", model), *((e.get("name", ""), e) for e in model)):
         if owner and node.tag != "link" and not (node.tag == "joint" and owner in own):
             continue
@@ -76,9 +78,9 @@ def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
                 yield owner, element
 
 
-def _expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
+def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
     """Yield the copied elements, with their owner in the file and name in the description."""
-    for element in elements_of_whole(pair.robot):
+    for element in list_elements_of_whole(pair.robot):
         if element.tag not in OTHER_ROWS:
             yield "", "", element
     joints = {joint.name for joint in pair.made.joints}
@@ -90,10 +92,10 @@ def _expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
                 continue
             owner = held[0]
         else:
-            owner = pair.joint(part.name)
+            owner = pair.get_joint(part.name)
             if owner not in joints or part.name in pair.robot.link:
                 continue
-        for element in elements_of(pair.robot, part):
+        for element in list_elements(pair.robot, part):
             if element.tag not in OTHER_ROWS:
                 yield owner, part.name, element
 
@@ -108,7 +110,7 @@ def _compare_pose(
     element: Element,
     known: bool,
 ) -> None:
-    from .sensors import pose_of_element
+    from .sensors import get_pose_of_element
 
     link = pair.robot.link.get(name)
     child = found.find("pose")
@@ -121,30 +123,33 @@ def _compare_pose(
     held = pair.place(name)
     if held is None:
         return
-    place = inverse(held[1]) @ pair.where.local(owner, found)
-    off = float(np.abs(place - pose_of_element(pair, link, element)).max())
+    place = invert_pose(held[1]) @ pair.where.get_local(owner, found)
+    off = float(np.abs(place - get_pose_of_element(pair, link, element)).max())
     check.compare(off, f"{about} is at another pose", known=known)
 
 
 def _compare_loops(pair: Pair, check: Check) -> None:
     """Compare the loop-closing joints of blocks."""
     elements = {e.get("name", ""): e for e in pair.where.model.findall("joint")}
-    own = {pair.joint(joint.name) for joint in pair.robot.joints}
-    for block in elements_of_whole(pair.robot):
+    own = {pair.get_joint(joint.name) for joint in pair.robot.joints}
+    for block in list_elements_of_whole(pair.robot):
         if block.tag != "joint":
             continue
         name = block.get("name") or ""
-        known = pair.excuses.declared.of(BLOCKS, "")
+        known = pair.excuses.declared.has_for(BLOCKS, "")
         names = [n for n in elements if n not in own and (n == name or n.startswith(f"{name}_"))]
         if not names:
             check.compare(np.inf, f"joint '{name}' of a loop is missing", known=known)
             continue
         made = elements[names[0]]
-        wanted = facts_of(block, without=("parent", "child"))
+        wanted = get_facts(block, without=("parent", "child"))
         compare_facts(
-            check, f"joint '{name}' of a loop", facts_of(made, without=("parent", "child")), wanted,
+            check,
+            f"joint '{name}' of a loop",
+            get_facts(made, without=("parent", "child")),
+            wanted,
             known=known,
-        )  # fmt: skip
+        )
         if made.get("type") != block.get("type"):
             check.compare(np.inf, f"joint '{name}' of a loop has another type")
         for end in ("parent", "child"):

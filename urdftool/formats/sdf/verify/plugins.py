@@ -16,15 +16,15 @@ from ....model.gazebo_plugins import (
     SENSOR_PLUGINS,
     SYSTEM_PLUGINS,
     System,
-    library,
+    get_library,
 )
 from ....model.read import number
 from ....source.document import Element
 from ...check import Check
-from .facts import EXACT, Facts, compare_facts, facts_of, value_of
-from .mechanism import Array, matrix, turned
-from .said import elements_of, elements_of_whole
-from .sensing import sensed_part
+from .facts import EXACT, Facts, compare_facts, get_facts, get_value
+from .mechanism import Array, make_pose, rotate_by_angles
+from .said import list_elements, list_elements_of_whole
+from .sensing import get_sensed_part
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -58,11 +58,11 @@ class Expected:
 def compare_plugins(pair: Pair) -> Check:
     """Compare every plugin."""
     check = Check("plugins", "what they are of, library, class, parameters", 0.0)
-    left = list(_written(pair))
-    for wanted in _expected(pair):
+    left = list(_list_written(pair))
+    for wanted in _list_expected(pair):
         about = f"plugin '{wanted.library}'" + (f" of '{wanted.owner}'" if wanted.owner else "")
         alike = [one for one in left if one[1].get("filename") == wanted.library]
-        alike.sort(key=lambda one: _unlike(one, wanted))
+        alike.sort(key=lambda one: _collect_unlike(one, wanted))
         if not alike:
             check.compare(np.inf, f"{about} is missing")
             continue
@@ -70,14 +70,14 @@ def compare_plugins(pair: Pair) -> Check:
         left.remove(alike[0])
         if owner != wanted.owner:
             # sensors with the same name in one link are renamed
-            renamed = pair.excuses.declared.any("lossy-name")
+            renamed = pair.excuses.declared.has_any("lossy-name")
             known = renamed and owner.startswith(f"{wanted.owner}_")
             check.compare(np.inf, f"{about} is in '{owner}'", known=known)
         if wanted.name and element.get("name") != wanted.name:
             check.compare(
                 np.inf, f"{about} has the name '{element.get('name')}', not '{wanted.name}'"
             )
-        facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
+        facts = {p: v for p, v in get_facts(element).items() if not p.startswith("@")}
         if wanted.offset is not None:
             apart = _offset(facts) - wanted.offset
             check.compare(float(np.abs(apart).max()) // EXACT, f"{about} has another offset")
@@ -88,13 +88,13 @@ def compare_plugins(pair: Pair) -> Check:
     return check
 
 
-def _unlike(one: tuple[str, Any], wanted: Expected) -> tuple[bool, bool, int]:
-    facts = facts_of(one[1])
+def _collect_unlike(one: tuple[str, Any], wanted: Expected) -> tuple[bool, bool, int]:
+    facts = get_facts(one[1])
     apart = sum(facts.get(path) != value for path, value in wanted.facts.items())
     return one[0] != wanted.owner, one[1].get("name") != wanted.name, apart
 
 
-def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
+def _list_written(pair: Pair) -> Iterator[tuple[str, Any]]:
     """Yield the plugins of the file, with the name of their parent element."""
     model = pair.where.model
     for element in model.findall("plugin"):
@@ -108,10 +108,10 @@ def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
                     yield sensor.get("name", ""), element
 
 
-def _expected(pair: Pair) -> Iterator[Expected]:
-    for element in elements_of_whole(pair.robot):
+def _list_expected(pair: Pair) -> Iterator[Expected]:
+    for element in list_elements_of_whole(pair.robot):
         if element.tag == "plugin":
-            yield from _one(pair, element, "")
+            yield from _list_one(pair, element, "")
     elements = {
         kind: {e.get("name") for e in pair.where.model.findall(kind)} for kind in ("link", "joint")
     }
@@ -121,44 +121,46 @@ def _expected(pair: Pair) -> Iterator[Expected]:
             held = pair.place(part.name)
             owner = held[0] if held is not None else ""
         else:
-            owner = pair.joint(part.name)
+            owner = pair.get_joint(part.name)
         there = owner in elements["link" if isinstance(part, Link) else "joint"]
-        for element in elements_of(pair.robot, part) if there else ():
+        for element in list_elements(pair.robot, part) if there else ():
             if element.tag == "plugin":
-                yield from _one(pair, element, owner)
+                yield from _list_one(pair, element, owner)
             elif element.tag == "sensor":
                 for plugin in element.all("plugin"):
-                    if pair.options.classic or library(plugin) not in SENSOR_PLUGINS:
+                    if pair.options.classic or get_library(plugin) not in SENSOR_PLUGINS:
                         name = element.get("name") or f"{part.name}_sensor"
-                        yield from _one(pair, plugin, name, inside=True)
+                        yield from _list_one(pair, plugin, name, inside=True)
 
 
-def _one(pair: Pair, element: Element, owner: str, *, inside: bool = False) -> Iterator[Expected]:
+def _list_one(
+    pair: Pair, element: Element, owner: str, *, inside: bool = False
+) -> Iterator[Expected]:
     """Yield the expected plugins for a plugin of the description."""
-    name = library(element)
+    name = get_library(element)
     if not name:
         return
     gz = not pair.options.classic
-    if not inside and sensed_part(pair, element) is not None:
+    if not inside and get_sensed_part(pair, element) is not None:
         return
     if gz and name in CONTROL_PLUGINS:
-        yield _control(pair, element, owner)
+        yield _get_control(pair, element, owner)
     elif gz and name in MIMIC_PLUGINS and _is_mimic(pair, element):
         return
     elif gz and name in SYSTEM_PLUGINS:
         for system in SYSTEM_PLUGINS[name]:
-            yield _system(pair, element, owner, system)
+            yield _get_system(pair, element, owner, system)
     else:
-        facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
+        facts = {p: v for p, v in get_facts(element).items() if not p.startswith("@")}
         own = element.get("name") or name
-        yield _moved(
+        yield _set_moved(
             pair,
-            Expected(owner, element.get("filename") or "", own, _renamed(pair, facts)),
+            Expected(owner, element.get("filename") or "", own, _get_renamed(pair, facts)),
             element,
         )
 
 
-def _moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
+def _set_moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
     """Set the offset of a plugin whose link was lumped into another, in Classic."""
     child = element.child("bodyName")
     link = child.text.strip() if child is not None else ""
@@ -175,25 +177,25 @@ def _offset(facts: Facts) -> Array:
     for word in ("xyzOffset", "rpyOffset"):
         value = facts.pop(word, (0.0, 0.0, 0.0))
         six += value if not isinstance(value, str) and len(value) == 3 else (0.0, 0.0, 0.0)
-    return matrix(turned(six[3:]), six[:3])
+    return make_pose(rotate_by_angles(six[3:]), six[:3])
 
 
 def _is_mimic(pair: Pair, element: Element) -> bool:
     child = element.child("mimicJoint")
     joint = pair.robot.joint.get(child.text.strip()) if child is not None else None
-    return joint is not None and joint.mimic is not None and pair.options.since("1.11")
+    return joint is not None and joint.mimic is not None and pair.options.is_at_least("1.11")
 
 
-def _control(pair: Pair, element: Element, owner: str) -> Expected:
+def _get_control(pair: Pair, element: Element, owner: str) -> Expected:
     """Return the expected ros2_control plugin for gz."""
-    new = pair.options.since("1.10")
+    new = pair.options.is_at_least("1.10")
     facts: Facts = {}
     for child in element.children:
         if child.tag == "robotNamespace" and child.text.strip():
-            facts["ros/namespace"] = value_of(child.text)
+            facts["ros/namespace"] = get_value(child.text)
     kept = [child.tag for child in element.children if child.tag not in CONTROL]
     facts.update(
-        {p: v for p, v in facts_of(element, without=kept).items() if not p.startswith("@")}
+        {p: v for p, v in get_facts(element, without=kept).items() if not p.startswith("@")}
     )
     return Expected(
         owner,
@@ -205,7 +207,7 @@ def _control(pair: Pair, element: Element, owner: str) -> Expected:
     )
 
 
-def _system(pair: Pair, element: Element, owner: str, system: System) -> Expected:
+def _get_system(pair: Pair, element: Element, owner: str, system: System) -> Expected:
     """Return the expected gz system for a plugin of Gazebo Classic."""
     said: list[tuple[str, str]] = []
     facts: Facts = {}
@@ -215,7 +217,7 @@ def _system(pair: Pair, element: Element, owner: str, system: System) -> Expecte
         if new is None:
             continue
         if child.children:
-            for path, value in facts_of(child).items():
+            for path, value in get_facts(child).items():
                 facts[f"{new}/{path}"] = value
             said.append((new, ""))
         elif new == "joint_name":
@@ -238,8 +240,8 @@ def _system(pair: Pair, element: Element, owner: str, system: System) -> Expecte
             continue
         count[tag] += 1
         path = tag if count[tag] == 1 else f"{tag}[{count[tag]}]"
-        facts[path] = value_of(pair.joint(text) if "joint" in tag else text)
-    modern = pair.options.since("1.10")
+        facts[path] = get_value(pair.get_joint(text) if "joint" in tag else text)
+    modern = pair.options.is_at_least("1.10")
     return Expected(
         owner,
         f"gz-sim-{system.word}-system" if modern else f"ignition-gazebo-{system.word}-system",
@@ -250,13 +252,13 @@ def _system(pair: Pair, element: Element, owner: str, system: System) -> Expecte
     )
 
 
-def _renamed(pair: Pair, facts: Facts) -> Facts:
+def _get_renamed(pair: Pair, facts: Facts) -> Facts:
     """Return parameters with the exported names of links and joints."""
     made: Facts = {}
     for path, value in facts.items():
         tag = path.rpartition("/")[2].partition("[")[0]
         if isinstance(value, str) and "oint" in tag:
-            value = pair.joint(value)
+            value = pair.get_joint(value)
         elif isinstance(value, str) and ("ink" in tag or tag in ("bodyName", "body_name")):
             held = pair.place(str(value))
             if held is not None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ....model.elements import Joint, Link, Robot
 from ....source.document import Element
-from .facts import Facts, facts_of, value_of
+from .facts import Facts, get_facts, get_value
 
 OF_COLLISIONS = {
     "mu1": "surface/friction/ode/mu",
@@ -49,7 +49,7 @@ LUMPING = frozenset(("preserveFixedJoint", "disableFixedJointLumping"))
 NOWHERE = frozenset(("canonicalBody",))
 
 
-def elements_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
+def list_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
     """Yield the elements in the blocks of a link or joint.
 
     If a link and a joint share a name, each gets the elements of its kind.
@@ -66,53 +66,53 @@ def elements_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
                 yield element
 
 
-def elements_of_whole(robot: Robot) -> Iterator[Element]:
+def list_elements_of_whole(robot: Robot) -> Iterator[Element]:
     """Yield the elements in blocks without reference."""
     for block in robot.gazebo:
         if not block.element.get("reference"):
             yield from block.element.children
 
 
-def text_of(element: Element) -> str:
+def get_text(element: Element) -> str:
     """Return the value of an element, from its attribute ``value`` or its text."""
     return (element.get("value") or element.text).strip()
 
 
-def surface_said(robot: Robot, link: Link) -> Facts:
+def get_expected_surface(robot: Robot, link: Link) -> Facts:
     """Return the properties of each collision of a link, other than its shape."""
     facts: Facts = {}
-    for element in elements_of(robot, link):
+    for element in list_elements(robot, link):
         if element.tag in OF_COLLISIONS:
-            facts[OF_COLLISIONS[element.tag]] = value_of(text_of(element))
-    for element in elements_of(robot, link):
+            facts[OF_COLLISIONS[element.tag]] = get_value(get_text(element))
+    for element in list_elements(robot, link):
         if element.tag == "collision":
-            facts.update(facts_of(element))
+            facts.update(get_facts(element))
     return facts
 
 
-def flags_said(robot: Robot, link: Link) -> Facts:
+def get_expected_flags(robot: Robot, link: Link) -> Facts:
     """Return the flags of a link."""
     facts: Facts = {}
     plain: Facts = {}
-    for element in elements_of(robot, link):
+    for element in list_elements(robot, link):
         if element.tag == "turnGravityOff":
-            facts["gravity"] = (0.0,) if value_of(text_of(element)) == (1.0,) else (1.0,)
+            facts["gravity"] = (0.0,) if get_value(get_text(element)) == (1.0,) else (1.0,)
         elif element.tag in ("selfCollide", "dampingFactor"):
             for path in OF_LINKS[element.tag]:
-                facts[path] = value_of(text_of(element))
+                facts[path] = get_value(get_text(element))
         elif element.tag in OF_LINKS:
-            plain[element.tag] = value_of(text_of(element))
+            plain[element.tag] = get_value(get_text(element))
         elif element.tag == "velocity_decay":
-            plain.update({f"velocity_decay/{p}": v for p, v in facts_of(element).items()})
+            plain.update({f"velocity_decay/{p}": v for p, v in get_facts(element).items()})
     return {**facts, **plain}
 
 
-def joint_physics_said(robot: Robot, joint: Joint) -> Facts:
+def get_expected_joint_physics(robot: Robot, joint: Joint) -> Facts:
     """Return the properties of a joint, other than its own axis and limits."""
     facts: Facts = {}
-    for element in elements_of(robot, joint):
+    for element in list_elements(robot, joint):
         for path in OF_JOINTS.get(element.tag, ()):
-            facts[path] = value_of(text_of(element))
+            facts[path] = get_value(get_text(element))
         if element.tag in ("physics", "axis", "axis2"):
-            facts.update({f"{element.tag}/{p}": v for p, v in facts_of(element).items()})
+            facts.update({f"{element.tag}/{p}": v for p, v in get_facts(element).items()})
     return facts

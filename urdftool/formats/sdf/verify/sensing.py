@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....model.elements import Joint, Link
-from ....model.gazebo_plugins import library
-from ....model.read import number, numbers
+from ....model.gazebo_plugins import get_library
+from ....model.read import number, parse_numbers
 from ....source.document import Element
 from .facts import Facts
-from .mechanism import Array, matrix, turned
+from .mechanism import Array, make_pose, rotate_by_angles
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -49,9 +49,9 @@ OFFSETS = {
 """Elements to which each constant error parameter applies."""
 
 
-def sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
+def get_sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
     """Return the link or joint that a plugin outside of a sensor measures; None for none."""
-    kind = SENSING.get(library(plugin))
+    kind = SENSING.get(get_library(plugin))
     if kind is None or pair.options.classic:
         return None
     joints = kind == "force_torque"
@@ -64,17 +64,17 @@ def sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
         return pair.robot.link.get(name) if pair.place(name) is not None else None
     joint = pair.robot.joint.get(name)
     made = {one.name for one in pair.made.joints}
-    return joint if joint is not None and pair.joint(name) in made else None
+    return joint if joint is not None and pair.get_joint(name) in made else None
 
 
-def sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
+def list_sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
     """Yield the plugins outside of sensors that become sensors."""
     for block in pair.robot.gazebo:
         name = block.element.get("reference")
         if name and name not in pair.robot.link and name not in pair.robot.joint:
             continue
         for plugin in block.element.all("plugin"):
-            part = sensed_part(pair, plugin)
+            part = get_sensed_part(pair, plugin)
             if part is not None:
                 yield plugin, part
 
@@ -84,19 +84,19 @@ def offset_of(plugin: Element) -> Array:
     six: list[float] = []
     for word in ("xyz", "rpy"):
         child = plugin.child(f"{word}Offset") or plugin.child(f"{word}_offset")
-        three = numbers(child.text, 3) if child is not None else None
+        three = parse_numbers(child.text, 3) if child is not None else None
         six += three or (0.0, 0.0, 0.0)
-    return matrix(turned(six[3:]), six[:3]) if any(six) else np.eye(4)
+    return make_pose(rotate_by_angles(six[3:]), six[:3]) if any(six) else np.eye(4)
 
 
-def noise_of(plugin: Element) -> Facts:
+def get_noise(plugin: Element) -> Facts:
     """Return the noise of the sensor that a plugin becomes."""
     facts: Facts = {}
     for table, word in ((NOISES, "stddev"), (OFFSETS, "mean")):
         for (name, tag), groups in table.items():
-            child = plugin.child(tag) if name == library(plugin) else None
+            child = plugin.child(tag) if name == get_library(plugin) else None
             one = number(child.text) if child is not None else None
-            three = numbers(child.text, 3) if child is not None else None
+            three = parse_numbers(child.text, 3) if child is not None else None
             values = three if one is None else (one, one, one)
             if not values or not any(values):
                 continue

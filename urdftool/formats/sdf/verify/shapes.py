@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...check import Check
-from .dynamics import poses
-from .mechanism import Array, Mechanism, Shape, inverse
-from .source import base_of
+from .dynamics import compute_poses
+from .mechanism import Array, Mechanism, Shape, invert_pose
+from .source import get_base
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -25,23 +25,25 @@ def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, 
     source: list[Shape] = getattr(pair.source, kind)
     check = Check(kind, f"{len(source)} shapes, sizes, meshes, places", PLACES)
     made: list[Shape] = getattr(pair.made, kind)
-    here = _places(pair, pair.source, source, configurations, renamed=False)
-    there = _places(pair, pair.made, made, configurations, renamed=True)
+    here = _get_places(pair, pair.source, source, configurations, renamed=False)
+    there = _get_places(pair, pair.made, made, configurations, renamed=True)
     left = list(range(len(made)))
     for index, shape in enumerate(source):
-        nearest = _nearest(shape, here[index], made, there, left)
+        nearest = _get_nearest(shape, here[index], made, there, left)
         excused = shape.link in pair.excuses.shapes
         if nearest is None:
-            text = f"{shape.link}: {_said(shape)} is missing"
+            text = f"{shape.link}: {_format_shape(shape)} is missing"
             (check.announced if excused else check.differing).append(text)
             continue
         left.remove(nearest)
         off = float(np.abs(here[index] - there[nearest]).max())
-        check.compare(off, f"{shape.link}: {_said(shape)} is at another pose", known=excused)
+        check.compare(
+            off, f"{shape.link}: {_format_shape(shape)} is at another pose", known=excused
+        )
     for index in left:
         members = [n for n, (body, _) in pair.made.frames.items() if body == made[index].body]
         excused = any(pair.link(name) in members for name in pair.excuses.shapes)
-        text = f"{made[index].body}: {_said(made[index])} is not in the source"
+        text = f"{made[index].body}: {_format_shape(made[index])} is not in the source"
         (check.announced if excused else check.differing).append(text)
     return check
 
@@ -50,12 +52,12 @@ def compare_colors(pair: Pair) -> Check:
     """Compare the color and texture of each visual with a URDF material."""
     colored = sum(s.rgba is not None or s.picture is not None for s in pair.source.visuals)
     check = Check("colours", f"{colored} visuals, textures", COLORS)
-    here = _places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
-    there = _places(pair, pair.made, pair.made.visuals, [{}], renamed=True)
+    here = _get_places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
+    there = _get_places(pair, pair.made, pair.made.visuals, [{}], renamed=True)
     left = list(range(len(pair.made.visuals)))
     told_last = sorted(enumerate(pair.source.visuals), key=lambda pair: pair[1].rgba is None)
     for index, shape in told_last:
-        nearest = _nearest(shape, here[index], pair.made.visuals, there, left)
+        nearest = _get_nearest(shape, here[index], pair.made.visuals, there, left)
         if nearest is None:
             continue
         left.remove(nearest)
@@ -71,22 +73,22 @@ def compare_colors(pair: Pair) -> Check:
     return check
 
 
-def matched(pair: Pair, kind: str) -> list[tuple[Shape, Shape]]:
+def get_matched(pair: Pair, kind: str) -> list[tuple[Shape, Shape]]:
     """Return each visual or collision with the nearest one in the file."""
     source: list[Shape] = getattr(pair.source, kind)
     made: list[Shape] = getattr(pair.made, kind)
-    here = _places(pair, pair.source, source, [{}], renamed=False)
-    there = _places(pair, pair.made, made, [{}], renamed=True)
+    here = _get_places(pair, pair.source, source, [{}], renamed=False)
+    there = _get_places(pair, pair.made, made, [{}], renamed=True)
     left, found = list(range(len(made))), []
     for index, shape in enumerate(source):
-        nearest = _nearest(shape, here[index], made, there, left)
+        nearest = _get_nearest(shape, here[index], made, there, left)
         if nearest is not None:
             left.remove(nearest)
             found.append((shape, made[nearest]))
     return found
 
 
-def _places(
+def _get_places(
     pair: Pair,
     robot: Mechanism,
     shapes: Sequence[Shape],
@@ -95,30 +97,30 @@ def _places(
     renamed: bool,
 ) -> list[Array]:
     """Return the poses of each shape in the root's frame, for all configurations."""
-    order = robot.in_order()
+    order = robot.sort_joints()
     rows: list[list[Array]] = [[] for _ in shapes]
     for q in configurations:
         if renamed:
-            q = {pair.joint(name): value for name, value in q.items()}
-        placed = poses(robot, q, order)
+            q = {pair.get_joint(name): value for name, value in q.items()}
+        placed = compute_poses(robot, q, order)
         base = np.eye(4)
-        root = base_of(pair.robot)
+        root = get_base(pair.robot)
         if renamed and root is not None:
             body, inside = robot.frames.get(pair.link(root), ("world", np.eye(4)))
-            base = inverse(placed[body] @ inside)
+            base = invert_pose(placed[body] @ inside)
         for row, shape in zip(rows, shapes, strict=True):
             row.append(base @ placed[shape.body] @ shape.pose)
     return [np.array(row) for row in rows]
 
 
-def _nearest(
+def _get_nearest(
     shape: Shape,
     place: Array,
     others: Sequence[Shape],
     places: Sequence[Array],
     left: Sequence[int],
 ) -> int | None:
-    alike = [i for i in left if _alike(shape, others[i])]
+    alike = [i for i in left if _is_equal_shape(shape, others[i])]
 
     def distance(i: int) -> tuple[float, bool]:
         """Return the distance, and whether the color differs, which breaks ties."""
@@ -127,7 +129,7 @@ def _nearest(
     return min(alike, key=distance, default=None)
 
 
-def _alike(one: Shape, two: Shape) -> bool:
+def _is_equal_shape(one: Shape, two: Shape) -> bool:
     if len(one.what) != len(two.what):
         return False
     for a, b in zip(one.what, two.what, strict=True):
@@ -139,6 +141,6 @@ def _alike(one: Shape, two: Shape) -> bool:
     return True
 
 
-def _said(shape: Shape) -> str:
+def _format_shape(shape: Shape) -> str:
     sizes = " ".join(f"{part:.6g}" for part in shape.what[1:] if not isinstance(part, str))
     return f"{shape.what[0]} {sizes}".rstrip()

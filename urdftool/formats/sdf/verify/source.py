@@ -26,7 +26,16 @@ from ....model.elements import (
 )
 from ....model.gltf_axes import is_gltf
 from ...common.actuator_config import JointSettings, read_actuator_config
-from .mechanism import Array, Body, Hinge, Mechanism, Shape, by_quaternion, matrix, turned
+from .mechanism import (
+    Array,
+    Body,
+    Hinge,
+    Mechanism,
+    Shape,
+    make_pose,
+    rotate_by_angles,
+    rotate_by_quaternion,
+)
 
 KINDS = {
     "revolute": "revolute",
@@ -40,7 +49,7 @@ KINDS = {
 }
 
 
-def mechanism_of(robot: Robot, actuator_config: Path | None = None) -> Mechanism:
+def convert_mechanism(robot: Robot, actuator_config: Path | None = None) -> Mechanism:
     """Convert a robot of one or several trees; a root named ``world`` is the world.
 
     Args:
@@ -48,19 +57,19 @@ def mechanism_of(robot: Robot, actuator_config: Path | None = None) -> Mechanism
         actuator_config: File that sets damping, friction and force range of joints.
     """
     made = Mechanism()
-    anchored = base_of(robot) is None
+    anchored = get_base(robot) is None
     for link in robot.links:
         if not (anchored and link.name == "world"):
-            made.bodies[link.name] = _body(link)
+            made.bodies[link.name] = _make_body(link)
         made.frames[link.name] = (link.name, np.eye(4))
         for kind, shapes in (("visuals", link.visuals), ("collisions", link.collisions)):
             for shape in shapes:
-                getattr(made, kind).append(_shape(robot, link, shape))
-    made.joints = [_hinge(joint) for joint in robot.joints]
+                getattr(made, kind).append(_make_shape(robot, link, shape))
+    made.joints = [_make_hinge(joint) for joint in robot.joints]
     if actuator_config is not None:
         kinds = ("revolute", "prismatic", "continuous")
         movable = [joint.name for joint in robot.joints if joint.type in kinds]
-        settings = read_actuator_config(actuator_config).for_joints(movable)
+        settings = read_actuator_config(actuator_config).match_joints(movable)
         for hinge in made.joints:
             _set(hinge.limits, settings.get(hinge.name))
     return made
@@ -78,26 +87,26 @@ def _set(limits: dict[str, float], settings: JointSettings | None) -> None:
         limits["effort"] = max(abs(bound) for bound in settings.force_range)
 
 
-def base_of(robot: Robot) -> str | None:
+def get_base(robot: Robot) -> str | None:
     """Return the link at the model's origin, the first root; None if a root is the world."""
     names = [root.name for root in robot.tree.roots]
     return names[0] if names and "world" not in names else None
 
 
-def pose(origin: Origin | None) -> Array:
+def get_pose(origin: Origin | None) -> Array:
     """Return the 4 × 4 pose of an ``<origin>``."""
     if origin is None:
         return np.eye(4)
     if origin.quaternion is not None:
-        return matrix(by_quaternion(*origin.quaternion), origin.xyz)
-    return matrix(turned(origin.rpy), origin.xyz)
+        return make_pose(rotate_by_quaternion(*origin.quaternion), origin.xyz)
+    return make_pose(rotate_by_angles(origin.rpy), origin.xyz)
 
 
-def _body(link: Link) -> Body:
+def _make_body(link: Link) -> Body:
     inertial = link.inertial
     if inertial is None:
         return Body(link.name)
-    frame = pose(inertial.origin)
+    frame = get_pose(inertial.origin)
     tensor = np.zeros((3, 3))
     if inertial.inertia is not None:
         i = inertial.inertia
@@ -106,7 +115,7 @@ def _body(link: Link) -> Body:
     return Body(link.name, inertial.mass or 0.0, frame[:3, 3], turn @ tensor @ turn.T)
 
 
-def _hinge(joint: Joint) -> Hinge:
+def _make_hinge(joint: Joint) -> Hinge:
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     axis /= np.abs(axis).max() or 1.0  # avoids underflow and overflow of the squares
     length = np.linalg.norm(axis)
@@ -116,15 +125,15 @@ def _hinge(joint: Joint) -> Hinge:
         KINDS.get(joint.type, "fixed"),
         joint.parent,
         joint.child,
-        pose(joint.origin),
+        get_pose(joint.origin),
         np.eye(4),
         axis / length if length else axis,
-        _limits(joint),
+        _get_limits(joint),
         mimic or None,
     )
 
 
-def _limits(joint: Joint) -> dict[str, float]:
+def _get_limits(joint: Joint) -> dict[str, float]:
     """Return limits as URDF readers do: 0 for a missing bound, infinite without ``<limit>``."""
     limit, dynamics = joint.limit, joint.dynamics
     bounds = dict.fromkeys(("lower", "upper", "effort", "velocity"), np.inf)
@@ -140,19 +149,23 @@ def _limits(joint: Joint) -> dict[str, float]:
     return bounds
 
 
-def _shape(robot: Robot, link: Link, shape: Visual | Collision) -> Shape:
-    made = Shape(link.name, link.name, pose(shape.origin), _what(robot, shape.geometry))
+def _make_shape(robot: Robot, link: Link, shape: Visual | Collision) -> Shape:
+    made = Shape(link.name, link.name, get_pose(shape.origin), _collect_what(robot, shape.geometry))
     made.part = shape
     if is_gltf(shape) and robot.source is not None and robot.source.gltf_up == "y":
-        made.pose = made.pose @ matrix(turned((np.pi / 2, 0.0, 0.0)), (0.0, 0.0, 0.0))
+        made.pose = made.pose @ make_pose(rotate_by_angles((np.pi / 2, 0.0, 0.0)), (0.0, 0.0, 0.0))
         kind, digested, x, y, z = made.what
         made.what = kind, digested, x, z, y  # Gazebo keeps the axes of the file
-    if isinstance(shape, Visual) and shape.material is not None and not _told(robot, link):
-        made.rgba, made.picture = _looks(robot, shape.material)
+    if (
+        isinstance(shape, Visual)
+        and shape.material is not None
+        and not _sets_appearance(robot, link)
+    ):
+        made.rgba, made.picture = _get_looks(robot, shape.material)
     return made
 
 
-def _what(robot: Robot, geometry: Geometry | None) -> tuple[Any, ...]:
+def _collect_what(robot: Robot, geometry: Geometry | None) -> tuple[Any, ...]:
     if isinstance(geometry, Box):
         return ("box", *geometry.size)
     if isinstance(geometry, Sphere):
@@ -162,21 +175,21 @@ def _what(robot: Robot, geometry: Geometry | None) -> tuple[Any, ...]:
     if isinstance(geometry, Capsule):
         return ("capsule", geometry.radius, geometry.length)
     if isinstance(geometry, Mesh):
-        return ("mesh", _digest_of(robot, geometry.filename), *geometry.scale)
+        return ("mesh", _format_digest(robot, geometry.filename), *geometry.scale)
     return ("unknown",)
 
 
-def _digest_of(robot: Robot, filename: str) -> str:
+def _format_digest(robot: Robot, filename: str) -> str:
     scheme, separator, rest = filename.partition("://")
     if separator and scheme == "package":
         filename = f"package://{rest.lstrip('/')}"
     try:
-        return digest(robot.source.resolve(filename)) if robot.source is not None else filename
+        return get_digest(robot.source.resolve(filename)) if robot.source is not None else filename
     except UrdftoolError:
         return "missing"
 
 
-def digest(path: Path) -> str:
+def get_digest(path: Path) -> str:
     """Return a digest of a file, or ``missing``."""
     try:
         return sha256(path.read_bytes()).hexdigest()
@@ -184,16 +197,16 @@ def digest(path: Path) -> str:
         return "missing"
 
 
-def _told(robot: Robot, link: Link) -> bool:
+def _sets_appearance(robot: Robot, link: Link) -> bool:
     """Tell whether ``<gazebo>`` sets the appearance of a link."""
     blocks = (block.element for block in robot.extensions.get(link.name, []))
     return any(element.child(tag) for element in blocks for tag in ("material", "visual"))
 
 
-def _looks(robot: Robot, own: Material) -> tuple[tuple[float, ...] | None, str | None]:
+def _get_looks(robot: Robot, own: Material) -> tuple[tuple[float, ...] | None, str | None]:
     """Return the color and texture of a material: its own, else of the first so named."""
     every = [own, *robot.materials, *(v.material for k in robot.links for v in k.visuals)]
     for one in every:
         if one is not None and one.name == own.name and (one.color or one.texture):
-            return one.color, _digest_of(robot, one.texture) if one.texture else None
+            return one.color, _format_digest(robot, one.texture) if one.texture else None
     return None, None

@@ -13,10 +13,10 @@ from ....source.document import Element
 from ...check import Check
 from ..colors import COLORS
 from .excuses import BLOCKS
-from .facts import EXACT, Facts, compare_facts, facts_of, value_of
+from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .mechanism import Shape
-from .said import elements_of, flags_said, surface_said, text_of
-from .shapes import matched
+from .said import get_expected_flags, get_expected_surface, get_text, list_elements
+from .shapes import get_matched
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -34,16 +34,18 @@ IMAGES = ("material/pbr/metal/albedo_map", "material/script/name", "material/scr
 def compare_contact(pair: Pair) -> Check:
     """Compare collision masks and self-collision flags."""
     check = Check("contact", "masks of collisions, self_collide of links and model", 0.0)
-    for source, made in matched(pair, "collisions"):
+    for source, made in get_matched(pair, "collisions"):
         link = pair.robot.link[source.link]
-        expected, found = surface_said(pair.robot, link), _collision_facts(made)
+        expected, found = get_expected_surface(pair.robot, link), _make_collision_facts(made)
         about = f"collision '{made.part.get('name')}' of '{source.link}'"
-        known = pair.excuses.declared.of(BLOCKS, source.link)
-        compare_facts(check, about, _only(found, MASKS), _only(expected, MASKS), known=known)
-    for link, element in own_links(pair):
-        flags = _only(flags_said(pair.robot, link), ("self_collide",))
-        found = _only(facts_of(element), ("self_collide",))
-        known = pair.excuses.declared.of(BLOCKS, link.name)
+        known = pair.excuses.declared.has_for(BLOCKS, source.link)
+        compare_facts(
+            check, about, _make_only(found, MASKS), _make_only(expected, MASKS), known=known
+        )
+    for link, element in list_own_links(pair):
+        flags = _make_only(get_expected_flags(pair.robot, link), ("self_collide",))
+        found = _make_only(get_facts(element), ("self_collide",))
+        known = pair.excuses.declared.has_for(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, flags, known=known)
     return check
 
@@ -52,32 +54,34 @@ def compare_surface(pair: Pair) -> Check:
     """Compare friction, stiffness and other contact properties of collisions."""
     what = "friction, stiffness, damping, bounce, number of contacts"
     check = Check("surface", what, EXACT)
-    for source, made in matched(pair, "collisions"):
+    for source, made in get_matched(pair, "collisions"):
         link = pair.robot.link[source.link]
-        expected = surface_said(pair.robot, link)
+        expected = get_expected_surface(pair.robot, link)
         about = f"collision '{made.part.get('name')}' of '{source.link}'"
-        known = pair.excuses.declared.of(BLOCKS, source.link)
-        found = _without(_collision_facts(made), MASKS)
-        compare_facts(check, about, found, _without(expected, MASKS), known=known)
+        known = pair.excuses.declared.has_for(BLOCKS, source.link)
+        found = _make_without(_make_collision_facts(made), MASKS)
+        compare_facts(check, about, found, _make_without(expected, MASKS), known=known)
     return check
 
 
 def compare_looks(pair: Pair) -> Check:
     """Compare material colors, transparency and other properties of visuals."""
     check = Check("looks", "ambient, diffuse, specular, emissive, transparency", EXACT)
-    for source, made in matched(pair, "visuals"):
+    for source, made in get_matched(pair, "visuals"):
         link = pair.robot.link[source.link]
         about = f"visual '{made.part.get('name')}' of '{source.link}'"
-        known = pair.excuses.declared.of(BLOCKS, source.link) or source.link in pair.excuses.colors
-        found = facts_of(made.part, without=("geometry", "pose"))
+        known = (
+            pair.excuses.declared.has_for(BLOCKS, source.link) or source.link in pair.excuses.colors
+        )
+        found = get_facts(made.part, without=("geometry", "pose"))
         expected = _look(pair, link, source)
         compare_facts(
-            check, about, _without(found, IMAGES), _without(expected, IMAGES), known=known
+            check, about, _make_without(found, IMAGES), _make_without(expected, IMAGES), known=known
         )
     return check
 
 
-def own_links(pair: Pair) -> Iterator[tuple[Link, ET.Element]]:
+def list_own_links(pair: Pair) -> Iterator[tuple[Link, ET.Element]]:
     """Yield the links that are still links in the file, with their elements."""
     elements = {e.get("name"): e for e in pair.where.model.findall("link")}
     for link in pair.robot.links:
@@ -86,32 +90,32 @@ def own_links(pair: Pair) -> Iterator[tuple[Link, ET.Element]]:
             yield link, element
 
 
-def _collision_facts(made: Shape) -> Facts:
-    return facts_of(made.part, without=("geometry", "pose"))
+def _make_collision_facts(made: Shape) -> Facts:
+    return get_facts(made.part, without=("geometry", "pose"))
 
 
 def _look(pair: Pair, link: Link, shape: Shape) -> Facts:
     """Return the expected properties of a visual, other than its shape."""
     facts: Facts = {}
-    blocks = [e for e in elements_of(pair.robot, link) if e.tag == "material"]
-    facts.update(_material(pair, blocks[-1:], shape))
-    for element in elements_of(pair.robot, link):
+    blocks = [e for e in list_elements(pair.robot, link) if e.tag == "material"]
+    facts.update(_get_material(pair, blocks[-1:], shape))
+    for element in list_elements(pair.robot, link):
         if element.tag == "laserRetro" and not pair.options.classic:
-            facts["laser_retro"] = value_of(text_of(element))
+            facts["laser_retro"] = get_value(get_text(element))
         elif element.tag == "visual":
-            facts.update(facts_of(element))
+            facts.update(get_facts(element))
     return facts
 
 
-def _material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
+def _get_material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
     """Return the material from ``<gazebo>``, else from URDF."""
     visual = shape.part
     assert isinstance(visual, Visual)
     for block in blocks:
-        facts = {f"material/{path}": value for path, value in facts_of(block).items()}
+        facts = {f"material/{path}": value for path, value in get_facts(block).items()}
         if block.children:
             return facts
-        name = text_of(block)
+        name = get_text(block)
         color = COLORS.get(name)
         if pair.options.classic and name:
             return {}
@@ -123,7 +127,7 @@ def _material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
             if any(color.emissive):
                 facts["material/emissive"] = (*color.emissive, 1.0)
             return facts | ({"transparency": (1 - color.alpha,)} if color.alpha < 1 else {})
-    own = _defined(pair, visual.material)
+    own = _get_defined(pair, visual.material)
     if own is None:
         return {}
     seen = bool(own.texture) and _is_there(pair, own.texture or "")
@@ -138,7 +142,7 @@ def _material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
     return facts
 
 
-def _defined(pair: Pair, own: Material | None) -> Material | None:
+def _get_defined(pair: Pair, own: Material | None) -> Material | None:
     """Return the first material of a name with a color or an image."""
     if own is None:
         return None
@@ -158,9 +162,9 @@ def _is_there(pair: Pair, texture: str) -> bool:
         return False
 
 
-def _only(facts: Facts, paths: tuple[str, ...]) -> Facts:
+def _make_only(facts: Facts, paths: tuple[str, ...]) -> Facts:
     return {path: value for path, value in facts.items() if path in paths}
 
 
-def _without(facts: Facts, paths: tuple[str, ...]) -> Facts:
+def _make_without(facts: Facts, paths: tuple[str, ...]) -> Facts:
     return {path: value for path, value in facts.items() if path not in paths}

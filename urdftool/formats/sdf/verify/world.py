@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...check import Check
-from .facts import EXACT, compare_facts, facts_of, value_of
+from .facts import EXACT, compare_facts, get_facts, get_value
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -47,8 +47,8 @@ def compare_world(pair: Pair, place: Path) -> Check:
     if len(models) != 1:
         check.compare(np.inf, f"{len(models)} models in addition to the ground")
         return check
-    compare_facts(check, "the model", facts_of(models[0]), facts_of(pair.where.model))
-    gravity = value_of(world.findtext("gravity") or "0 0 -9.8")
+    compare_facts(check, "the model", get_facts(models[0]), get_facts(pair.where.model))
+    gravity = get_value(world.findtext("gravity") or "0 0 -9.8")
     if gravity != (0.0, 0.0, -9.8):
         check.compare(np.inf, f"gravity is {world.findtext('gravity')}")
     if world.find("physics") is not None:

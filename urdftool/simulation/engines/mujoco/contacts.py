@@ -40,14 +40,14 @@ class ContactReader:
         """Return the link of a geom."""
         return GROUND if geom == self.plane else self._name[int(self.model.geom_bodyid[geom])]
 
-    def deepest(self) -> float:
+    def measure_deepest(self) -> float:
         """Measure the depth of the deepest contact with the plane [m]; -inf without one."""
         touching = self.data.contact
         one, other = touching.geom1, touching.geom2
         depths = -touching.dist[(one == self.plane) | (other == self.plane)]
         return float(depths.max()) if len(depths) else -math.inf
 
-    def contacts(self) -> list[Contact]:
+    def list_contacts(self) -> list[Contact]:
         """List the contacts with the plane."""
         found, force = [], np.zeros(6)
         for number in range(self.data.ncon):
@@ -63,13 +63,13 @@ class ContactReader:
                     GROUND,
                     float(-contact.dist),
                     float(force[0]),
-                    _three(contact.pos),
-                    _three(normal),
+                    _collect_three(contact.pos),
+                    _collect_three(normal),
                 )
             )
         return found
 
-    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+    def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
         """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
         deepest: dict[tuple[int, int], Contact] = {}
         model, data = self.model, self.data
@@ -85,7 +85,7 @@ class ContactReader:
                 pair = self._pair(one, int(other))
                 if pair[0] == pair[1]:
                     continue
-                contact = self._overlap(one, int(other))
+                contact = self._make_overlap(one, int(other))
                 if contact is not None:
                     known = deepest.get(pair)
                     if known is None or contact.depth > known.depth:
@@ -99,7 +99,7 @@ class ContactReader:
         b = self._rigid[int(self.model.geom_bodyid[other])]
         return max(a, b), min(a, b)
 
-    def _overlap(self, one: int, other: int) -> Contact | None:
+    def _make_overlap(self, one: int, other: int) -> Contact | None:
         ends = np.zeros(6)
         # a bound above zero: at zero nothing is measured
         distance = self.mj.mj_geomDistance(self.model, self.data, one, other, 1e-9, ends)
@@ -114,11 +114,11 @@ class ContactReader:
         ):
             one, other, normal = other, one, -normal
         return Contact(
-            self.link(one), self.link(other), -float(distance), 0.0, _three(ends[3:]),
-            _three(normal),
+            self.link(one), self.link(other), -float(distance), 0.0, _collect_three(ends[3:]),
+            _collect_three(normal),
         )  # fmt: skip
 
 
-def _three(vector: Any) -> tuple[float, float, float]:
+def _collect_three(vector: Any) -> tuple[float, float, float]:
     x, y, z = (float(part) for part in vector)
     return x, y, z

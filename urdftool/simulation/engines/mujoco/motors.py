@@ -55,9 +55,9 @@ class Motors:
             [joints[name].kind == "continuous" for name in gained],
             settings.timestep,
         )
-        self._driven, self._driven_at, self._driven_dofs = self._addresses(gained, motors)
+        self._driven, self._driven_at, self._driven_dofs = self._find_addresses(gained, motors)
         model.actuator_gainprm[self._driven, 0] = 1.0
-        self._held, self._at, self._dofs = self._addresses(names, motors)
+        self._held, self._at, self._dofs = self._find_addresses(names, motors)
         self._target = np.array([bodies.positions[name] for name in names])
         self._bound = np.array([joints[name].effort or UNLIMITED_EFFORT for name in names])
         self._friction = np.array(model.dof_frictionloss[self._dofs])
@@ -65,9 +65,9 @@ class Motors:
         self._braked = np.ones(len(names), dtype=bool)
         model.dof_solref[self._dofs] = (_RIGID[0] * settings.timestep, _RIGID[1])
         model.dof_solimp[self._dofs] = _IMPEDANCE
-        self._brake()
+        self._set_brake()
 
-    def _addresses(self, names: list[str], motors: dict[str, int]) -> tuple[Any, Any, Any]:
+    def _find_addresses(self, names: list[str], motors: dict[str, int]) -> tuple[Any, Any, Any]:
         """Find the motors of joints, and the addresses of position and rate of each."""
         numbers = np.array([motors[name] for name in names], dtype=int)
         joints = self._model.actuator_trnid[numbers, 0]
@@ -75,7 +75,7 @@ class Motors:
 
     def _make_servos(self, timestep: float) -> None:
         model = self._model
-        inertia = _felt_inertias(self._mj, model, self._data, self._dofs)
+        inertia = _compute_felt_inertias(self._mj, model, self._data, self._dofs)
         fast = _STIFF / timestep
         self._stiffness = inertia * fast**2
         # the implicit Euler method's spring: its force is that of the position after the step
@@ -87,7 +87,7 @@ class Motors:
         model.actuator_forcelimited[self._held] = True
         model.actuator_forcerange[self._held] = np.outer(self._bound, [-1, 1])
 
-    def _brake(self) -> None:
+    def _set_brake(self) -> None:
         """Set the dry friction of joints that are held by it, and release the others."""
         tight = np.where(self._braked, self._bound, 0.0)
         self._model.dof_frictionloss[self._dofs] = self._friction + tight
@@ -109,7 +109,7 @@ class Motors:
         braked = np.where(self._braked, ~far, near & slow)
         if (braked != self._braked).any():
             self._braked = braked
-            self._brake()
+            self._set_brake()
         if braked.all():
             data.ctrl[self._held] = 0.0
             return
@@ -118,7 +118,7 @@ class Motors:
         self._sum = np.clip(self._sum + grown, -self._bound, self._bound)
         data.ctrl[self._held] = np.where(braked, 0.0, self._stiffness * error + self._sum)
 
-    def efforts(self, dofs: Any) -> Array:
+    def get_efforts(self, dofs: Any) -> Array:
         """Return the effort that drives or holds each degree of freedom [N·m, N]."""
         data = self._data
         whole = np.array(data.qfrc_actuator)
@@ -134,7 +134,7 @@ class Motors:
         return found
 
 
-def _felt_inertias(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
+def _compute_felt_inertias(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
     """Compute the inertia that a motor moves when every other joint is free [kg·m², kg]."""
     found = np.zeros(len(dofs))
     for row, dof in enumerate(dofs):

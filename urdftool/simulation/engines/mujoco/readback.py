@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ....mechanics.spatial_inertia import SpatialInertia, combine
-from ....mechanics.tensor import principal_moments
-from ....model.pose import rotation_of_quaternion
+from ....mechanics.tensor import compute_principal_moments
+from ....model.pose import rotation_from_quaternion
 from ...recording import ReadBack
 from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyModel
 
@@ -32,9 +32,9 @@ def read_back(
     number = 0
     for row, body in enumerate(bodies.bodies):
         if row or not bodies.fixed_base:
-            found += _mass(model, body, number_of)
+            found += _list_mass(model, body, number_of)
         if body.joint is not None:
-            found += _joint(model, body, joints[number])
+            found += _list_joint(model, body, joints[number])
             number += 1
         numbers = [number_of[link] for link in body.links if number_of[link]]
         solid = np.isin(model.geom_bodyid, numbers) & (model.geom_contype != 0)
@@ -44,18 +44,18 @@ def read_back(
     return found
 
 
-def _mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Iterator[ReadBack]:
+def _list_mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Iterator[ReadBack]:
     parts = []
     for link, pose in body.places.items():
         number = number_of[link]
         if number and model.body_mass[number]:
             w, x, y, z = (float(part) for part in model.body_iquat[number])
-            turn = np.array(rotation_of_quaternion((w, x, y, z)))
+            turn = np.array(rotation_from_quaternion((w, x, y, z)))
             tensor = turn @ np.diag(model.body_inertia[number]) @ turn.T
             own = SpatialInertia.from_arrays(
                 float(model.body_mass[number]), np.array(model.body_ipos[number]), tensor
             )
-            parts.append(own.moved(pose))
+            parts.append(own.transform(pose))
     got = combine(parts)
     if not math.isclose(got.mass, body.mass, rel_tol=_CLOSE, abs_tol=1e-12):
         yield ReadBack("link", body.name, "mass", f"{body.mass:g} kg", f"{got.mass:g} kg")
@@ -63,11 +63,11 @@ def _mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Iterator
     if said is None or not body.mass:
         return
     scale = max(map(abs, said.tensor))
-    least, middle, most = principal_moments(said.tensor)
+    least, middle, most = compute_principal_moments(said.tensor)
     close = 1e-4 if most <= least + middle else TENSOR_ROUNDING
     if not np.allclose(got.tensor, said.tensor, rtol=1e-4, atol=close * scale + 1e-12):
         one, two = (
-            " ".join(f"{value:.4g}" for value in principal_moments(part.tensor))
+            " ".join(f"{value:.4g}" for value in compute_principal_moments(part.tensor))
             for part in (said, got)
         )
         yield ReadBack("link", body.name, "principal moments", f"{one} kg·m²", f"{two} kg·m²")
@@ -79,7 +79,7 @@ def _mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Iterator
 _KINDS = {0: "floating", 1: "spherical", 2: "prismatic", 3: "revolute"}
 
 
-def _joint(model: Any, body: RigidBody, number: int) -> Iterator[ReadBack]:
+def _list_joint(model: Any, body: RigidBody, number: int) -> Iterator[ReadBack]:
     joint = body.joint
     assert joint is not None
     if number < 0:

@@ -34,7 +34,7 @@ def write_model(robot: Robot, bodies: RigidBodyModel, settings: Settings, folder
     root = robot.tree.root
     assert root is not None
     held = bodies.fixed_base or bodies.bodies[0].name != root.name
-    model = _without_visuals(robot, settings, rename=not held)
+    model = _remove_without_visuals(robot, settings, rename=not held)
     written = write(
         model,
         Options(
@@ -53,11 +53,11 @@ def write_model(robot: Robot, bodies: RigidBodyModel, settings: Settings, folder
         else:
             shutil.copyfile(content, target)
     path = folder / SCENE
-    ElementTree(_scene(written.main, bodies)).write(path, "utf-8", xml_declaration=True)
+    ElementTree(_build_scene(written.main, bodies)).write(path, "utf-8", xml_declaration=True)
     return path
 
 
-def _scene(main: str, bodies: RigidBodyModel) -> Element:
+def _build_scene(main: str, bodies: RigidBodyModel) -> Element:
     scene = Element("mujoco", model="scene")
     SubElement(scene, "include", file=main)
     world = SubElement(scene, "worldbody")
@@ -69,24 +69,26 @@ def _scene(main: str, bodies: RigidBodyModel) -> Element:
     return scene
 
 
-def _without_visuals(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
+def _remove_without_visuals(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
     """Remove visuals, add payloads, and rename a moving link that is called world."""
-    links = [_with_payload(link, settings.payloads.get(link.name, 0.0)) for link in robot.links]
-    joints = [_without_negative_losses(joint) for joint in robot.joints]
+    links = [
+        _remove_with_payload(link, settings.payloads.get(link.name, 0.0)) for link in robot.links
+    ]
+    joints = [_set_without_negative_losses(joint) for joint in robot.joints]
     root = robot.tree.root
     if rename or root is None or root.name != ROOTED:
-        name = moving_name(ROOTED)
+        name = get_moving_name(ROOTED)
         links = [replace(link, name=name) if link.name == ROOTED else link for link in links]
-        joints = [_renamed_ends(joint, name) for joint in joints]
+        joints = [_make_renamed_ends(joint, name) for joint in joints]
     return replace(robot, links=links, joints=joints)
 
 
-def moving_name(name: str) -> str:
+def get_moving_name(name: str) -> str:
     """Return the name of a link's body, if MuJoCo reserves the link's own name."""
     return f"{name} (moving)"  # which no other link is called
 
 
-def _without_negative_losses(joint: Joint) -> Joint:
+def _set_without_negative_losses(joint: Joint) -> Joint:
     """Set damping and friction below zero to zero, which would drive a joint."""
     loss = joint.dynamics
     if loss is None:
@@ -97,14 +99,14 @@ def _without_negative_losses(joint: Joint) -> Joint:
     return replace(joint, dynamics=replace(loss, damping=damping, friction=friction))
 
 
-def _renamed_ends(joint: Joint, name: str) -> Joint:
+def _make_renamed_ends(joint: Joint, name: str) -> Joint:
     if ROOTED not in (joint.parent, joint.child):
         return joint
     parent, child = (name if end == ROOTED else end for end in (joint.parent, joint.child))
     return replace(joint, parent=parent, child=child)
 
 
-def _with_payload(link: Link, payload: float) -> Link:
+def _remove_with_payload(link: Link, payload: float) -> Link:
     """Remove visuals, and add a point mass [kg] at the center of mass."""
     inertial = link.inertial
     if payload:

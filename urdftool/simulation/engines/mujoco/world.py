@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from ....errors import ModelError
-from ....extras import missing
+from ....extras import make_missing_error
 from ...recording import Array, Contact
 from ...rigid_bodies import RigidBodyModel
 from ...settings import Settings
 from ..base import Sample
-from ..registry import alternatives
+from ..registry import name_alternative
 from .contacts import ContactReader
 from .motors import Motors
 from .readback import read_back
-from .scene import MOTOR, PLANE, SCENE, moving_name
+from .scene import MOTOR, PLANE, SCENE, get_moving_name
 
 _SOFT = 5.0  # timesteps: the time constant of a contact; below two it is unstable, near it jumps
 _IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
@@ -33,7 +33,7 @@ def import_mujoco() -> Any:
     try:
         import mujoco  # type: ignore[import-untyped,unused-ignore]
     except ImportError:
-        raise missing("mujoco", "--engine mujoco") from None
+        raise make_missing_error("mujoco", "--engine mujoco") from None
     return mujoco
 
 
@@ -61,13 +61,15 @@ class MuJoCoWorld:
         except ValueError as error:
             reason = " ".join(str(error).split())
             if _TOO_DEEP in reason:
-                raise ModelError(_too_deep()) from None
+                raise ModelError(_explain_depth()) from None
             raise ModelError(f"MuJoCo does not compile the robot's MJCF: {reason}") from None
         self.data = mj.MjData(self.model)
-        self.number_of = {link: self._body(link) for body in bodies.bodies for link in body.links}
+        self.number_of = {
+            link: self._get_body(link) for body in bodies.bodies for link in body.links
+        }
         self.numbers = [self.number_of[body.name] for body in bodies.bodies]
-        self.joints = [self._id("JOINT", joint.name) for joint in bodies.joints]
-        self.plane = self._id("GEOM", PLANE)
+        self.joints = [self._get_id("JOINT", joint.name) for joint in bodies.joints]
+        self.plane = self._get_id("GEOM", PLANE)
         self.read_back = read_back(self.model, bodies, self.number_of, self.joints)
         self._set_options()
         self._set_forces()
@@ -77,17 +79,17 @@ class MuJoCoWorld:
         motors = {
             joint.name: number
             for joint in bodies.joints
-            if (number := self._id("ACTUATOR", MOTOR + joint.name)) >= 0
+            if (number := self._get_id("ACTUATOR", MOTOR + joint.name)) >= 0
         }
         self.motors = Motors(mj, self.model, self.data, bodies, settings, motors)
 
-    def _id(self, kind: str, name: str) -> int:
+    def _get_id(self, kind: str, name: str) -> int:
         return int(self.mj.mj_name2id(self.model, getattr(self.mj.mjtObj, f"mjOBJ_{kind}"), name))
 
-    def _body(self, link: str) -> int:
+    def _get_body(self, link: str) -> int:
         """Return the number of a link's body; 0, the world, if it has no body of its own."""
-        number = self._id("BODY", moving_name(link))
-        return number if number >= 0 else max(0, self._id("BODY", link))
+        number = self._get_id("BODY", get_moving_name(link))
+        return number if number >= 0 else max(0, self._get_id("BODY", link))
 
     def _set_options(self) -> None:
         mj, option = self.mj, self.model.opt
@@ -101,7 +103,7 @@ class MuJoCoWorld:
         option.wind = (0.0, 0.0, 0.0)
         option.disableflags = mj.mjtDisableBit.mjDSBL_AUTORESET
         option.enableflags = 0
-        option.gravity = self.settings.gravity_at(0.0)
+        option.gravity = self.settings.compute_gravity_at(0.0)
 
     def _set_forces(self) -> None:
         """Leave out gravity compensation and springs that the bodies do without."""
@@ -135,7 +137,10 @@ class MuJoCoWorld:
     def _place(self) -> None:
         """Put the root's link frame where it starts, and each joint."""
         mj, model, data = self.mj, self.model, self.data
-        at, turn = np.array(self.bodies.start.translation), _quaternion(self.bodies.start.rotation)
+        at, turn = (
+            np.array(self.bodies.start.translation),
+            _convert_quaternion(self.bodies.start.rotation),
+        )
         mj.mj_resetData(model, data)
         root = self.numbers[0]
         free = [
@@ -185,13 +190,13 @@ class MuJoCoWorld:
     def clear_ground(self) -> None:
         """Do nothing: overlaps are measured with the bodies that are asked for."""
 
-    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+    def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
         """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
-        return self.touches.overlaps(ground=ground)
+        return self.touches.find_overlaps(ground=ground)
 
-    def contacts(self) -> list[Contact]:
+    def list_contacts(self) -> list[Contact]:
         """List the contacts with the plane."""
-        return self.touches.contacts()
+        return self.touches.list_contacts()
 
     def is_broken(self) -> bool:
         """Tell whether the engine warned of numbers that are not finite."""
@@ -220,7 +225,7 @@ class MuJoCoWorld:
         if not self.numbers[0]:  # the root is the world
             start = self.bodies.start
             poses[0, :3] = start.translation
-            poses[0, 3:] = _quaternion(start.rotation)[[1, 2, 3, 0]]
+            poses[0, 3:] = _convert_quaternion(start.rotation)[[1, 2, 3, 0]]
         speed = np.zeros(6)
         for row, (number, body) in enumerate(zip(self.numbers, self.bodies.bodies, strict=True)):
             mj.mj_objectVelocity(model, data, mj.mjtObj.mjOBJ_XBODY, number, speed, 0)
@@ -233,8 +238,8 @@ class MuJoCoWorld:
         if self.joints:
             positions = data.qpos[model.jnt_qposadr[self.joints]]
             rates = data.qvel[model.jnt_dofadr[self.joints]]
-            efforts = self.motors.efforts(model.jnt_dofadr[self.joints])
-        up = -np.array(self.settings.gravity_at(math.inf))
+            efforts = self.motors.get_efforts(model.jnt_dofadr[self.joints])
+        up = -np.array(self.settings.compute_gravity_at(math.inf))
         return {
             "times": time,
             "poses": poses,
@@ -244,21 +249,21 @@ class MuJoCoWorld:
             "efforts": np.array(efforts),
             "kinetic": float(data.energy[1]),
             "potential": float(model.body_mass * (1 - model.body_gravcomp) @ (data.xipos @ up))
-            + self.bodies.spring_energy(np.array(positions)),
-            "depths": self.touches.deepest(),
+            + self.bodies.compute_spring_energy(np.array(positions)),
+            "depths": self.touches.measure_deepest(),
         }
 
 
-def _too_deep() -> str:
-    other = alternatives("mujoco", lambda known: known.lumps_fixed_joints)
+def _explain_depth() -> str:
+    other = name_alternative("mujoco", lambda known: known.lumps_fixed_joints)
     return (
         "the robot has more links in a row than MuJoCo's reader of XML bears, which is about 500"
         + (f"; {other} takes more where they are fixed" if other else "")
     )
 
 
-def _quaternion(rotation: Any) -> Array:
+def _convert_quaternion(rotation: Any) -> Array:
     """Convert a rotation matrix to a quaternion w, x, y, z."""
-    from ....model.pose import quaternion_of_rotation
+    from ....model.pose import quaternion_from_rotation
 
-    return np.array(quaternion_of_rotation(rotation))
+    return np.array(quaternion_from_rotation(rotation))

@@ -30,14 +30,14 @@ class ContactReader:
         self.bodies, self.link_of = bodies, link_of
         self.body_of = {link: body for body, link in link_of.items()}
 
-    def contacts(self) -> list[Contact]:
+    def list_contacts(self) -> list[Contact]:
         """List the contacts with the plane."""
         return [
-            self._contact(point, GROUND)
+            self._make_contact(point, GROUND)
             for point in self.p.getContactPoints(bodyA=self.robot, bodyB=self.plane)
         ]
 
-    def _contact(self, point: Any, other: str) -> Contact:
+    def _make_contact(self, point: Any, other: str) -> Contact:
         return Contact(
             self._link(self.body_of[point[3]], point[5]),
             other,
@@ -52,7 +52,7 @@ class ContactReader:
         body = self.bodies.bodies[number]
         if len({shape.link for shape in body.shapes}) < 2:
             return body.shapes[0].link if body.shapes else body.name
-        where, turn = self.frame(number)
+        where, turn = self.get_frame(number)
         local, _ = self.p.multiplyTransforms(*self.p.invertTransform(where, turn), at, (0, 0, 0, 1))
 
         def distance(shape: Any) -> float:
@@ -62,7 +62,7 @@ class ContactReader:
 
         return min(body.shapes, key=distance).link
 
-    def frame(self, number: int) -> tuple[Any, Any]:
+    def get_frame(self, number: int) -> tuple[Any, Any]:
         """Return position [m] and quaternion x, y, z, w of a body's link frame in the world."""
         if number:
             state = self.p.getLinkState(self.robot, self.link_of[number])
@@ -74,7 +74,7 @@ class ContactReader:
         )
         return where
 
-    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+    def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
         """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
         p, found = self.p, []
         solid = [n for n, body in enumerate(self.bodies.bodies) if body.shapes]
@@ -90,11 +90,13 @@ class ContactReader:
                 if points and min(point[8] for point in points) < 0:
                     deepest = min(points, key=lambda point: point[8])
                     name = self._link(other, deepest[6])
-                    found.append(self._contact(deepest, name))
+                    found.append(self._make_contact(deepest, name))
             if ground and boxes[one][0][2] < 0:
                 points = p.getClosestPoints(self.robot, self.plane, _NEAR, self.link_of[one], -1)
                 if points:
-                    found.append(self._contact(min(points, key=lambda point: point[8]), GROUND))
+                    found.append(
+                        self._make_contact(min(points, key=lambda point: point[8]), GROUND)
+                    )
         return found
 
 
@@ -118,7 +120,7 @@ def round_part(body: RigidBody) -> tuple[Array, float] | None:
     axes = [np.array(shape.pose.rotation)[:, 2] for shape in body.shapes if shape.kind != "sphere"]
     if not axes:
         return None
-    corners = [np.maximum(*map(np.abs, shape.bounds())) for shape in body.shapes]
+    corners = [np.maximum(*map(np.abs, shape.get_bounds())) for shape in body.shapes]
     return np.array(axes), max(float(np.linalg.norm(corner)) for corner in corners)
 
 

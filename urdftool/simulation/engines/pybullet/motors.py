@@ -42,7 +42,7 @@ class Motors:
         numbers = {
             joint.name: link for link, joint in zip(self.indices, self.bodies.joints, strict=True)
         }
-        self.damped = self._stable_damping()
+        self.damped = self._limit_stable_damping()
         self.capped: dict[str, float] = {}
         for link, joint in zip(self.indices, self.bodies.joints, strict=True):
             if joint.leader is not None and joint.leader in numbers:
@@ -99,7 +99,7 @@ class Motors:
                 self.robot, self.driven, p.TORQUE_CONTROL, forces=efforts.tolist()
             )
 
-    def _stable_damping(self) -> dict[str, float]:
+    def _limit_stable_damping(self) -> dict[str, float]:
         """Limit the damping of each joint to what its explicit integration allows.
 
         Beyond half of inertia over timestep it would drive the joint instead of braking it; what is
@@ -108,22 +108,22 @@ class Motors:
         if not any(joint.damping for joint in self.bodies.joints):
             return dict.fromkeys((joint.name for joint in self.bodies.joints), 0.0)
         try:
-            moved = self._inertias()
+            moved = self._get_inertias()
         except (self.p.error, SystemError):  # it takes rounding for a tensor that is none
-            moved = self._added_inertias()
+            moved = self._compute_added_inertias()
         return {
             joint.name: min(joint.damping, 0.5 * inertia / self.settings.timestep)
             for joint, inertia in zip(self.bodies.joints, moved, strict=True)
         }
 
-    def _inertias(self) -> list[float]:
+    def _get_inertias(self) -> list[float]:
         """Return the diagonal of the mass matrix at the start [kg·m², kg], by joint."""
         starts = [self.bodies.positions[joint.name] for joint in self.bodies.joints]
-        matrix = np.array(self.p.calculateMassMatrix(self.robot, self._in_order(starts)))
+        matrix = np.array(self.p.calculateMassMatrix(self.robot, self._sort_by_engine(starts)))
         first = len(matrix) - len(starts)
         return [float(matrix[first + r, first + r]) for r in np.argsort(np.argsort(self.indices))]
 
-    def _added_inertias(self) -> list[float]:
+    def _compute_added_inertias(self) -> list[float]:
         """Compute the same from the bodies below each joint."""
         p, bodies = self.p, self.bodies.bodies
         states = [p.getLinkState(self.robot, n, computeForwardKinematics=1) for n in self.indices]
@@ -145,7 +145,7 @@ class Motors:
                 above = bodies[above].parent
         return found
 
-    def _in_order(self, values: list[float]) -> list[float]:
+    def _sort_by_engine(self, values: list[float]) -> list[float]:
         """Order values of joints as the engine numbers its links."""
         return [value for _, value in sorted(zip(self.indices, values, strict=True))]
 

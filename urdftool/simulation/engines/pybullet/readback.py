@@ -10,7 +10,7 @@ import numpy as np
 
 from ...recording import ReadBack
 from ...rigid_bodies import RigidBody, RigidBodyModel
-from .urdf import principal_frame
+from .urdf import compute_principal_frame
 
 _CLOSE = 1e-5
 
@@ -32,9 +32,9 @@ def read_back(
             found.append(ReadBack("link", body.name, "link", "a body", "nothing"))
             continue
         link = link_of[number]
-        found += _mass(p.getDynamicsInfo(robot, link), body, bodies.fixed_base and number == 0)
+        found += _list_mass(p.getDynamicsInfo(robot, link), body, bodies.fixed_base and number == 0)
         if body.joint is not None:
-            found += _joint(p.getJointInfo(robot, link), body)
+            found += _list_joint(p.getJointInfo(robot, link), body)
         count = sum(len(shape.pieces) or 1 for shape in body.shapes)
         shapes = p.getCollisionShapeData(robot, link)
         if bool(shapes) != bool(body.shapes):
@@ -44,8 +44,8 @@ def read_back(
     return found
 
 
-def _mass(info: Any, body: RigidBody, fixed_base: bool) -> Iterator[ReadBack]:
-    frame, moments = principal_frame(body)
+def _list_mass(info: Any, body: RigidBody, fixed_base: bool) -> Iterator[ReadBack]:
+    frame, moments = compute_principal_frame(body)
     if fixed_base:
         return
     if not math.isclose(info[0], body.mass, rel_tol=_CLOSE, abs_tol=1e-12):
@@ -61,7 +61,7 @@ def _mass(info: Any, body: RigidBody, fixed_base: bool) -> Iterator[ReadBack]:
         yield ReadBack("link", body.name, "centre of mass", f"{said} m", f"{got} m")
 
 
-def _joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:
+def _list_joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:
     joint = body.joint
     assert joint is not None
     kind = 1 if joint.kind == "prismatic" else 0
@@ -79,7 +79,7 @@ def _joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:
                 f"{joint.lower:g} to {joint.upper:g}",
                 f"{info[8]:g} to {info[9]:g}",
             )
-    frame, _ = principal_frame(body)
+    frame, _ = compute_principal_frame(body)
     axis = np.array(frame.rotation).T @ np.array(joint.axis)
     if not np.allclose(info[13], axis, atol=1e-5):
         said, got = (" ".join(f"{value:.4g}" for value in part) for part in (axis, info[13]))

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ....mechanics.tensor import principal_axes
-from ....model.pose import Pose, rpy_of_rotation
+from ....mechanics.tensor import compute_principal_axes
+from ....model.pose import Pose, rpy_from_rotation
 from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyJoint, RigidBodyModel
 from ...shapes import Shape
 
@@ -26,7 +26,7 @@ def write_folder(robot: RigidBodyModel, folder: Path) -> Path:
     for number, body in enumerate(robot.bodies):
         lines += _link(number, body, folder)
         if body.joint is not None:
-            lines += _joint(number, body, body.joint)
+            lines += _list_joint(number, body, body.joint)
     path = folder / NAME
     path.write_text("\n".join([*lines, "</robot>", ""]), "ascii")
     return path
@@ -34,18 +34,19 @@ def write_folder(robot: RigidBodyModel, folder: Path) -> Path:
 
 def _link(number: int, body: RigidBody, folder: Path) -> Iterator[str]:
     yield f'<link name="b{number}">'
-    yield from _inertial(body)
+    yield from _list_inertial(body)
     for index, shape in enumerate(body.shapes):
-        yield f"<collision>{_origin(shape.pose)}"
-        yield f"<geometry>{_geometry(shape, folder, f'b{number}_{index}')}</geometry></collision>"
+        yield f"<collision>{_format_origin(shape.pose)}"
+        geometry = _format_geometry(shape, folder, f"b{number}_{index}")
+        yield f"<geometry>{geometry}</geometry></collision>"
     yield "</link>"
 
 
-def principal_frame(body: RigidBody) -> tuple[Pose, tuple[float, float, float]]:
+def compute_principal_frame(body: RigidBody) -> tuple[Pose, tuple[float, float, float]]:
     """Compute the frame of a body's center of mass and principal axes, and its moments [kg·m²]."""
     if body.properties is None:
         return Pose(), (0.0, 0.0, 0.0)
-    moments, axes = principal_axes(body.properties.tensor)
+    moments, axes = compute_principal_axes(body.properties.tensor)
     most = float(moments[0] + moments[1])
     if most < moments[2] <= most * (1 + TENSOR_ROUNDING):
         moments = np.array([moments[0], moments[1], most * (1 - 1e-6)])
@@ -54,19 +55,19 @@ def principal_frame(body: RigidBody) -> tuple[Pose, tuple[float, float, float]]:
     return Pose(rows, body.properties.com), (a, b, c)  # type: ignore[arg-type]
 
 
-def _inertial(body: RigidBody) -> Iterator[str]:
-    pose, (ixx, iyy, izz) = principal_frame(body)
-    yield f'<inertial>{_origin(pose)}<mass value="{body.mass:.17g}"/>'
+def _list_inertial(body: RigidBody) -> Iterator[str]:
+    pose, (ixx, iyy, izz) = compute_principal_frame(body)
+    yield f'<inertial>{_format_origin(pose)}<mass value="{body.mass:.17g}"/>'
     yield (
         f'<inertia ixx="{ixx:.17g}" ixy="0" ixz="0" iyy="{iyy:.17g}" iyz="0" izz="{izz:.17g}"/>'
         "</inertial>"
     )
 
 
-def _joint(number: int, body: RigidBody, joint: RigidBodyJoint) -> Iterator[str]:
+def _list_joint(number: int, body: RigidBody, joint: RigidBodyJoint) -> Iterator[str]:
     limited = math.isfinite(joint.lower) and math.isfinite(joint.upper)
     kind = joint.kind if limited or joint.kind == "prismatic" else "continuous"
-    yield f'<joint name="j{number}" type="{kind}">{_origin(body.origin)}'
+    yield f'<joint name="j{number}" type="{kind}">{_format_origin(body.origin)}'
     yield f'<parent link="b{body.parent}"/><child link="b{number}"/>'
     yield f'<axis xyz="{" ".join(f"{part:.17g}" for part in joint.axis)}"/>'
     lower, upper = (joint.lower, joint.upper) if limited else (0.0, -1.0)  # read as no limit
@@ -75,13 +76,13 @@ def _joint(number: int, body: RigidBody, joint: RigidBodyJoint) -> Iterator[str]
     yield "</joint>"
 
 
-def _origin(pose: Pose) -> str:
-    parts = (pose.translation, rpy_of_rotation(pose.rotation))
+def _format_origin(pose: Pose) -> str:
+    parts = (pose.translation, rpy_from_rotation(pose.rotation))
     xyz, rpy = (" ".join(f"{value:.17g}" for value in part) for part in parts)
     return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
 
 
-def _geometry(shape: Shape, folder: Path, name: str) -> str:
+def _format_geometry(shape: Shape, folder: Path, name: str) -> str:
     if shape.kind == "box":
         return f'<box size="{" ".join(f"{edge:.17g}" for edge in shape.size)}"/>'
     if shape.kind == "sphere":
@@ -89,11 +90,11 @@ def _geometry(shape: Shape, folder: Path, name: str) -> str:
     if shape.kind in ("cylinder", "capsule"):
         radius, length = shape.size
         return f'<{shape.kind} radius="{radius:.17g}" length="{length:.17g}"/>'
-    (folder / f"{name}.obj").write_text("\n".join(_obj(shape)), "ascii")
+    (folder / f"{name}.obj").write_text("\n".join(_list_obj(shape)), "ascii")
     return f'<mesh filename="{name}.obj"/>'
 
 
-def _obj(shape: Shape) -> Iterator[str]:
+def _list_obj(shape: Shape) -> Iterator[str]:
     first = 1
     for number, (points, faces) in enumerate(zip(shape.pieces, shape.faces, strict=True)):
         yield f"o piece{number}"

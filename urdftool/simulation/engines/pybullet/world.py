@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ....errors import ModelError
-from ....extras import missing
+from ....extras import make_missing_error
 from ...recording import Array, Contact, ReadBack
 from ...rigid_bodies import RigidBodyModel
 from ...settings import Settings
@@ -17,7 +17,7 @@ from ..base import Sample
 from .contacts import NEARING, ContactReader, forget_contacts, is_lying, round_part
 from .motors import Forces, Motors
 from .readback import read_back
-from .urdf import NAME, principal_frame
+from .urdf import NAME, compute_principal_frame
 
 _ITERATIONS = 100
 _STOP = 1e9  # N·m, N; its own is an impulse of 100 a step, which a load of 5 t breaks through
@@ -33,7 +33,7 @@ def import_pybullet() -> Any:
     try:
         import pybullet
     except ImportError:
-        raise missing("pybullet", "--engine pybullet") from None
+        raise make_missing_error("pybullet", "--engine pybullet") from None
     return pybullet
 
 
@@ -70,8 +70,8 @@ class PyBulletWorld:
         self._make_dynamics()
         self.touches = ContactReader(p, self.robot, self.plane, bodies, self.link_of)
         self.motors = Motors(p, self.robot, bodies, settings, self.indices)
-        self.forces = Forces(p, self.robot, bodies, self.indices, self.touches.frame)
-        self.gravity = settings.gravity_at(0.0)
+        self.forces = Forces(p, self.robot, bodies, self.indices, self.touches.get_frame)
+        self.gravity = settings.compute_gravity_at(0.0)
         self.capped = self.motors.capped
         self.version = str(p.getAPIVersion())
         self._rolling: list[int] = []
@@ -100,9 +100,11 @@ class PyBulletWorld:
     def _place(self) -> None:
         """Put the root's link frame where it starts, and each joint."""
         p = self.p
-        frame, _ = principal_frame(self.bodies.bodies[0])
+        frame, _ = compute_principal_frame(self.bodies.bodies[0])
         at = self.bodies.start @ frame
-        p.resetBasePositionAndOrientation(self.robot, at.translation, quaternion(at.rotation))
+        p.resetBasePositionAndOrientation(
+            self.robot, at.translation, convert_quaternion(at.rotation)
+        )
         for number, joint in zip(self.indices, self.bodies.joints, strict=True):
             p.resetJointState(self.robot, number, self.bodies.positions[joint.name], 0.0)
 
@@ -150,13 +152,13 @@ class PyBulletWorld:
                 self.p.resetJointState(self.robot, link, to, 0.0)
         self.p.performCollisionDetection()
 
-    def contacts(self) -> list[Contact]:
+    def list_contacts(self) -> list[Contact]:
         """List the contacts with the plane."""
-        return self.touches.contacts()
+        return self.touches.list_contacts()
 
-    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+    def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
         """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
-        return self.touches.overlaps(ground=ground)
+        return self.touches.find_overlaps(ground=ground)
 
     def is_broken(self) -> bool:
         """Return False: this engine reports nothing, and the driver checks its numbers."""
@@ -213,9 +215,9 @@ class PyBulletWorld:
                 joints[self.indices.index(link), 2] = effort
         else:
             joints = np.zeros((0, 3))
-        kinetic, potential = self._energy(coms, velocities)
-        potential -= self._weightless_energy(poses)
-        potential += self.bodies.spring_energy(joints[:, 0])
+        kinetic, potential = self._compute_energy(coms, velocities)
+        potential -= self._compute_weightless_energy(poses)
+        potential += self.bodies.compute_spring_energy(joints[:, 0])
         touching = p.getContactPoints(bodyA=self.robot, bodyB=self.plane)
         return {
             "times": time,
@@ -229,13 +231,13 @@ class PyBulletWorld:
             "depths": max((-point[8] for point in touching), default=-math.inf),
         }
 
-    def _energy(self, coms: Array, velocities: Array) -> tuple[float, float]:
+    def _compute_energy(self, coms: Array, velocities: Array) -> tuple[float, float]:
         """Compute kinetic and potential energy [J] from the frames of the centers of mass."""
         if not hasattr(self, "_masses"):
-            frames = [principal_frame(body) for body in self.bodies.bodies]
+            frames = [compute_principal_frame(body) for body in self.bodies.bodies]
             self._masses = np.array([body.mass for body in self.bodies.bodies])
             self._moments = np.array([moments for _, moments in frames])
-            self._up = -np.array(self.settings.gravity_at(math.inf))
+            self._up = -np.array(self.settings.compute_gravity_at(math.inf))
         q, w = coms[:, 3:6], velocities[:, 3:]
         # ω in the principal frame: the conjugate quaternion turns it
         t = 2 * np.cross(-q, w)
@@ -244,9 +246,9 @@ class PyBulletWorld:
         kinetic += 0.5 * float((self._moments * local**2).sum())
         return kinetic, float(self._masses @ (coms[:, :3] @ self._up))
 
-    def _weightless_energy(self, poses: Array) -> float:
+    def _compute_weightless_energy(self, poses: Array) -> float:
         """Compute the potential energy [J] of the mass on which gravity does not act."""
-        up, total = -np.array(self.settings.gravity_at(math.inf)), 0.0
+        up, total = -np.array(self.settings.compute_gravity_at(math.inf)), 0.0
         for body, pose in zip(self.bodies.bodies, poses, strict=True):
             part = body.weightless
             if part is not None:
@@ -257,9 +259,9 @@ class PyBulletWorld:
         return total
 
 
-def quaternion(rotation: Any) -> tuple[float, float, float, float]:
+def convert_quaternion(rotation: Any) -> tuple[float, float, float, float]:
     """Convert a rotation matrix to a quaternion x, y, z, w."""
-    from ....model.pose import quaternion_of_rpy, rpy_of_rotation
+    from ....model.pose import quaternion_from_rpy, rpy_from_rotation
 
-    w, x, y, z = quaternion_of_rpy(rpy_of_rotation(rotation))
+    w, x, y, z = quaternion_from_rpy(rpy_from_rotation(rotation))
     return x, y, z, w

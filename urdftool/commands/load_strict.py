@@ -1,0 +1,174 @@
+"""Read a description strictly, for commands that write descriptions or other formats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..model.elements import Robot
+    from ..source.description import Description
+    from ..source.location import SourceFile
+    from ..source.packages import Packages
+
+
+def load_strict(
+    console: Console,
+    robot: tuple[str, Mapping[str, str]],
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+    *,
+    file: SourceFile | None = None,
+) -> Description:
+    """Read a description; malformed XML is an error.
+
+    Args:
+        console: Output for warnings, and source of the configuration file.
+        robot: Path, and values of its xacro arguments by name.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders that are searched for packages.
+        file: The file, if it has been read.
+
+    Raises:
+        SourceError: The file cannot be read, parsed or expanded.
+    """
+    path, arguments = robot
+    description = read_configured(console, path, arguments, packages, package_paths, file=file)
+    report_unknown_arguments(console, description)
+    report_assumed_packages(console, description)
+    return description
+
+
+def read_configured(
+    console: Console,
+    path: str,
+    arguments: Mapping[str, str],
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+    *,
+    neighbors: Mapping[str, Path] | None = None,
+    file: SourceFile | None = None,
+) -> Description:
+    """Read a description with the packages and options of the command line and configuration.
+
+    Args:
+        console: Source of the configuration file and of ``--gltf-up``.
+        path: Description.
+        arguments: Values of its xacro arguments by name.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders that are searched for packages.
+        neighbors: Further folders by package name, with the priority of configured ones.
+        file: Content of the file; None to read it.
+
+    Raises:
+        SourceError: The file cannot be read, parsed or expanded.
+    """
+    from ..configuration import find_configuration
+    from ..source.description import read_description
+
+    configuration = find_configuration(path, console.config)
+    return read_description(
+        path,
+        arguments,
+        packages=packages,
+        package_paths=package_paths,
+        configured={**(neighbors or {}), **configuration.packages},
+        file=file,
+        gltf_up=console.gltf_up or configuration.gltf_up,
+    )
+
+
+def get_finder(
+    console: Console,
+    file: SourceFile,
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+    *,
+    neighbors: Mapping[str, Path] | None = None,
+) -> Packages:
+    """Return the finder of the files of a description, as the command line and configuration say.
+
+    Args:
+        console: The configuration that was named.
+        file: The description.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders with packages below.
+        neighbors: Folders by package name that count as configured.
+    """
+    from ..configuration import find_configuration
+    from ..source.document import STDIN
+    from ..source.packages import Packages
+
+    configuration = find_configuration(file.path, console.config)
+    return Packages(
+        None if file.path == STDIN else file.path,
+        named=packages,
+        paths=package_paths,
+        configured={**(neighbors or {}), **configuration.packages},
+    )
+
+
+def report_gltf_axes(console: Console, robot: Robot) -> None:
+    """Print a note if the axes of glTF meshes are converted, which readers do differently.
+
+    Args:
+        console: Output for the note.
+        robot: Robot.
+    """
+    from ..model.gltf_axes import describe_gltf_axes
+
+    if axes := describe_gltf_axes(robot):
+        console.note(f"note: {axes}")
+
+
+def report_unknown_arguments(
+    console: Console, description: Description, *, shown: Callable[[str], str] = str
+) -> None:
+    """Print the given xacro arguments that the description does not declare.
+
+    Args:
+        console: Output for warnings.
+        description: Description that was read with the arguments.
+        shown: Formats a path for messages.
+    """
+    if not description.arguments:
+        return
+    from ..report.expansion import format_unknown_arguments
+
+    path = shown(description.files[0].path)
+    for line in format_unknown_arguments(path, description.arguments, description.expansion):
+        console.note(line)
+
+
+def report_assumed_packages(
+    console: Console, description: Description, *, shown: Callable[[str], str] = str
+) -> None:
+    """Print the packages that are not found and replaced by folders of the same name.
+
+    Args:
+        console: Output for warnings.
+        description: Description.
+        shown: Formats a path for messages.
+    """
+    from ..errors import UrdftoolError
+    from ..source.packages import shorten_path
+
+    packages = description.packages
+    first: dict[str, str] = {}
+    for element in description.document.root.walk():
+        uri = element.get("filename") or ""
+        if element.tag == "mesh" and uri.startswith("package://"):
+            first.setdefault(uri[10:].partition("/")[0], uri)
+    for uri in first.values():
+        try:
+            packages.resolve(uri)
+        except UrdftoolError:
+            continue  # reported by the command that reads the mesh
+    for name, folder in packages.assumed.items():
+        console.note(
+            f"{shown(description.files[0].path)}: warning: package '{name}' is not found; "
+            f"using the folder '{shorten_path(folder)}' instead"
+        )

@@ -1,0 +1,85 @@
+"""Options of ``urdftool simulate`` for the engine, controllers, pictures and fleets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+
+from ..simulation.engines.registry import BOTH, REGISTRY
+from .cache_options import CACHE_OPTIONS
+from .options import parse_robot, split_arguments
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_OPTIONS = (
+    click.option(
+        "--engine",
+        type=click.Choice([*REGISTRY, BOTH]),
+        metavar="ENGINE",
+        help="Physics engine: pybullet, mujoco or both.  [default: first installed]",
+    ),
+    click.option(
+        "--controllers",
+        metavar="FILE.yaml",
+        help="ros_control or ros2_control file, whose controllers hold the joints.",
+    ),
+    click.option(
+        "--strict",
+        is_flag=True,
+        help="Refuse controllers of unknown type (default: joints unactuated).",
+    ),
+    click.option(
+        "--plot",
+        metavar="FILE.png",
+        help="Write a plot of height, tilt, kinetic energy, joints and efforts.",
+    ),
+    click.option("--picture", metavar="FILE.png", help="Write a picture of the final state."),
+    click.option("--video", metavar="FILE.gif", help="Write an animation of the simulation."),
+    click.option(
+        "--fleet",
+        is_flag=True,
+        is_eager=True,
+        help="Simulate several robots (files or folders), one line of output each.",
+    ),
+    click.option(
+        "--junit", metavar="FILE", help="Also write JUnit XML with one test case per robot."
+    ),
+    click.option(
+        "-j",
+        "--jobs",
+        type=click.IntRange(1),
+        metavar="N",
+        help="With --fleet: number of worker processes.  [default: one per core]",
+    ),
+    *CACHE_OPTIONS,
+)
+
+
+def add_robots_argument(function: F) -> F:
+    """Add ``IN [name:=value …]``: one path, or with ``--fleet`` several, and xacro arguments."""
+    return click.argument(
+        "robot", nargs=-1, type=str, metavar="IN [name:=value ...]", callback=_parse_robots
+    )(function)
+
+
+def _parse_robots(
+    ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]
+) -> tuple[list[str], dict[str, str]]:
+    paths, arguments = split_arguments(words)
+    if not ctx.params.get("fleet"):
+        path, arguments = parse_robot(ctx, words)
+        return [path], arguments
+    if not paths:
+        raise click.UsageError("missing argument IN: files or folders for --fleet", ctx)
+    if "-" in paths:
+        raise click.UsageError("--fleet does not read standard input ('-')", ctx)
+    return paths, arguments
+
+
+def add_engine_options(function: F) -> F:
+    """Add the options."""
+    for option in reversed(_OPTIONS):
+        function = option(function)
+    return function

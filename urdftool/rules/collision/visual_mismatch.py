@@ -1,0 +1,389 @@
+"""Compare collision geometry with visual geometry."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...model.bounds import Bounds, compute_size
+from ...model.elements import Collision, Cylinder, Link, Robot, Sphere, Visual
+from ...model.gltf_axes import is_gltf
+from ...source.description import Description
+from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
+from ..mesh.link_extents import LinkExtents, get_extents
+from ..mesh.mesh_uses import MeshUse, get_mesh_uses, is_concave
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..shape_changes import copy_origin, set_in_origin
+from .displaced import find_displaced
+from .misalignment import compare_places, join_attached_boxes, measure_boxes
+
+APPLIES_TO = ("collision",)
+
+_SIMPLER = "'urdftool collision' creates simpler geometry, and measures its error"
+
+_FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORECASE)
+"""Names of meshes that were made for contact, and are shown because no other mesh exists."""
+
+_AXES = "; if a glTF file has Z up, RViz rotates it: export it with Y up, or use --gltf-up z"
+
+
+def count_faces(use: MeshUse) -> int:
+    """Count the triangles of a binary STL file; 0 if that is slow or impossible."""
+    if use.path is None or use.path.suffix.lower() != ".stl":
+        return 0
+    try:
+        from ..mesh.formats import read_stl_facts
+
+        facts = read_stl_facts(use.workspace, use.path)
+    except OSError:
+        return 0
+    return (facts.triangles or 0) if facts.size_agrees else 0
+
+
+def _is_small(use: MeshUse, least: float) -> bool:
+    """Tell whether an OBJ or ASCII STL file is known to have few triangles."""
+    word = {".obj": b"f", ".stl": b"facet"}.get(use.path.suffix.lower()) if use.path else None
+    if use.path is None or word is None or use.size is None or use.size > 400 * least:
+        return False
+    try:
+        lines = [line.split() for line in use.workspace.read_bytes(use.path).splitlines()]
+    except OSError:
+        return False
+    corners = [len(line) - 1 if word == b"f" else 3 for line in lines if line[:1] == [word]]
+    return 0 < sum(count - 2 for count in corners) < least
+
+
+@rule(
+    INFO,
+    effects={
+        "moveit": "builds the collision geometry from all triangles of the mesh",
+        "mujoco": "uses the convex hull",
+        "pybullet": "uses the convex hull; for an OBJ with several objects, the hull of each",
+        "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
+    },
+)
+def visual_mesh_as_collision(
+    robot: Robot, description: Description, *, dense: float = 5000, least: float = 200
+) -> Iterator[Problem]:
+    """A link uses its visual mesh as collision geometry.
+
+    Visual meshes have details, such as screws, that contacts do not need and that make planning
+    and simulation slow: simpler shapes have made planning scenes up to 60 times faster. Use
+    primitives or simplified meshes.
+
+    A mesh with more than ``dense`` triangles is a warning. An STL or OBJ file with fewer than
+    ``least`` is as simple as one made for contact, and not reported. One finding names all links
+    with dense meshes, and one counts the others; a ``<collision>`` with the attribute ``concave``,
+    of which PyBullet keeps the triangles, is a finding of its own.
+    """
+    seen: dict[str, set[str]] = {}
+    plain, heavy = [], []
+    for use in get_mesh_uses(robot, description):
+        if not use.collides:
+            seen.setdefault(use.link.name, set()).add(use.uri)
+            continue
+        if use.uri not in seen.get(use.link.name, ()) or _FOR_CONTACT.search(use.uri):
+            continue
+        faces = count_faces(use) if use.exists else 0
+        if faces > dense:
+            heavy.append((use, faces))
+        elif faces > dense / 10 or (faces == 0 and not _is_small(use, least)):
+            plain.append(use)
+    named = {use.link.name for use, _ in heavy}
+    plain = [use for use in plain if use.link.name not in named]
+    for concave in (False, True):
+        yield from _report_visual_meshes(
+            [one for one in heavy if is_concave(one[0]) is concave],
+            [one for one in plain if is_concave(one) is concave],
+            ("moveit", "mujoco", "pybullet (concave)" if concave else "pybullet"),
+        )
+
+
+def _report_visual_meshes(
+    heavy: list[tuple[MeshUse, int]], plain: list[MeshUse], effects: tuple[str, ...]
+) -> Iterator[Problem]:
+    """Report visual meshes used as collision geometry: dense ones, and the others."""
+    if heavy:
+        names = list(dict.fromkeys(use.link.name for use, _ in heavy))
+        most = max(faces for _, faces in heavy)
+        others = ", ".join(f"'{name}'" for name in names[1:])
+        yield Problem(
+            heavy[0][0].link,
+            f"link '{names[0]}' uses its visual mesh of {heavy[0][1]} triangles as collision "
+            "geometry"
+            + (f"; so do {others}, with up to {most}" if others else "")
+            + ". Use primitives or simpler meshes",
+            at=heavy[0][0].mesh.element.attribute_place("filename"),
+            hint=_SIMPLER,
+            severity=WARNING,
+            effects=effects,
+        )
+    if plain:
+        more = f" (as {len(plain) - 1} more links do)" if len(plain) > 1 else ""
+        yield Problem(
+            plain[0].link,
+            f"link '{plain[0].link.name}' uses its visual mesh as collision geometry{more}; "
+            "primitives or simpler meshes are faster",
+            at=plain[0].mesh.element.attribute_place("filename"),
+            effects=effects,
+        )
+
+
+@rule(
+    WARNING,
+    effects={
+        "mujoco": "rejects an STL file of more than 200 000 triangles",
+    },
+)
+def collision_mesh_too_dense(
+    robot: Robot, description: Description, *, most: float = 20000, mujoco: float = 200000
+) -> Iterator[Problem]:
+    """A collision mesh has very many triangles.
+
+    Each triangle is checked for contact in every step, and a tenth of them gives the same contacts.
+    95 % of collision meshes have fewer than ``most``. MuJoCo rejects more than ``mujoco``.
+    Simplify the mesh.
+    """
+    checked: set[str] = set()
+    for use in get_mesh_uses(robot, description):
+        if not use.collides or not use.exists or use.uri in checked:
+            continue
+        checked.add(use.uri)
+        faces = count_faces(use)
+        shared = any(
+            other.uri == use.uri and not other.collides and other.link is use.link
+            for other in get_mesh_uses(robot, description)
+        )
+        is_too_many = faces > mujoco and use.uri.lower().endswith(".stl")
+        if is_too_many or (faces > most and (not shared or faces > mujoco)):
+            yield Problem(
+                use.link,
+                f"collision mesh '{use.uri}' has {faces} triangles; simplify it to a few thousand",
+                at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri, "triangles": faces, "limit": mujoco if is_too_many else most},
+                hint=_SIMPLER,
+                severity=ERROR if is_too_many else None,
+                effects=None if is_too_many else (),
+            )
+
+
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
+    },
+)
+def collision_much_larger_than_visual(
+    robot: Robot, *, ratio: float = 2.0, least: float = 0.1
+) -> Iterator[Problem]:
+    """The collision geometry of a link is far larger than its visual geometry.
+
+    Often a unit is wrong, or a diameter was written as the radius. The robot then makes contact at
+    a distance. It is reported if the bounding box of the collisions is more than ``ratio`` times as
+    long as that of the visuals, and by more than ``least`` [m]; visuals of links that are fixed to
+    this one count too. Ignored are the disc that the blades of a rotor sweep, and a sphere with
+    the radius of a wheel, which makes contact with the ground in one point on purpose.
+    """
+    reach = get_extents(robot)
+    for link in robot.links:
+        visual_box, collision_box = measure_boxes(reach, link)
+        if (
+            visual_box is None
+            or collision_box is None
+            or _find_longer_axis(collision_box, visual_box, ratio, least) is None
+        ):
+            continue
+        if find_displaced(robot, link):
+            continue
+        around = join_attached_boxes(reach, link, "visuals", visual_box, collision_box)
+        if (
+            around is None
+            or (axis := _find_longer_axis(collision_box, around, ratio, least)) is None
+        ):
+            continue
+        a, b = collision_box.size[axis], around.size[axis]
+        if _is_swept(robot, link, collision_box, around) or _is_ball_of_wheel(link, around):
+            continue
+        yield Problem(
+            link,
+            f"collision of link '{link.name}' spans {a:.3g} m along {'xyz'[axis]}, but its visual "
+            f"only {b:.3g} m"
+            + (
+                "; is the radius a diameter?"
+                if _is_doubled(link, collision_box, visual_box)
+                else ""
+            ),
+            at=link.collisions[0].geometry or link.collisions[0],
+            data={"collision": a, "visual": b, "axis": "xyz"[axis]},
+        )
+
+
+def _find_longer_axis(
+    collision_box: Bounds, visual_box: Bounds, ratio: float, least: float
+) -> int | None:
+    """Find the first axis along which one box is far longer than another; None if there is none."""
+    for axis, (a, b) in enumerate(zip(collision_box.size, visual_box.size, strict=True)):
+        if a > ratio * b and a - b > least:
+            return axis
+    return None
+
+
+def _is_swept(robot: Robot, link: Link, collision_box: Bounds, around: Bounds) -> bool:
+    """Tell whether a flat disc on a rotating joint is as wide as the visual is long."""
+    joint = robot.tree.parent_joint(link.name)
+    shapes = [collision.geometry for collision in link.collisions]
+    if joint is None or joint.type not in ("continuous", "revolute") or len(shapes) != 1:
+        return False
+    disc = shapes[0]
+    if not isinstance(disc, Cylinder) or disc.length > disc.radius:
+        return False
+    return max(collision_box.size) <= 1.1 * max(around.size)
+
+
+def _is_ball_of_wheel(link: Link, around: Bounds) -> bool:
+    """Tell whether the only collision is a sphere as wide as the visual along two axes."""
+    shapes = [collision.geometry for collision in link.collisions]
+    if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
+        return False
+    width = 2 * shapes[0].radius
+    return sum(abs(size - width) <= 0.1 * width for size in around.size) >= 2
+
+
+def _is_doubled(link: Link, collision_box: Bounds, visual_box: Bounds) -> bool:
+    """Tell whether a round collision is twice as wide as the visual, as with a wrong radius."""
+    shapes = [collision.geometry for collision in link.collisions]
+    if len(shapes) != 1 or not isinstance(shapes[0], Cylinder | Sphere):
+        return False
+    ratios = [a / b for a, b in zip(collision_box.size, visual_box.size, strict=True) if b > 0]
+    return sum(1.9 <= ratio <= 2.1 for ratio in ratios) >= 2
+
+
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet": (
+            "use the collision geometry as written: objects penetrate the visual geometry"
+        ),
+    },
+    group="robot",
+)
+def collision_much_smaller_than_visual(
+    robot: Robot, *, ratio: float = 4.0, speck: float = 0.002
+) -> Iterator[Problem]:
+    """The collision geometry of a link is far smaller than its visual geometry.
+
+    Usually a unit or a scale is wrong. It is reported if the bounding box of the visuals is more
+    than ``ratio`` times as long as that of the collisions along each side. Collisions of links that
+    are fixed to this one count too, and the parts of other links of the rigid body inside of the
+    visuals' box. A box, cylinder or sphere of at most ``speck`` [m] is intended to avoid contact,
+    and not reported.
+    """
+    reach = get_extents(robot)
+    for link in robot.links:
+        visual_box, collision_box = measure_boxes(reach, link)
+        if (
+            visual_box is None
+            or collision_box is None
+            or not _is_smaller(collision_box, visual_box, ratio)
+        ):
+            continue
+        around = join_attached_boxes(reach, link, "collisions", collision_box, visual_box)
+        if around is None or not _is_smaller(
+            _add_attached_collisions(reach, link, around, visual_box), visual_box, ratio
+        ):
+            continue
+        sizes = [compute_size(collision.geometry) for collision in link.collisions]
+        if all(size is not None and max(size) <= speck for size in sizes):
+            continue
+        a, b = max(visual_box.size), max(collision_box.size)
+        yield Problem(
+            link,
+            f"visual of link '{link.name}' spans {a:.3g} m, but its collision only {b:.3g} m; "
+            "check the scale of the collision",
+            at=link.collisions[0].geometry or link.collisions[0],
+            data={"collision": b, "visual": a},
+        )
+
+
+def _add_attached_collisions(
+    reach: LinkExtents, link: Link, own: Bounds, visual_box: Bounds
+) -> Bounds:
+    """Join a box with the parts of attached collisions inside the bounding box of the visuals."""
+    for member, at in reach.get_attached(link)[1:]:
+        box = reach.get_body_box(link, "collisions", [(member, at)]) if member.collisions else None
+        if box is not None and box.meets(visual_box):
+            low = tuple(map(max, box.low, visual_box.low))
+            high = tuple(map(min, box.high, visual_box.high))
+            own = own.joined(Bounds(low, high))  # type: ignore[arg-type]
+    return own
+
+
+def _is_smaller(collision_box: Bounds, visual_box: Bounds, ratio: float) -> bool:
+    """Tell whether one box is far shorter than another along each of its sides."""
+    sizes = zip(sorted(visual_box.size), sorted(collision_box.size), strict=True)
+    return all(a > ratio * b for a, b in sizes)
+
+
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco": "use the collision geometry where it is written",
+    },
+)
+def collision_off_visual(
+    robot: Robot, description: Description, *, apart: float = 0.5
+) -> Iterator[Problem]:
+    """The collision of a link is offset from its visual.
+
+    One of the two has the wrong ``<origin>``. It is reported if the bounding boxes of visuals and
+    collisions do not overlap, or if their centers are further apart than ``apart`` of the visual's
+    diagonal; a fifth of that if both are a primitive of the same size. If two of visual, collision
+    and center of mass agree, the third is wrong; otherwise the one whose origin repeats that of the
+    joint. Geometry of different sizes is an info, because simple shapes may be offset on purpose.
+    Collisions that the visual of a joined or attached link covers are not reported.
+    """
+    for link in robot.links:
+        found = compare_places(robot, link, apart)
+        if found is None or find_displaced(robot, link):
+            continue
+        gltf = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
+        is_rotated = gltf and description.gltf_up == "y"
+        if found.odd:
+            what = f"{found.odd} of link '{link.name}' is offset from its {found.other} by "
+            what += f"{found.distance:.3g} m, and {found.why}; {found.remedy}"
+        else:
+            what = f"visual and collision of link '{link.name}' are {found.distance:.3g} m apart; "
+            what += "give both the same <origin>" if found.alike else "check the <origin> of both"
+        shape = link.visuals[0] if found.odd == "visual" else link.collisions[0]
+        yield Problem(
+            link,
+            what + (_AXES if is_rotated else ""),
+            at=shape.origin or shape,
+            severity=None if found.alike else INFO,
+            data={
+                "distance": found.distance,
+                "odd": found.odd,
+                "same": found.same,
+                "write": found.xyz_text,
+            },
+        )
+
+
+@collision_off_visual.fix(UNSAFE)
+def move_odd_shape(problem: Problem, context: FixContext) -> Proposal | None:
+    """Move the misplaced geometry to the other, if it is known which one is misplaced."""
+    link, odd, xyz = context.get_link(problem), problem.data["odd"], problem.data["write"]
+    if not odd or not (xyz or problem.data["same"]):
+        return None
+    if len(link.visuals) != 1 or len(link.collisions) != 1:
+        return None
+    if depends_on_arguments(link.element, "visual", "collision", "inertial"):
+        return None
+    wrong: Visual | Collision = link.visuals[0]
+    right: Visual | Collision = link.collisions[0]
+    if odd == "collision":
+        wrong, right = right, wrong
+    if xyz:
+        return unsafe(f'write xyz="{xyz}" for its {odd}', set_in_origin(wrong, "xyz", xyz))
+    what = f"copy the <origin> of the {right.element.tag} to the {odd}"
+    return unsafe(what, copy_origin(wrong, right))

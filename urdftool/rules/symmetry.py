@@ -1,0 +1,259 @@
+"""Find the left and right side of a robot by link names, and the plane between them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ..model.elements import Joint, Link, Robot, Vector
+from ..model.kinematics import link_poses
+from ..model.pose import Pose, rotate
+
+_PAIRS = (
+    *(("left", "right"), ("l", "r")),
+    *(("fl", "fr"), ("hl", "hr"), ("rl", "rr"), ("bl", "br"), ("ml", "mr")),
+    *(("lf", "rf"), ("lh", "rh"), ("lb", "rb"), ("lr", "rr"), ("lm", "rm")),
+)
+_SHAPES = (str.lower, str.upper, str.capitalize)
+_OTHER = {shape(left): shape(right) for left, right in reversed(_PAIRS) for shape in _SHAPES}
+_BACK = {right: left for left, right in _OTHER.items()}
+_WORDS = "|".join(sorted({*_OTHER, *_BACK}, key=len, reverse=True))
+_WORD = re.compile(rf"(?<![a-zA-Z])(?:{_WORDS})(?![a-z])|(?<=[a-z])(?:Left|Right|L|R)(?![a-z])")
+_END = re.compile(r"(?i)front|rear|back|hind|middle|mid|[flrhbm]{1,2}(?![a-z])|left|right")
+
+
+def find_twins(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str]:
+    """List the names of the right counterparts of a left name, the most likely first.
+
+    A name with two side words has several: front_leftL may be the mirror image of front_rightR.
+    """
+    matches = list(_WORD.finditer(name))
+    found: list[str] = []
+    if len(matches) > 1:  # front_leftL: both words are swapped, front_rightR
+        all_turned = _WORD.sub(lambda match: _OTHER.get(match[0]) or _BACK[match[0]], name)
+        if all_turned in names:
+            if matches[0][0] not in _OTHER:
+                return []
+            found.append(all_turned)
+    for match in matches:
+        if match[0] in _OTHER:
+            other = name[: match.start()] + _OTHER[match[0]] + name[match.end() :]
+            if other in names and other not in found:
+                found.append(other)
+    return found
+
+
+def is_clear(name: str) -> bool:
+    """Tell whether a name has one side word, so that it can be paired in one way only."""
+    return len(_WORD.findall(name)) < 2
+
+
+class Pair(NamedTuple):
+    """A left link and its right counterpart, with their parent joints."""
+
+    left: Link
+    right: Link
+    left_joint: Joint
+    right_joint: Joint
+
+
+class Sides:
+    """The pairs of a robot and their symmetry, with all joints at zero.
+
+    Attributes:
+        pairs: Those with the same parent, or with a pair as parents, on joints of one type.
+        normal: Axis of the root frame from left to right: 0, 1 or 2; None if the robot is not
+            symmetric.
+        off: Pairs whose joints are not mirror images, with the distance [m].
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Find the pairs, and the plane that mirrors most of them."""
+        self.pairs = list(_find_pairs(robot))
+        self.poses: dict[str, Pose] = link_poses(robot) if self.pairs else {}
+        self.normal: int | None = None
+        self.off: list[tuple[Pair, float]] = []
+        moving = [pair for pair in self.pairs if _has_moving_links(robot, pair)]
+        both = [(pair, *ends) for pair in moving if (ends := self._compute_offsets(pair))]
+        steps = [step for step in both if not _is_in_one_place(*step)]
+        long = [step for step in steps if max(map(math.hypot, *zip(*step[1:], strict=True))) > 0.01]
+        best = 0
+        for normal in (1, 0, 2):
+            wrong = [
+                (p, gap)
+                for p, a, b in steps
+                if (gap := _compute_gap(p, a, b, normal)) > _compute_tolerance(a)
+            ]
+            off = {id(pair.left) for pair, _ in wrong}
+            right = sum(1 for pair, _, _ in long if id(pair.left) not in off)
+            if right > best and right >= 0.6 * len(long):
+                best, self.normal, self.off = right, normal, wrong
+        if best < 2:
+            self.normal = None
+            self.off = [
+                found for pair, a, b in long if (found := _find_nearly_symmetric(pair, a, b))
+            ]
+        self.off += _find_stacked(both, 1 if self.normal is None else self.normal)
+        self._displaced = {id(pair.left) for pair, _ in self.off}
+        self.off = [found for found in self.off if is_clear(found[0].left.name)]
+
+    def is_displaced(self, pair: Pair) -> bool:
+        """Tell whether the joints of a pair are not mirror images."""
+        return id(pair.left) in self._displaced
+
+    def _compute_offsets(self, pair: Pair) -> tuple[Vector, Vector] | None:
+        """Compute the vectors from the parents to the links, in the root frame [m]."""
+        ends = (pair.left.name, pair.right.name)
+        begins = (pair.left_joint.parent, pair.right_joint.parent)
+        if not all(name in self.poses for name in (*ends, *begins)):
+            return None
+        places = [self.poses[name].translation for name in (*begins, *ends)]
+        (a, b, c), (d, e, f), (g, h, i), (j, k, m) = places
+        return (g - a, h - b, i - c), (j - d, k - e, m - f)
+
+    def is_mirrored_at_equal_positions(self, pair: Pair) -> bool | None:
+        """Tell whether the two joints mirror each other at equal, not at opposite positions.
+
+        None if one has no axis, or if the axes are not mirror images.
+        """
+        if self.normal is None:
+            return None
+        one, other = (
+            self._compute_axis(link, joint)
+            for link, joint in ((pair.left, pair.left_joint), (pair.right, pair.right_joint))
+        )
+        if one is None or other is None:
+            return None
+        product = sum(
+            a * b * (-1 if i == self.normal else 1)
+            for i, (a, b) in enumerate(zip(one, other, strict=True))
+        )
+        if abs(product) < 0.95:
+            return None
+        # a rotation axis is a pseudovector: mirrored and reversed
+        return (product > 0) == (pair.left_joint.type == "prismatic")
+
+    def get_axis(self, link: Link, joint: Joint) -> Vector | None:
+        """Get the axis of a joint in the root frame, of unit length."""
+        return self._compute_axis(link, joint)
+
+    def _compute_axis(self, link: Link, joint: Joint) -> Vector | None:
+        if link.name not in self.poses:
+            return None
+        axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+        length = math.hypot(*axis)
+        if not length:
+            return None
+        x, y, z = rotate(self.poses[link.name].rotation, axis)
+        return x / length, y / length, z / length
+
+
+def map_twin_links(robot: Robot) -> dict[str, str]:
+    """Map each left link to its right counterpart, by their names.
+
+    If a name has several, the one whose position mirrors that of the left link counts.
+    """
+    links = robot.link
+    several = {name: others for name in links if (others := find_twins(name, links))}
+    twins = {name: others[0] for name, others in several.items() if len(others) == 1}
+    if len(twins) < len(several):
+        poses = link_poses(robot)
+        for name, others in several.items():
+            fitting = [one for one in others if _is_mirrored(robot, poses, name, one)]
+            if len(others) > 1 and fitting:
+                twins[name] = fitting[0]
+    rights = set(twins.values())  # R_rf is that of L_rf; R_lf, a finger, is not its left one
+    return {name: other for name, other in twins.items() if name not in rights}
+
+
+def _find_pairs(robot: Robot) -> Iterator[Pair]:
+    links, twins = robot.link, map_twin_links(robot)
+    for name, other in twins.items():
+        left, right = robot.tree.parent_joint(name), robot.tree.parent_joint(other)
+        if left is None or right is None or left.type != right.type:
+            continue
+        if left.parent == right.parent or twins.get(left.parent) == right.parent:
+            yield Pair(links[name], links[other], left, right)
+
+
+def _is_mirrored(robot: Robot, poses: dict[str, Pose], name: str, other: str) -> bool:
+    """Tell whether the offsets of two links from their parents are mirror images."""
+    steps: list[Vector] = []
+    for link in (name, other):
+        above = robot.tree.parent_joint(link)
+        if above is None or link not in poses or above.parent not in poses:
+            return False
+        (a, b, c), (d, e, f) = poses[above.parent].translation, poses[link].translation
+        steps.append((d - a, e - b, f - c))
+    one, two = steps
+    return any(
+        all(
+            abs(b + a if i == normal else b - a) <= _compute_tolerance(one)
+            for i, (a, b) in enumerate(zip(one, two, strict=True))
+        )
+        for normal in (1, 0, 2)
+    )
+
+
+def _has_moving_links(robot: Robot, pair: Pair) -> bool:
+    """Tell whether a pair moves or carries moving links; sensors and frames may be asymmetric."""
+    if not pair.left_joint.is_fixed:
+        return True
+    below = (pair.left.name, *robot.tree.descendants(pair.left.name))
+    return any(not joint.is_fixed for name in below for joint in robot.tree.child_joints(name))
+
+
+def _compute_gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
+    """Compute the distance of the right offset from the mirror image of the left one [m]."""
+    shared = pair.left_joint.parent == pair.right_joint.parent
+    return math.hypot(
+        *(
+            # the plane between the two is unknown
+            (0.0 if shared else b + a) if i == normal else b - a
+            for i, (a, b) in enumerate(zip(left, right, strict=True))
+        )
+    )
+
+
+def _is_in_one_place(pair: Pair, left: Vector, right: Vector) -> bool:
+    """Tell whether both are offset to one side of their parent, at the same position."""
+    shared = pair.left_joint.parent == pair.right_joint.parent
+    turns = pair.left_joint.type in ("revolute", "continuous")
+    return shared and turns and max(map(abs, left)) > 0.01 and math.dist(left, right) < 0.001
+
+
+def _find_stacked(
+    steps: list[tuple[Pair, Vector, Vector]], normal: int
+) -> Iterator[tuple[Pair, float]]:
+    """Find pairs at one position off the plane between left and right, with the distance [m]."""
+    for pair, left, right in steps:
+        if _is_in_one_place(pair, left, right) and abs(left[normal]) > 0.01:
+            yield pair, 2 * abs(left[normal])
+
+
+def _find_nearly_symmetric(pair: Pair, left: Vector, right: Vector) -> tuple[Pair, float] | None:
+    """Find a single pair, as of wheels, that is nearly symmetric, with the distance [m]."""
+    shared = pair.left_joint.parent == pair.right_joint.parent
+    gap, length = _compute_gap(pair, left, right, 1), math.hypot(*left)
+    opposite = left[1] * right[1] < 0 and abs(left[1] + right[1]) <= _compute_tolerance(left)
+    return (
+        (pair, gap)
+        if shared and opposite and _compute_tolerance(left) < gap < 0.3 * length
+        else None
+    )
+
+
+def _compute_tolerance(step: Vector) -> float:
+    return max(0.005, 0.02 * math.hypot(*step))
+
+
+def get_family(name: str) -> str:
+    """Remove side and end words from a name: all four legs then have the same one."""
+    return _END.sub("*", name)
+
+
+def get_sides(robot: Robot) -> Sides:
+    """Get the sides of a robot, shared by all rules."""
+    return robot.memo.get("sides", lambda: Sides(robot))

@@ -1,0 +1,28 @@
+"""Files near a description that are not part of it, such as its package.xml."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..errors import SourceError
+from ..workspace import Workspace
+from .document import Document, parse
+from .location import SourceFile
+from .packages import shorten_path
+
+
+def file_at(workspace: Workspace, path: str | Path) -> SourceFile | None:
+    """Read a file; None if it cannot be read."""
+    try:
+        return SourceFile(shorten_path(path), workspace.read_bytes(path))
+    except OSError:
+        return None
+
+
+def document_at(workspace: Workspace, path: str | Path) -> Document | None:
+    """Read an XML file; None if it cannot be read or is not well-formed."""
+    file = file_at(workspace, path)
+    try:
+        return None if file is None else parse(file)
+    except SourceError:
+        return None

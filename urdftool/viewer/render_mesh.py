@@ -1,0 +1,112 @@
+"""Surfaces as meshes for three.js: one per color, with vertices split at sharp edges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from ..drawing.png_file import png
+from .glb import encode_glb
+
+if TYPE_CHECKING:
+    from ..drawing.shapes import Shapes
+
+
+@dataclass(frozen=True, eq=False)
+class RenderMesh:
+    """Triangles of one link with one color or one image, in the link's frame.
+
+    Attributes:
+        vertices: Points [m], shape (n, 3). Points on a sharp edge occur once per side, so that the
+            renderer's averaged vertex normals are smooth only on smooth surfaces.
+        faces: Indices into ``vertices``, shape (m, 3).
+        rgb: Red, green and blue in 0 … 255.
+        opacity: Opacity in 0 … 1.
+        glb: The same as binary glTF if it is textured, or None.
+    """
+
+    vertices: npt.NDArray[np.float32]
+    faces: npt.NDArray[np.uint32]
+    rgb: tuple[int, int, int]
+    opacity: float
+    glb: bytes | None = None
+
+
+def list_render_meshes(shapes: Shapes) -> Iterator[tuple[str, RenderMesh]]:
+    """Yield the surfaces of each link, with its name."""
+    bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
+    images: dict[int, bytes] = {}
+    for row, link in enumerate(shapes.links):
+        some = slice(int(bounds[row]), int(bounds[row + 1]))
+        if some.start == some.stop:
+            continue
+        keys = np.column_stack([np.round(shapes.colors[some] * 255), shapes.image[some]])
+        kinds, which = np.unique(keys, axis=0, return_inverse=True)
+        which = which.reshape(-1)
+        for number, kind in enumerate(kinds):
+            rows = np.flatnonzero(which == number) + some.start
+            yield link, _look(shapes, rows, kind, images)
+
+
+def compute_link_boxes(shapes: Shapes) -> dict[str, tuple[npt.NDArray[np.float64], ...]]:
+    """Return lower and upper corner of each link with triangles, in its own frame [m]."""
+    bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
+    found: dict[str, tuple[npt.NDArray[np.float64], ...]] = {}
+    for row, link in enumerate(shapes.links):
+        points = shapes.corners[bounds[row] : bounds[row + 1]].reshape(-1, 3)
+        if len(points):
+            low, high = points.min(axis=0), points.max(axis=0)
+            if link in found:  # links with the same name
+                low, high = np.minimum(low, found[link][0]), np.maximum(high, found[link][1])
+            found[link] = (low, high)
+    return found
+
+
+def _look(
+    shapes: Shapes,
+    rows: npt.NDArray[np.intp],
+    kind: npt.NDArray[np.float64],
+    images: dict[int, bytes],
+) -> RenderMesh:
+    red, green, blue, alpha, image = kind
+    corners = shapes.corners[rows].reshape(-1, 3).astype(np.float32)
+    normals = shapes.normals[rows].reshape(-1, 3)
+    uv = shapes.uv[rows].reshape(-1, 2)
+    columns = [corners.view(np.int32), np.round(normals * 50).astype(np.int32)]
+    if image >= 0:
+        columns.append(np.ascontiguousarray(uv.astype(np.float32)).view(np.int32))
+    first, inverse = _find_distinct(np.concatenate(columns, axis=1))
+    vertices = corners[first]
+    faces = inverse.reshape(-1, 3).astype(np.uint32)
+    rgb, opacity = (int(red), int(green), int(blue)), float(alpha) / 255
+    packed = None
+    if image >= 0:
+        number = int(image)
+        if number not in images:
+            images[number] = png(shapes.images[number][::-1], level=1)  # texels are bottom-up
+        clear = opacity < 1.0 or bool((shapes.images[number][..., 3] < 255).any())
+        rgba = (red / 255, green / 255, blue / 255, opacity)
+        packed = encode_glb(
+            vertices, faces, normals[first], uv[first], images[number], rgba, clear=clear
+        )
+    return RenderMesh(vertices, faces, rgb, opacity, packed)
+
+
+def _find_distinct(
+    rows: npt.NDArray[np.int32],
+) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+    """Find the distinct rows by a 64-bit hash.
+
+    Returns:
+        Index of the first row of each group, and the group of each row.
+    """
+    factors = np.random.default_rng(8733).integers(1, 2**62, rows.shape[1]) * 2 + 1
+    with np.errstate(over="ignore"):
+        keys = (rows.astype(np.int64) * factors).sum(axis=1)
+        keys ^= keys >> 29
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    return first, inverse.reshape(-1)
