@@ -51,7 +51,7 @@ def test_packages_beside_are_found_without_ros_and_without_options(path, monkeyp
     monkeypatch.chdir(CORPUS)
     if "ros2_control_demo_description" in path:
         pytest.skip("a macro, which its examples include")
-    assert expand_xacro(read_file(path), {}, Packages(path)).document().root.child("link")
+    assert expand_xacro(read_file(path), {}, Packages(path)).make_document().root.find_child("link")
 
 
 @pytest.mark.corpus
@@ -59,4 +59,4 @@ def test_a_robot_whose_folder_is_not_named_as_its_package(monkeypatch):
     monkeypatch.chdir(CORPUS)
     path = "UniversalRobots__Universal_Robots_ROS2_Description/urdf/ur.urdf.xacro"
     expansion = expand_xacro(read_file(path), {"name": "ur", "ur_type": "ur5e"}, Packages(path))
-    assert expansion.document().root.child("link")
+    assert expansion.make_document().root.find_child("link")

@@ -12,7 +12,7 @@ from urdftool.workspace import STDIN, Memo, Workspace, memoize_by_workspace
 
 def asked_by(action, workspace=None):
     """The questions that an action asks, with relative paths."""
-    view = (workspace or Workspace()).recorded()
+    view = (workspace or Workspace()).with_record()
     action(view)
     return {
         (kind, os.path.relpath(path) if os.path.isabs(path) else path)
@@ -33,7 +33,7 @@ def folder(write):
         (lambda w: w.read_bytes("a"), ("file", "a"), b"text"),
         (lambda w: w.read_text(Path("a")), ("file", "a"), "text"),
         (lambda w: w.open("a").read(2), ("file", "a"), b"te"),
-        (lambda w: w.local("a"), ("file", "a"), Path("a")),
+        (lambda w: w.materialize("a"), ("file", "a"), Path("a")),
         (lambda w: w.size("a"), ("file", "a"), 4),
         (lambda w: w.size("d"), ("file", "d"), None),
         (lambda w: w.size("none"), ("file", "none"), None),
@@ -46,7 +46,7 @@ def folder(write):
         (lambda w: os.path.relpath(w.real_path("l")), ("real", "l"), "a"),
         (lambda w: [e.name for e in w.list_folder("d")], ("list", "d"), ["b"]),
         (lambda w: list(w.walk("d")), ("list", "d"), [("d", [], ["b"])]),
-        (lambda w: w.glob("d", "*"), ("list", "d"), [Path("d/b")]),
+        (lambda w: w.list_matches("d", "*"), ("list", "d"), [Path("d/b")]),
         (lambda w: w.match("./?/b"), ("list", "."), ["./d/b"]),
         (lambda w: w.variable("NONE_SUCH"), ("env", "NONE_SUCH"), None),
     ],
@@ -60,7 +60,7 @@ def test_what_is_asked_is_answered_and_recorded(action, question, result):
 def test_glob_finds_what_pathlib_finds(write, pattern):
     write(".hidden/b", "")
     write("d/e/b", "")
-    assert Workspace().glob(".", pattern) == sorted(Path(".").glob(pattern))
+    assert Workspace().list_matches(".", pattern) == sorted(Path(".").glob(pattern))
 
 
 def test_a_file_that_cannot_be_read_is_recorded():
@@ -78,20 +78,20 @@ def test_a_file_that_cannot_be_read_is_recorded():
 def test_an_overlay_is_read_instead_of_the_disk(write):
     workspace = Workspace({"l": b"other", "d/new": b"new", STDIN: b"in"})
     assert workspace.read_bytes("a") == b"other"  # which the link leads to
-    assert workspace.size("a") == 5
+    assert workspace.get_size("a") == 5
     assert workspace.is_file("d/new")
     assert [entry.name for entry in workspace.list_folder("d")] == ["b", "new"]
-    assert workspace.overlaid(STDIN) == b"in"
+    assert workspace.get_overlay(STDIN) == b"in"
     assert Path("a").read_bytes() == b"text"
-    copy = workspace.local("d/new")
+    copy = workspace.materialize("d/new")
     assert (copy.name, copy.read_bytes()) == ("new", b"new")
-    assert workspace.with_overlay({"a": b"third"}).read_bytes("a") == b"third"
+    assert workspace.get_with_overlay({"a": b"third"}).read_bytes("a") == b"third"
     assert workspace.read_bytes("a") == b"other"
 
 
 def test_copies_are_removed_with_the_workspace():
     workspace = Workspace({"a": b"other"})
-    copy = workspace.local("a")
+    copy = workspace.materialize("a")
     assert copy.exists()
     del workspace
     assert not copy.exists()
@@ -138,7 +138,7 @@ def test_an_error_is_no_value_but_depends_on_what_was_read(size):
     for _ in range(2):
         with pytest.raises(OSError):
             size(workspace, "none")
-        view = workspace.recorded()
+        view = workspace.with_record()
         with pytest.raises(OSError):
             size(view, "none")
         assert [kind for kind, _ in view.dependencies.asked] == ["file"]
@@ -147,13 +147,13 @@ def test_an_error_is_no_value_but_depends_on_what_was_read(size):
 def test_trials_share_what_they_do_not_change(size, write):
     write("e", "unchanged")
     workspace = Workspace()
-    trial, other = (workspace.with_overlay({"a": b"x" * n}) for n in (7, 8))
+    trial, other = (workspace.get_with_overlay({"a": b"x" * n}) for n in (7, 8))
     assert [size(w, "a") for w in (workspace, trial, other, workspace)] == [4, 7, 8, 4]
     assert [size(w, "e") for w in (trial, other, workspace)] == [9, 9, 9]
     assert size.times == ["a", "a", "a", "e"]
-    assert size(workspace.with_overlay({"l": b"y"}), "a") == 1
+    assert size(workspace.get_with_overlay({"l": b"y"}), "a") == 1
     assert size(workspace, "l") == 4
-    assert size(workspace.with_overlay({"a": b"y"}), "l") == 1
+    assert size(workspace.get_with_overlay({"a": b"y"}), "l") == 1
 
 
 def test_a_new_file_changes_what_lists_its_folder():
@@ -163,8 +163,8 @@ def test_a_new_file_changes_what_lists_its_folder():
 
     workspace = Workspace()
     assert names(workspace, "d") == ["b"]
-    assert names(workspace.with_overlay({"d/c": b""}), "d") == ["b", "c"]
-    assert names(workspace.with_overlay({"c": b""}), "d") == ["b"]
+    assert names(workspace.get_with_overlay({"d/c": b""}), "d") == ["b", "c"]
+    assert names(workspace.get_with_overlay({"c": b""}), "d") == ["b"]
 
 
 def test_many_dependencies_are_shared():
@@ -173,7 +173,7 @@ def test_many_dependencies_are_shared():
         return [workspace.exists(f"{number}/{i}") for i in range(60)]
 
     workspace = Workspace()
-    views = [workspace.recorded() for _ in range(2)]
+    views = [workspace.with_record() for _ in range(2)]
     for view in views:
         there(view, 1)
     assert all(not view.dependencies.asked for view in views)

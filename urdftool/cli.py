@@ -172,7 +172,7 @@ def call(arguments: list[str] | None = None) -> int:
     except UrdftoolError as error:
         if console.debug:
             raise
-        console.error(error)
+        console.print_error(error)
         return 2
     except click.exceptions.Exit as exit_:
         return exit_.exit_code
@@ -180,34 +180,34 @@ def call(arguments: list[str] | None = None) -> int:
         _print_usage(error)
         return 2
     except (KeyboardInterrupt, click.Abort):
-        console.say("stopped")
+        console.print_message("stopped")
         return 130
     except ClosedPipe:
         return _report_closed_pipe()
     except MemoryError:
         if console.debug:
             raise
-        console.say("not enough memory for this command")
+        console.print_message("not enough memory for this command")
         return 2
     except OSError as error:
         if console.debug:
             raise
         where = f"{error.filename}: " if error.filename else ""
-        console.say(f"{where}{error.strerror or error}")
+        console.print_message(f"{where}{error.strerror or error}")
         return 2
     except (Exception, RecursionError) as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # Ctrl-C during an import
-            console.say("stopped")
+            console.print_message("stopped")
             return 130
         if console.debug:
             raise
         library = find_missing_library(error)
         if library is not None:
-            console.error(
+            console.print_error(
                 make_missing_error(library, f"'urdftool {' '.join(_find_command(words))}'")
             )
             return 2
-        console.say(
+        console.print_message(
             f"bug in urdftool {__version__} (not in the robot): {type(error).__name__}: {error}\n"
             f"  Please report it at {REPORT_BUGS} with the command, the file and\n"
             f"  the output of the command with --debug."

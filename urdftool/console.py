@@ -40,7 +40,7 @@ class Console:
         """Tell whether only errors are printed."""
         return self.verbosity < 0
 
-    def colors(self, *, to_file: bool = False, stream: str = "stdout") -> bool:
+    def has_colors(self, *, to_file: bool = False, stream: str = "stdout") -> bool:
         """Tell whether output is colored.
 
         Args:
@@ -55,16 +55,16 @@ class Console:
             return True
         return getattr(sys, stream).isatty() and os.environ.get("TERM") != "dumb"
 
-    def say(self, message: str) -> None:
+    def print_message(self, message: str) -> None:
         """Print a message at every verbosity."""
         self._write(f"urdftool: {message}")
 
-    def note(self, message: str, level: int = 0) -> None:
+    def print_note(self, message: str, level: int = 0) -> None:
         """Print a message if the verbosity is at least ``level``."""
         if self.verbosity >= level:
             self._write(message)
 
-    def error(self, error: UrdftoolError) -> None:
+    def print_error(self, error: UrdftoolError) -> None:
         """Print an error with its location, its xacro calls and its notes."""
         self._write(str(error) if error.path else f"urdftool: {error}")
         for call in error.calls:

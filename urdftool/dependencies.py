@@ -67,7 +67,7 @@ class Dependencies:
                 self.asked.setdefault(question, stamp)
         self.shared.update(other.shared)
 
-    def touches(self, paths: Set[str], folders: Set[str]) -> bool:
+    def is_affected_by(self, paths: Set[str], folders: Set[str]) -> bool:
         """Tell whether any query concerns one of the files or lists one of the folders.
 
         Args:

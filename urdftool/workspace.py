@@ -97,18 +97,18 @@ class Workspace:
 
     # Views ---------------------------------------------------------------------------------
 
-    def recorded(self) -> Workspace:
+    def with_record(self) -> Workspace:
         """Return a view with the same overlay and memo and its own dependency record."""
         view = Workspace.__new__(Workspace)
         view.__dict__.update(self.__dict__)
         view.dependencies = Dependencies()
         return view
 
-    def unread(self) -> Workspace:
+    def with_empty_memo(self) -> Workspace:
         """Return a workspace with the same overlay and an empty memo."""
         return Workspace(self._overlay)
 
-    def with_overlay(self, overlay: Mapping[str, bytes]) -> Workspace:
+    def get_with_overlay(self, overlay: Mapping[str, bytes]) -> Workspace:
         """Return a workspace in which some files have other contents.
 
         It shares the memo entries that do not depend on those files.
@@ -123,7 +123,7 @@ class Workspace:
 
     # Memo ----------------------------------------------------------------------------------
 
-    def memo(self, key: Hashable, make: Callable[[Workspace], T]) -> T:
+    def memoize(self, key: Hashable, make: Callable[[Workspace], T]) -> T:
         """Return a value that depends on files, computing it at the first request.
 
         Args:
@@ -146,10 +146,10 @@ class Workspace:
 
     def _is_affected(self, read: Dependencies) -> bool:
         """Tell whether the overlay may change the queried files or folders."""
-        return read.touches(self._overlay.keys(), self._folders)
+        return read.is_affected_by(self._overlay.keys(), self._folders)
 
     def _compute(self, key: Hashable, make: Callable[[Workspace], Any]) -> tuple[Any, Dependencies]:
-        inner = self.recorded()
+        inner = self.with_record()
         read = cast("Dependencies", inner.dependencies)
         try:
             entry = make(inner), read
@@ -173,7 +173,7 @@ class Workspace:
         if self.dependencies is not None:
             self.dependencies.add(kind, os.fspath(path))
 
-    def overlaid(self, path: str | Path) -> bytes | None:
+    def get_overlay(self, path: str | Path) -> bytes | None:
         """Return the overlay contents of a file; None if it is read from disk."""
         if not self._overlay:
             return None
@@ -207,14 +207,14 @@ class Workspace:
             OSError: The file cannot be read.
         """
         self.record("file", path)
-        data = self.overlaid(path)
+        data = self.get_overlay(path)
         if data is None:
             return open(path, "rb")
         stream = BytesIO(data)
         stream.name = os.fspath(path)
         return stream
 
-    def local(self, path: str | Path) -> Path:
+    def materialize(self, path: str | Path) -> Path:
         """Return a path with the contents of a file, for libraries that open files themselves.
 
         The path is that of the file, or of a temporary copy of its overlay contents.
@@ -223,13 +223,13 @@ class Workspace:
             OSError: The copy cannot be written.
         """
         self.record("file", path)
-        data = self.overlaid(path)
+        data = self.get_overlay(path)
         return Path(path) if data is None else self._copies.write(Path(path).name, data)
 
-    def size(self, path: str | Path) -> int | None:
+    def get_size(self, path: str | Path) -> int | None:
         """Return the size of a regular file [bytes]; None if it is not a regular file."""
         self.record("file", path)
-        data = self.overlaid(path)
+        data = self.get_overlay(path)
         if data is not None:
             return len(data)
         try:
@@ -241,12 +241,12 @@ class Workspace:
     def exists(self, path: str | Path) -> bool:
         """Tell whether a path exists, following symbolic links."""
         self.record("is", path)
-        return self.overlaid(path) is not None or os.path.exists(path)
+        return self.get_overlay(path) is not None or os.path.exists(path)
 
     def is_file(self, path: str | Path) -> bool:
         """Tell whether a path leads to a regular file."""
         self.record("is", path)
-        return self.overlaid(path) is not None or os.path.isfile(path)
+        return self.get_overlay(path) is not None or os.path.isfile(path)
 
     def is_folder(self, path: str | Path) -> bool:
         """Tell whether a path leads to a folder."""
@@ -256,14 +256,14 @@ class Workspace:
     def exists_or_is_link(self, path: str | Path) -> bool:
         """Tell whether an entry exists at a path; a broken symbolic link counts."""
         self.record("there", path)
-        return self.overlaid(path) is not None or os.path.lexists(path)
+        return self.get_overlay(path) is not None or os.path.lexists(path)
 
-    def real_path(self, path: str | Path) -> str:
+    def resolve_links(self, path: str | Path) -> str:
         """Return a path without symbolic links."""
         self.record("real", path)
         return os.path.realpath(path)
 
-    def variable(self, name: str) -> str | None:
+    def read_variable(self, name: str) -> str | None:
         """Return an environment variable; None if it is not set."""
         if self.dependencies is not None:
             self.dependencies.add("env", name)
@@ -306,7 +306,7 @@ class Workspace:
             if name not in links:
                 yield from self.walk(os.path.join(folder, name))
 
-    def glob(self, path: str | Path, pattern: str) -> list[Path]:
+    def list_matches(self, path: str | Path, pattern: str) -> list[Path]:
         """Return the sorted paths below a folder that match a pattern, as ``Path.glob``.
 
         Args:
@@ -315,9 +315,9 @@ class Workspace:
                 of folders.
         """
         folder = Path(path)
-        return self.memo(
-            (Workspace.glob, folder, pattern),
-            lambda inner: sorted(set(inner._glob(folder, pattern.split("/")))),
+        return self.memoize(
+            (Workspace.list_matches, folder, pattern),
+            lambda inner: sorted(set(inner._walk_matches(folder, pattern.split("/")))),
         ).copy()
 
     def match(self, pattern: str) -> list[str]:
@@ -347,12 +347,12 @@ class Workspace:
             if fnmatchcase(one, name) and (one[0] != "." or name[0] == ".")
         ]
 
-    def _glob(self, folder: Path, names: list[str]) -> Iterator[Path]:
+    def _walk_matches(self, folder: Path, names: list[str]) -> Iterator[Path]:
         name, *rest = names
         if name == "**":
             for where, folders, _ in self.walk(folder):
                 folders.sort()
-                yield from self._glob(Path(where), rest)
+                yield from self._walk_matches(Path(where), rest)
             return
         try:
             entries = self.list_folder(folder)
@@ -363,7 +363,7 @@ class Workspace:
                 if not rest:
                     yield folder / entry.name
                 elif entry.is_folder:
-                    yield from self._glob(folder / entry.name, rest)
+                    yield from self._walk_matches(folder / entry.name, rest)
 
 
 def memoize_by_workspace(
@@ -375,7 +375,7 @@ def memoize_by_workspace(
     @wraps(function)
     def known(workspace: Workspace, /, *args: P.args, **kwargs: P.kwargs) -> T:
         key = (function, args, *sorted(kwargs.items()))
-        return workspace.memo(key, lambda inner: function(inner, *args, **kwargs))
+        return workspace.memoize(key, lambda inner: function(inner, *args, **kwargs))
 
     return known
 

@@ -54,7 +54,7 @@ def largest(folder: Path, theirs: str) -> list[tuple[int, str, str]]:
             description = read_description(path, arguments)
         except UrdftoolError:
             continue
-        links = sum(1 for _ in description.document.root.all("link"))
+        links = sum(1 for _ in description.document.root.list_children("link"))
         if links <= found.get(path.name, (0, "", ""))[0]:
             continue
         place = description.path

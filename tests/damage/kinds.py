@@ -366,7 +366,7 @@ def turned_about_the_origin(robot: Robot, joints: list[Element]) -> None:
             axis = joint.find("axis")
             axis.set("xyz", words(rotate(where[child].rotation, numbers(axis.get("xyz")))))
         base = Pose() if parent in moved else where[parent]
-        put(joint, base.inverse() @ (Pose() if child in moved else where[child]))
+        put(joint, base.invert() @ (Pose() if child in moved else where[child]))
     for name in moved:
         link = robot.links[name]
         for part in (*link.iter("inertial"), *link.iter("visual"), *link.iter("collision")):

@@ -31,7 +31,7 @@ def picture(shapes, view=None, pose=IDENTITY, **more):
 def coverage(shapes, view):
     """Area that is seen, in pixels, with parts of pixels: from a white shape before black."""
     image = draw(
-        shapes.painted(np.tile([1.0, 0.0, 0.0, 1.0], (len(shapes), 1))), {"": IDENTITY},
+        shapes.with_colors(np.tile([1.0, 0.0, 0.0, 1.0], (len(shapes), 1))), {"": IDENTITY},
         camera=view, ground=False, background=(0.0, 0.0, 1.0),
     )  # fmt: skip
     blue = (image[..., 2] / 255.0) ** 2.2

@@ -58,8 +58,8 @@ def test_what_is_wrong_stands_on_its_node(case, style):
 def test_everything_is_drawn(case):
     model, _ = CASES[case]
     figure = create_detailed_figure(model)
-    assert {link.name for link in model.links} <= {n.name for n in figure.of_kind("link")}
-    assert sum(1 for _ in figure.of_kind("joint")) == len(model.joints)
+    assert {link.name for link in model.links} <= {n.name for n in figure.list_nodes("link")}
+    assert sum(1 for _ in figure.list_nodes("joint")) == len(model.joints)
     assert all(edge.tail in figure.nodes and edge.head in figure.nodes for edge in figure.edges)
 
 
@@ -101,11 +101,11 @@ def test_fixed_joints_fold_and_faulty_ones_do_not():
     figure = create_detailed_figure(model)
     mark_faults(figure, find_faults(model))
     folded = fold_fixed(figure)
-    assert {node.name: node.members for node in folded.of_kind("link")} == {
+    assert {node.name: node.members for node in folded.list_nodes("link")} == {
         "a": ["b", "c"],
         "d": [],
     }
-    assert [node.name for node in folded.of_kind("joint")] == ["cd", "bd"]
+    assert [node.name for node in folded.list_nodes("joint")] == ["cd", "bd"]
     assert {(edge.tail, edge.head) for edge in folded.edges} == {
         ("link:a", "joint:bd"),
         ("joint:bd", "link:d"),

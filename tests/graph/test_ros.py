@@ -89,7 +89,7 @@ def lax(path, arguments):
 
 def test_children_come_in_the_order_of_their_joints_bytes():
     figure = ros_figure(tree("abcd", [("z", "a", "b"), ("é", "a", "c"), ("B", "a", "d")]))
-    assert [node.name for node in figure.of_kind("link")] == ["a", "d", "b", "c"]
+    assert [node.name for node in figure.list_nodes("link")] == ["a", "d", "b", "c"]
 
 
 def test_quaternions_count_since_version_1_1():

@@ -78,7 +78,7 @@ OTHERS = {
     *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py"),
     *("model/files.py", "rules/effect_sources.py"),
 }
-# Those that open what `Workspace.local` gave.
+# Those that open what `Workspace.materialize` gave.
 LOCAL = {"rules/file_rewrites.py", "rules/mesh/scale.py", "rules/mesh/files.py"}
 OF_OS = {
     *("stat", "lstat", "scandir", "listdir", "walk", "readlink", "getenv", "environ", "access"),

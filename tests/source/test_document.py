@@ -42,11 +42,11 @@ def test_nested_elements_of_one_name_keep_their_ends():
 
 
 def test_an_attribute_knows_its_bytes():
-    place = element(ROBOT, "link").attribute_place("name")
+    place = element(ROBOT, "link").locate_attribute("name")
     assert ROBOT[place.start : place.end] == "name = 'a'"
     assert str(place) == "robot.urdf:4:5"
     link = element(ROBOT, "link")
-    assert link.attribute_place("absent") == link.place
+    assert link.locate_attribute("absent") == link.place
 
 
 def test_columns_count_characters_not_bytes():
@@ -169,5 +169,5 @@ def test_every_element_and_attribute_is_found_at_its_bytes(text):
         assert piece.endswith(("/>", f"</{found.tag}>"))
         assert parse(SourceFile("y", piece.encode())).root.attributes == found.attributes
         for name in found.attributes:
-            place = found.attribute_place(name)
+            place = found.locate_attribute(name)
             assert data[place.start : place.end].decode().startswith(name)

@@ -23,13 +23,13 @@ def source_of(text):
 
 
 def link(source):
-    return source.document.root.child("link")
+    return source.document.root.find_child("link")
 
 
 def with_child(text, lines=("<a>", "\t<b/>", "</a>"), after=None):
     source = source_of(text)
     parent = link(source)
-    edit = insert_child(source, parent, lines, after=after and parent.child(after))
+    edit = insert_child(source, parent, lines, after=after and parent.find_child(after))
     data = apply(source.file, [edit])
     parse(SourceFile("after.urdf", data))
     return data.decode()
@@ -104,7 +104,7 @@ def test_what_an_attribute_may_not_hold_is_escaped():
     source = source_of("<robot><link name='a'/></robot>")
     value = "a<b & \"c\" 'd'"
     data = apply(source.file, [set_attribute(source, link(source), "name", value)])
-    assert parse(SourceFile("r", data)).root.child("link").get("name") == value
+    assert parse(SourceFile("r", data)).root.find_child("link").get("name") == value
 
 
 def test_the_literal_value():
@@ -140,7 +140,7 @@ def test_an_insertion_adds_bytes_and_takes_none(children, end, before, first):
     data = apply(source.file, [edit])
     if edit.end == edit.start:
         assert data[: edit.start] + data[edit.start + len(edit.text) :] == source.file.data
-    found = parse(SourceFile("r", data)).root.child("link").children
+    found = parse(SourceFile("r", data)).root.find_child("link").children
     index = [child.tag for child in found].index("x")
     assert [c.tag for c in found if c.tag != "x"] == [name for _, name in children]
     assert index == (len(children) if after is not None else 0)

@@ -206,7 +206,7 @@ def test_a_file_included_twice_names_both_includes(xacro_file, write):
         "r.xacro",
         '<xacro:include filename="part.xacro"/>\n<xacro:include filename="part.xacro"/>',
     )
-    links = [e for e in expand(path).document().root.walk() if e.tag == "link"]
+    links = [e for e in expand(path).make_document().root.walk() if e.tag == "link"]
     assert [str(link.place) for link in links] == ["part.xacro:2:1"] * 2
     assert [[c.line for c in link.calls] for link in links] == [[2], [3]]
     assert all(call.what == "include" for link in links for call in link.calls)
@@ -223,7 +223,7 @@ def test_a_block_keeps_the_line_of_the_caller(xacro_file):
 
 def test_an_attribute_of_an_expanded_element_is_found_in_the_source(xacro_file):
     path = xacro_file("r.xacro", '<link name="${1}"\n   mass="2"/>')
-    place = find(expand(path), "link").attribute_place("mass")
+    place = find(expand(path), "link").locate_attribute("mass")
     assert (place.line, place.column) == (3, 4)
 
 

@@ -76,7 +76,7 @@ def rewrite(path, text):
 
 def tend(page):
     for _ in range(3):
-        page.tend()
+        page.poll()
 
 
 def test_links_are_where_the_joints_put_them(show):

@@ -16,7 +16,7 @@ def one(tmp_path, kind, inside="", **options):
 def test_limits_are_the_ends(tmp_path):
     slider = one(tmp_path, "revolute", limit(-1.5, 0.75))
     assert (slider.lower, slider.upper, slider.locked, slider.note) == (-1.5, 0.75, False, "")
-    assert slider.words(slider.lower) == "−85.9°"
+    assert slider.format_position(slider.lower) == "−85.9°"
 
 
 def test_a_continuous_joint_turns_half_a_turn_either_way(tmp_path):
@@ -25,7 +25,7 @@ def test_a_continuous_joint_turns_half_a_turn_either_way(tmp_path):
     low, high = slider.shown_bounds
     assert low <= -math.pi
     assert high >= math.pi
-    assert slider.meant(high) == math.pi
+    assert slider.clamp_position(high) == math.pi
 
 
 def test_no_limit_is_half_a_turn_or_the_size_of_the_robot(tmp_path):
@@ -73,7 +73,7 @@ def test_a_mimic_is_locked_and_reaches_where_it_is_led(tmp_path):
     assert mirror.locked
     assert (mirror.lower, mirror.upper) == (-0.04, 0.04)
     assert mirror.note == "mimics grip × -1"
-    assert mirror.words(-0.04) == "−40 mm"
+    assert mirror.format_position(-0.04) == "−40 mm"
 
 
 def test_mimics_of_each_other_end(tmp_path):
@@ -119,10 +119,16 @@ def test_what_is_shown_is_what_is_meant(tmp_path):
     slider = one(tmp_path, "prismatic", limit(0, 0.0123))
     assert slider.digits == 6
     for position in (0.0, 0.0123, 0.00617):
-        assert slider.meant(slider.shown(position)) == pytest.approx(position, abs=1e-6)
+        assert slider.clamp_position(slider.round_position(position)) == pytest.approx(
+            position, abs=1e-6
+        )
 
 
 def test_brief_words_have_no_minus_without_a_number(tmp_path):
     turning, sliding = one(tmp_path, "continuous"), one(tmp_path, "prismatic")
-    assert [turning.brief(v) for v in (-0.001, 0.7, -2.0)] == ["0°", "40°", "−115°"]
-    assert [sliding.brief(v) for v in (-0.00001, 0.0042, -1.25)] == ["0.0 mm", "4.2 mm", "−1250 mm"]
+    assert [turning.format_short(v) for v in (-0.001, 0.7, -2.0)] == ["0°", "40°", "−115°"]
+    assert [sliding.format_short(v) for v in (-0.00001, 0.0042, -1.25)] == [
+        "0.0 mm",
+        "4.2 mm",
+        "−1250 mm",
+    ]

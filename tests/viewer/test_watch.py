@@ -15,13 +15,13 @@ def test_a_change_counts_once_it_rests(tmp_path):
     file = tmp_path / "a"
     file.write_text("one")
     watch = Watch([file])
-    assert watch.changed() == []
+    assert watch.find_changes() == []
     file.write_text("two, longer")
-    assert watch.changed() == []  # perhaps more is coming
+    assert watch.find_changes() == []  # perhaps more is coming
     file.write_text("three, longer still")
-    assert watch.changed() == []
-    assert watch.changed() == [str(file)]
-    assert watch.changed() == []
+    assert watch.find_changes() == []
+    assert watch.find_changes() == [str(file)]
+    assert watch.find_changes() == []
 
 
 def test_a_file_that_comes_or_goes_is_a_change(tmp_path):
@@ -30,8 +30,8 @@ def test_a_file_that_comes_or_goes_is_a_change(tmp_path):
     watch = Watch([there, missing])
     there.unlink()
     missing.write_text("y")
-    watch.changed()
-    assert watch.changed() == sorted([str(there), str(missing)])
+    watch.find_changes()
+    assert watch.find_changes() == sorted([str(there), str(missing)])
 
 
 def test_a_file_replaced_by_a_neighbour_is_a_change(tmp_path):
@@ -40,8 +40,8 @@ def test_a_file_replaced_by_a_neighbour_is_a_change(tmp_path):
     watch = Watch([file])
     neighbour.write_text("same")
     os.replace(neighbour, file)
-    watch.changed()
-    assert watch.changed() == [str(file)]
+    watch.find_changes()
+    assert watch.find_changes() == [str(file)]
 
 
 def test_what_is_written_while_it_is_read_again_counts(tmp_path):
@@ -50,8 +50,8 @@ def test_what_is_written_while_it_is_read_again_counts(tmp_path):
     watch = Watch([file])
     later(file)
     watch.take([file])
-    watch.changed()
-    assert watch.changed() == [str(file)]
+    watch.find_changes()
+    assert watch.find_changes() == [str(file)]
 
 
 def test_sources_are_includes_meshes_and_images(tmp_path):

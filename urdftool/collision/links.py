@@ -134,7 +134,7 @@ def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
     mesh = shape.geometry
     if not isinstance(mesh, Mesh):
         return None
-    place = mesh.element.attribute_place("filename")
+    place = mesh.element.locate_attribute("filename")
     if not mesh.filename:
         raise MeshError("the mesh has no filename", at=place)
     assert robot.source is not None
@@ -147,7 +147,7 @@ def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
     if not all(mesh.scale):
         raise MeshError(
             "the scale of the mesh has a zero in it; three factors other than zero are wanted",
-            at=mesh.element.attribute_place("scale"),
+            at=mesh.element.locate_attribute("scale"),
         )
     return Task(Path(path), mesh.scale, settings, robot.source.gltf_up)
 

@@ -87,7 +87,7 @@ def side_by_side(
     left: Shapes, poses: Mapping[str, Pose], right: Shapes, *, right_label: str
 ) -> bytes:
     """Draw posed shapes and unposed ones from the same viewpoint, as a PNG file with labels."""
-    there = [left.posed(poses), right.posed({"": IDENTITY})]
+    there = [left.transform(poses), right.transform({"": IDENTITY})]
     view = view_of(np.concatenate([corners[seen] for corners, _, seen in there]), _CAMERA, SIZE)
     halves = [
         draw(left, poses, camera=view, ground=False),

@@ -161,7 +161,7 @@ def link_edits(
         return [first, *(edit.remove_element(source, element) for element in old[1:])]
     after = None
     for tag in ("visual", "inertial", "collision"):
-        found = list(link.all(tag))
+        found = list(link.list_children(tag))
         if found:
             after = found[-1]
             break

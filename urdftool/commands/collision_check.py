@@ -67,13 +67,15 @@ def _report(
 ) -> int:
     limit = options.settings.max_error
     for line in report.format_remarks(found, limit):
-        console.say(line)
+        console.print_message(line)
     if not found:
-        console.say(f"{path}: nothing was checked, because {_explain_nothing(robot, options)}")
+        console.print_message(
+            f"{path}: nothing was checked, because {_explain_nothing(robot, options)}"
+        )
         return 2
     report_gltf_axes(console, robot)
     bad = sum(not report.is_good(item, limit) for item in found)
-    console.note(
+    console.print_note(
         f"{path}: {format_count(len(found), 'link')} with visuals, {bad} with an error above "
         f"{limit:.2%}"
     )

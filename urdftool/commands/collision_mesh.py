@@ -106,17 +106,17 @@ def command(
             if piece.is_primitive:
                 click.echo(_format_primitive(piece))
     for line in report.format_remarks([row]):
-        console.say(line)
+        console.print_message(line)
     for line in report.format_failures([row]):
-        console.say(line)
+        console.print_message(line)
     for line in report.format_notes([row]):
-        console.note(line, level=1)
+        console.print_note(line, level=1)
     if len(files) > 1 and files[0] != files[1]:
-        console.note(
+        console.print_note(
             f"{output} contains all pieces; {files[0]} … {Path(files[-1]).name} one piece each"
         )
     if cache.trouble:
-        console.note(f"the result was not stored in the cache: {cache.trouble}")
+        console.print_note(f"the result was not stored in the cache: {cache.trouble}")
     return 0
 
 

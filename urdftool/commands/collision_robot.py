@@ -80,7 +80,7 @@ def process_one(
     if values["picture"]:
         _draw(values["picture"], robot, job.plans, done)
     if cache.trouble:
-        console.note(f"the results were not stored in the cache: {cache.trouble}")
+        console.print_note(f"the results were not stored in the cache: {cache.trouble}")
     return 0
 
 
@@ -93,7 +93,7 @@ def _write_spheres(console: Console, path: str, job: Job, results: dict[Task, Re
     text = pyroki_spheres(spheres) if path.lower().endswith(".json") else curobo_yaml(spheres)
     write_file(path, text.encode(), inputs=sorted(list_sources(job.robot)))
     count = sum(map(len, spheres.values()))
-    console.note(f"wrote {path}, {count} spheres of {len(spheres)} links")
+    console.print_note(f"wrote {path}, {count} spheres of {len(spheres)} links")
 
 
 def _draw(
@@ -128,7 +128,7 @@ def process_fleet(
         try:
             robot = _read(console, path, arguments, values)
             if not robot.links:
-                console.note(f"{path}: skipped, the file has no links", level=1)
+                console.print_note(f"{path}: skipped, the file has no links", level=1)
                 continue
             options = _collision_options(ctx, console, path, values)
             if values["check"]:
@@ -140,7 +140,7 @@ def process_fleet(
                 )
             )
         except UrdftoolError as error:
-            console.error(error)
+            console.print_error(error)
             code = 2
     if values["check"]:
         from .collision_check import check
@@ -155,7 +155,7 @@ def process_fleet(
             own = {t: f for t in job.tasks if not isinstance(f := results[t], UrdftoolError)}
             reports.append(_write(console, job, own))
         except UrdftoolError as error:
-            console.error(error)
+            console.print_error(error)
             code = 2
     _report(console, reports, values)
     return code
@@ -239,7 +239,7 @@ def _refuse(console: Console, problems: Sequence[UrdftoolError], links: Sequence
     """
     unique = list({str(problem): problem for problem in problems}.values())
     for problem in unique[:-1]:
-        console.error(problem)
+        console.print_error(problem)
     if unique:
         last = unique[-1]
         names = links if 0 < len(links) <= _FEW else ("NAME",)
@@ -274,7 +274,7 @@ def _make_output_path(values: Values, path: str, root: str) -> str | None:
 def _write(console: Console, job: Job, results: dict[Task, Result]) -> report.Report:
     written = write_robot(job.robot, job.plans, results, job.place)
     for refusal in written.refused:
-        console.say(refusal)
+        console.print_message(refusal)
     if job.place.bare:
         click.echo(written.text.decode("utf-8", "replace"), nl=False)
     rows = report.get_rows(written, results)
@@ -289,7 +289,7 @@ def _report(console: Console, reports: Sequence[report.Report], values: Values) 
         if values["style"] == "table":
             click.echo(report.format_table(found.rows), nl=False, err=to_stderr)
         for line in (*report.format_remarks(found.rows), *report.format_failures(found.rows)):
-            console.say(line)
+            console.print_message(line)
         for line in report.format_notes(found.rows):
-            console.note(line, level=1)
-        console.note(report.summarize(found))
+            console.print_note(line, level=1)
+        console.print_note(report.summarize(found))

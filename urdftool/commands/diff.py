@@ -82,10 +82,12 @@ def command(
     elif style == "markdown":
         text = report.format_markdown(names, changes)
     else:
-        text = report.format_text(changes, colors=console.colors(to_file=output not in (None, "-")))
+        text = report.format_text(
+            changes, colors=console.has_colors(to_file=output not in (None, "-"))
+        )
     inputs = [file.path for robot in (a, b) if robot.source for file in robot.source.files]
     write_result(text, output, inputs=inputs)
-    console.note(report.summarize(names, changes))
+    console.print_note(report.summarize(names, changes))
     return int(bool(changes))
 
 
@@ -120,12 +122,12 @@ def _read(
             console,
             str(checkout.path),
             arguments,
-            {name: checkout.there(folder) for name, folder in package.items()},
-            [str(checkout.there(folder)) for folder in package_path],
-            neighbors=checkout.neighbors(),
-            shown=checkout.shown,
+            {name: checkout.map_folder(folder) for name, folder in package.items()},
+            [str(checkout.map_folder(folder)) for folder in package_path],
+            neighbors=checkout.find_neighbors(),
+            shown=checkout.format_path,
         )
-    return checkout.renamed(robot)
+    return checkout.restore_paths(robot)
 
 
 @contextmanager
@@ -136,4 +138,4 @@ def _restore_error_paths(checkout: Checkout) -> Iterator[None]:
     try:
         yield
     except UrdftoolError as error:
-        raise checkout.renamed_error(error) from None
+        raise checkout.restore_error_paths(error) from None

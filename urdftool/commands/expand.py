@@ -78,7 +78,7 @@ def command(
     )
     expansion = expand_xacro(file, arguments, packages)
     for line in report.format_warnings(expansion, arguments):
-        console.note(line)
+        console.print_note(line)
     inputs = [] if file.path == STDIN else report.format_files_read(expansion)
     check_targets((None if check else output, source_map, depfile), inputs=inputs)
     if source_map:
@@ -99,7 +99,7 @@ def command(
 def _check(console: Console, difference: str, check: str) -> int:
     if difference:
         click.echo(difference, nl=False)
-        console.note(f"{check}: is outdated; update it with -o {check}")
+        console.print_note(f"{check}: is outdated; update it with -o {check}")
         return 1
-    console.note(f"{check}: is up to date", level=1)
+    console.print_note(f"{check}: is up to date", level=1)
     return 0

@@ -140,7 +140,7 @@ def report_written(
         click.echo(to_json(output, written.files, written.losses, checks, not_compared), nl=False)
     else:
         for line in format_lines(shown):
-            console.note(line)
+            console.print_note(line)
         if checks:
             from ..report.exports import check_table
 
@@ -150,7 +150,7 @@ def report_written(
     if output != "-":
         more = f", {format_count(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:
-            console.note(f"{output}: warning: {sentence}")
+            console.print_note(f"{output}: warning: {sentence}")
         facts = [written.main, format_count(len(written.files), "file"), *written.summary]
-        console.note(f"{output}: {', '.join(facts)}{more}")
+        console.print_note(f"{output}: {', '.join(facts)}{more}")
     return 0 if is_faithful(checks) else 1

@@ -90,7 +90,7 @@ def command(
         else:
             write_one(console, model, figure, faults, output or "-", suffix, pencil)
     for fault in group_by_message(faults):
-        console.note(f"{fault.location}: {fault.message}")
+        console.print_note(f"{fault.location}: {fault.message}")
     return int(bool(faults) or (linted and _is_marked(figure)))
 
 

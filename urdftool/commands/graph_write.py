@@ -75,7 +75,9 @@ def write_one(
         from ..report.graph_tree import format_tree_text
 
         width = shutil.get_terminal_size().columns
-        write_result(format_tree_text(model, figure, colors=console.colors(), width=width), None)
+        write_result(
+            format_tree_text(model, figure, colors=console.has_colors(), width=width), None
+        )
         return
     folder = os.path.dirname(output) or "."
     if suffix == ".json":
@@ -87,7 +89,7 @@ def write_one(
 
         text = to_mermaid(figure)
         if explain_size(figure, text):
-            console.note(
+            console.print_note(
                 f"{output}: warning: the graph has {explain_size(figure, text)}; try --fold-fixed"
             )
         data = text.encode("utf-8")
@@ -100,7 +102,7 @@ def write_one(
         if artist is not None:
             data = artist.draw(text, suffix[1:])
     _put(data, output, model)
-    console.note(f"Created file {output}")
+    console.print_note(f"Created file {output}")
 
 
 def _put(data: bytes, target: str, model: Robot) -> None:

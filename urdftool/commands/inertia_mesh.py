@@ -152,12 +152,12 @@ def _report(console: Console, file: str, body: MeshBody, result: Any, style: str
     from ..report.inertia import format_summary
 
     if style != "table":
-        console.note(format_summary(file, result))
-        console.note(f"  method: {_format_method(body)}")
+        console.print_note(format_summary(file, result))
+        console.print_note(f"  method: {_format_method(body)}")
     for note in body.note_texts:
-        console.note(f"  {note}")
+        console.print_note(f"  {note}")
     if not body.reliable:
-        console.say(
+        console.print_message(
             f"{file}: the mass properties are an estimate that is not reliable; close the mesh, or "
             "compute them from another geometry"
         )

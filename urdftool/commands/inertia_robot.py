@@ -212,7 +212,7 @@ def _show(
     from ..report import inertia_robot as report
 
     assert model.source is not None
-    colors = console.colors(to_file=output not in (None, "-"))
+    colors = console.has_colors(to_file=output not in (None, "-"))
     if style == "json":
         text = report.as_json(report.as_dict(found, model.name, model.source.path))
     else:
@@ -220,7 +220,7 @@ def _show(
         remarks = [f"{line}\n" for line in report.format_remarks(found, colors=colors)]
         text += "".join(["\n", *remarks] if remarks else [])
     write_result(text, output, inputs=[file.path for file in model.source.files])
-    console.note(report.summarize(found))
+    console.print_note(report.summarize(found))
     return int(any(item.status == "wrong" for item in found))
 
 
@@ -241,7 +241,7 @@ def _lump(
     text = report.as_json(lumped, model) if style == "json" else report.format_table(lumped)
     write_result(text, output, inputs=[file.path for file in model.source.files])
     for line in lumped.notes:
-        console.note(line)
+        console.print_note(line)
     return int(any(item.status == "wrong" for item in found))
 
 
@@ -267,8 +267,8 @@ def _write(
     else:
         write_result(text, None)
     for line in report.format_remarks(filling):
-        console.say(line)
-    console.note(report.summarize(filling, files))
+        console.print_message(line)
+    console.print_note(report.summarize(filling, files))
     return int(bool(filling.refused) or filling.still_wrong)
 
 
@@ -285,5 +285,5 @@ def _print_diff(console: Console, model: Robot, found: list[LinkReview], amounts
         "".join(format_file_diff(path, before[path], edited[path]) for path in edited), nl=False
     )
     for line in report.format_remarks(filling):
-        console.say(line)
+        console.print_message(line)
     return int(bool(edited) or bool(filling.refused) or filling.still_wrong)

@@ -98,7 +98,7 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
     if given["style"] != "table":
         from ..report.inertia import format_summary
 
-        console.note(format_summary(what, result))
+        console.print_note(format_summary(what, result))
     return 0
 
 

@@ -53,14 +53,14 @@ def command(
     path, arguments = robot
     model = load_tolerant(console, path, arguments, package, package_path)
     for finding in validate(model, "links"):
-        console.note(f"{finding.location}: {finding.message}")
+        console.print_note(f"{finding.location}: {finding.message}")
     with Progress(console, "meshes") as progress:
         measured = measure(model, progress)
     counts = count(model)
     if style == "json":
         text = report.to_json(model, counts, measured)
     else:
-        colors = console.colors(to_file=output not in (None, "-"))
+        colors = console.has_colors(to_file=output not in (None, "-"))
         text = report.format_table(model, counts, measured, colors=colors)
     inputs = [file.path for file in model.source.files] if model.source else []
     write_result(text, output, inputs=inputs)

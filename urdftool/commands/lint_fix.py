@@ -60,7 +60,7 @@ def fix_files(
     options = replace(options, fixes=True, cache=None, compute_inertia=scales)
     given = sys.stdin.buffer.read() if "-" in files else b""
     if "-" in files:
-        options.workspace = options.workspace.with_overlay({STDIN: given})
+        options.workspace = options.workspace.get_with_overlay({STDIN: given})
     reports = list(check_files(files, options, jobs))
     done = apply_fixes(reports, options, unsafe=kinds.unsafe, meshes=kinds.meshes)
     _report_broken_fixes(console, done)
@@ -97,12 +97,12 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
         try:
             rewrite({path: done.before[path] for path in after}, after)
         except OutputError as error:
-            console.error(error)
+            console.print_error(error)
             failed |= after.keys()
     if not failed:
         return 0
     done.drop(failed)
-    options = replace(options, workspace=options.workspace.unread())
+    options = replace(options, workspace=options.workspace.with_empty_memo())
     for number, report in enumerate(reports):
         if concerns(report, failed) or concerns(done.reports[number], failed):
             done.reports[number] = check_file(report.path, options)
@@ -111,12 +111,12 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
 
 def _report_broken_fixes(console: Console, done: FixResult) -> None:
     for rule, how in done.broken.items():
-        console.say(
+        console.print_message(
             f"the fix of {rule} was not applied, because it would introduce a defect: {how}. "
             "If the file does not explain this, it is a bug in urdftool"
         )
     for rule, how in done.unmade.items():
-        console.note(f"not fixed [{rule}]: {how}")
+        console.print_note(f"not fixed [{rule}]: {how}")
 
 
 def _report_unfixed(console: Console, reports: Sequence[Report], kinds: Kinds) -> None:
@@ -126,13 +126,13 @@ def _report_unfixed(console: Console, reports: Sequence[Report], kinds: Kinds) -
         outside.update(where for _, where in report.outside)
         for finding, reason in report.unmended:
             place, rule = finding.location, finding.code
-            console.note(f"{place}: not fixed [{rule}]: {reason}", level=1)
+            console.print_note(f"{place}: not fixed [{rule}]: {reason}", level=1)
     for where, count in outside.items():
         what = "1 fix was" if count == 1 else f"{count} fixes were"
-        console.note(f"{what} not applied to {where}")
+        console.print_note(f"{what} not applied to {where}")
     skipped = {rule: name for report in reports for rule, name in report.skipped_fixes.items()}
     for rule, library in skipped.items():
-        console.note(str(make_missing_error(library, f"not fixed [{rule}]: the fix")))
+        console.print_note(str(make_missing_error(library, f"not fixed [{rule}]: the fix")))
     left: dict[str, set[tuple[str, str, int]]] = {}
     for finding in (f for report in reports for f in report.findings):
         if finding.fix is None:
@@ -147,7 +147,7 @@ def _report_unfixed(console: Console, reports: Sequence[Report], kinds: Kinds) -
             left.setdefault(" ".join(needed), set()).add(key)
     for options, found in left.items():
         have = "1 more finding has" if len(found) == 1 else f"{len(found)} more findings have"
-        console.note(f"{have} {_KINDS[options]} ({options})")
+        console.print_note(f"{have} {_KINDS[options]} ({options})")
 
 
 _KINDS = {
@@ -161,14 +161,14 @@ def _report_count(console: Console, did: str, done: FixResult) -> None:
     """Print a line such as ``Fixed 5 in 2 files: axis-not-unit × 3, empty-dynamics × 2``."""
     total = sum(done.applied.values())
     if not total:
-        console.note("Nothing to fix.")
+        console.print_note("Nothing to fix.")
         return
     rules = [f"{rule} × {count}" for rule, count in done.applied.most_common()]
     others = len(rules) - _MOST
     more = f", and {others} more rule{'s' * (others > 1)}" if others > 0 else ""
     files = len(done.after)
     where = f"in {files} file{'s' * (files != 1)}"
-    console.note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
+    console.print_note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
 
 
 def _report_files(console: Console, done: FixResult, files: Sequence[str]) -> None:
@@ -185,7 +185,7 @@ def _report_files(console: Console, done: FixResult, files: Sequence[str]) -> No
             and os.path.realpath(path) not in asked
         ]
         if paths:
-            console.note(f"{what}: {', '.join(sorted(paths))}")
+            console.print_note(f"{what}: {', '.join(sorted(paths))}")
 
 
 def _show(console: Console, done: FixResult, output: OutputOptions) -> int:

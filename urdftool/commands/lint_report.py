@@ -75,7 +75,7 @@ def report(
     text = as_text(
         outcome,
         style,
-        colors=console.colors(to_file=to_file),
+        colors=console.has_colors(to_file=to_file),
         fail_on=threshold,
         statistics=output.statistics,
         whole=output.whole or to_file or (style == "concise" and not at_terminal),
@@ -87,12 +87,12 @@ def report(
     _report_skipped(console, outcome.reports, output.paths)
     broken = _report_errors(console, outcome.reports)
     if any(report.checked or report.stopped for report in outcome.reports):
-        console.note(summarize(outcome))
+        console.print_note(summarize(outcome))
         for line in list_skipped_rules(outcome):
-            console.note(line)
+            console.print_note(line)
         people = style in ("full", "concise") and not output.statistics
         for line in format_advice(outcome.findings) if people else ():
-            console.note(line)
+            console.print_note(line)
     if broken:
         return broken
     worst = max((f.severity for f in outcome.findings), default=None)
@@ -125,7 +125,7 @@ def _apply_baseline(
     outcome, unmatched = compare(outcome, old)
     stale = list_expired_candidates(unmatched, old, outcome, settings)
     if stale:
-        console.note(_describe_stale(old, stale))
+        console.print_note(_describe_stale(old, stale))
     return outcome
 
 
@@ -138,7 +138,7 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     from ..output import write_result
 
     if not outcome.complete:
-        console.say(f"{path}: not written, because a robot could not be checked")
+        console.print_message(f"{path}: not written, because a robot could not be checked")
         return None
     entries = {}
     if os.path.exists(path):
@@ -148,7 +148,7 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     written = make_baseline(path, outcome.findings, entries)
     write_result(to_text(written), path, inputs=_list_inputs(outcome))
     number = len(written.counts)
-    console.note(f"{path}: written, {number} {'entry' if number == 1 else 'entries'}")
+    console.print_note(f"{path}: written, {number} {'entry' if number == 1 else 'entries'}")
     return written
 
 
@@ -180,7 +180,7 @@ def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence
         shown = ", ".join(report.path for report in some[:_MOST_ENTRIES])
         shown += f" and {more} more" if more > 0 else ""
         why = reason if len(some) > 1 else some[0].skipped
-        console.note(f"{shown}: skipped, {why}", level=level)
+        console.print_note(f"{shown}: skipped, {why}", level=level)
 
 
 def _report_errors(console: Console, reports: Iterable[Report]) -> int:
@@ -191,11 +191,11 @@ def _report_errors(console: Console, reports: Iterable[Report]) -> int:
     code = 0
     for report in reports:
         if report.error is not None:
-            console.error(report.error)
+            console.print_error(report.error)
         if report.not_checked:
             code = max(code, 2)
         for rule, reason in report.failed_rules.items():
-            console.say(
+            console.print_message(
                 f"{report.path}: rule {rule} failed because of a bug in urdftool {__version__} "
                 f"({reason}); other rules are not affected. Please report it at {REPORT_BUGS}"
             )

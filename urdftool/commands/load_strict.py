@@ -121,7 +121,7 @@ def report_gltf_axes(console: Console, robot: Robot) -> None:
     from ..model.gltf_axes import describe_gltf_axes
 
     if axes := describe_gltf_axes(robot):
-        console.note(f"note: {axes}")
+        console.print_note(f"note: {axes}")
 
 
 def report_unknown_arguments(
@@ -140,7 +140,7 @@ def report_unknown_arguments(
 
     path = shown(description.files[0].path)
     for line in format_unknown_arguments(path, description.arguments, description.expansion):
-        console.note(line)
+        console.print_note(line)
 
 
 def report_assumed_packages(
@@ -168,7 +168,7 @@ def report_assumed_packages(
         except UrdftoolError:
             continue  # reported by the command that reads the mesh
     for name, folder in packages.assumed.items():
-        console.note(
+        console.print_note(
             f"{shown(description.files[0].path)}: warning: package '{name}' is not found; "
             f"using the folder '{shorten_path(folder)}' instead"
         )

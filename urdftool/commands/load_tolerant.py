@@ -71,7 +71,9 @@ def load_tolerant(
             description = read(file=mended)
         except XmlError:
             raise error from None
-        console.note(f"{shown(error.where)}: warning: {error.message}; ROS ignores this error")
+        console.print_note(
+            f"{shown(error.where)}: warning: {error.message}; ROS ignores this error"
+        )
     if not many:
         report_unknown_arguments(console, description, shown=shown)
     report_assumed_packages(console, description, shown=shown)
@@ -92,8 +94,8 @@ def add_implicit_world(
 
     whole, joint = add_world(robot)
     if joint is not None and joint.parent_element is not None:
-        place = shown(str(joint.parent_element.attribute_place("link")))
-        console.note(
+        place = shown(str(joint.parent_element.locate_attribute("link")))
+        console.print_note(
             f"{place}: warning: parent link 'world' of joint '{joint.name}' is not defined; "
             'assuming a fixed base. Add <link name="world"/>.'
         )

@@ -80,7 +80,7 @@ def read_other(
 
     reading = found.read(file.path, file=file, packages=packages, workspace=packages.workspace)
     for line in format_lines(reading.losses):
-        console.note(shown(line))
+        console.print_note(shown(line))
     robot = reading.robot
     if robot.source is not None:
         robot.source.arguments.update(arguments)

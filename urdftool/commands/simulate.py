@@ -90,7 +90,7 @@ def command(
     cache = choose_cache_folder("simulate", values["cache_dir"], values["no_cache"])
     paths, arguments = robot
     if values["fleet"]:
-        if outputs.wanted:
+        if outputs.is_requested:
             raise click.UsageError("--plot, --picture and --video do not support --fleet")
         fleet = Fleet(
             console, arguments, package, package_path, settings, engines, controllers, strict,

@@ -42,5 +42,5 @@ def apply_controllers(
 
     controls = read_controllers(path, robot, strict=strict)
     for note in controls.notes:
-        console.note(note)
+        console.print_note(note)
     return replace(settings, controls=controls.joints)

@@ -116,11 +116,13 @@ def simulate_fleet(
     elif style == "junit":
         click.echo(report.to_junit(ordered), nl=False)
     else:
-        text = report.format_table(ordered, colors=console.colors(), skipped=console.verbosity > 0)
+        text = report.format_table(
+            ordered, colors=console.has_colors(), skipped=console.verbosity > 0
+        )
         click.echo(text, nl=False)
     for row in ordered:
         if row.error is not None and (style != "text" or console.verbosity > 0):
-            console.error(row.error)
+            console.print_error(row.error)
     if any(row.error is not None for row in ordered):
         return 2
     return 1 if any(row.stands is False for row in ordered) else 0

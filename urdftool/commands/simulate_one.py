@@ -125,9 +125,11 @@ def simulate_one(
         click.echo(rows.to_junit([row]), nl=False)
     else:
         for some in verdicts:
-            click.echo(report.format_text(robot, some, colors=console.colors()), nl=False)
+            click.echo(report.format_text(robot, some, colors=console.has_colors()), nl=False)
         if comparison is not None:
-            click.echo(report.format_comparison_text(comparison, colors=console.colors()), nl=False)
+            click.echo(
+                report.format_comparison_text(comparison, colors=console.has_colors()), nl=False
+            )
     if junit is not None:
         write_file(junit, rows.to_junit([row]).encode("utf-8"), inputs=sorted(list_sources(robot)))
     outputs.write(console, robot, [some[0].run for some in verdicts])

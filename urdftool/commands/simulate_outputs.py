@@ -37,7 +37,7 @@ class Outputs:
     shapes: Shapes | None = field(default=None, repr=False)
 
     @property
-    def wanted(self) -> bool:
+    def is_requested(self) -> bool:
         """Whether a file is requested."""
         return bool(self.plot or self.picture or self.video)
 
@@ -78,10 +78,12 @@ class Outputs:
             with Progress(console, "meshes") as progress:
                 self.shapes = read_robot_shapes(robot, show=show, progress=progress)
             for problem in self.shapes.problems:
-                console.error(problem)
+                console.print_error(problem)
             if len(self.shapes):
                 if show == "collision":
-                    console.note("the robot has no visual geometry; drawing collision geometry")
+                    console.print_note(
+                        "the robot has no visual geometry; drawing collision geometry"
+                    )
                 return
         raise ModelError("the robot has no geometry to draw", at=robot.place)
 
@@ -91,7 +93,7 @@ class Outputs:
         Raises:
             OutputError: A file cannot be written.
         """
-        if not self.wanted:
+        if not self.is_requested:
             return
         from ..drawing.png_file import png
         from ..simulation.animation import render_animation, render_final_state
@@ -99,17 +101,17 @@ class Outputs:
 
         if self.plot:
             write_picture(plot(robot.name or "the robot", runs), self.plot, robot)
-            console.note(f"wrote {self.plot}")
+            console.print_note(f"wrote {self.plot}")
         if self.picture and self.shapes is not None:
             write_picture(png(render_final_state(runs[0], self.shapes)), self.picture, robot)
-            console.note(f"wrote {self.picture}")
+            console.print_note(f"wrote {self.picture}")
         if self.video and self.shapes is not None:
             with Progress(console, "pictures") as progress:
                 data = render_animation(
                     runs[0], self.shapes, progress=lambda n, count: progress(n, count, robot.name)
                 )
             write_picture(data, self.video, robot)
-            console.note(f"wrote {self.video}, {len(data) / 1e6:.2g} MB")
+            console.print_note(f"wrote {self.video}, {len(data) / 1e6:.2g} MB")
 
 
 def check_output(option: str, path: str, ending: str) -> None:

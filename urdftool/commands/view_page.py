@@ -53,7 +53,9 @@ def serve_page(
     host = host or LOOPBACK
     port = choose_port(host, port)
     if not is_loopback(host):
-        console.say(f"warning: everyone with network access to {host} can see and move the robot")
+        console.print_message(
+            f"warning: everyone with network access to {host} can see and move the robot"
+        )
     pages: list[Page] = []
     server = start(host, port, lambda: pages[0].title if pages else "urdftool")
     try:
@@ -69,9 +71,9 @@ def serve_page(
         pages.append(page)
         where = make_url(host, port)
         write_result(f"{where}\n", None)
-        console.note("press Ctrl-C to stop")
+        console.print_note("press Ctrl-C to stop")
         if opened and not webbrowser.open(where):
-            console.say("warning: the browser cannot be opened; open the address above")
+            console.print_message("warning: the browser cannot be opened; open the address above")
         page.run()
     finally:
         server.stop()

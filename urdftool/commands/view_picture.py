@@ -190,7 +190,7 @@ def write_pictures(
     with Progress(console, "meshes") as progress:
         shapes = read_robot_shapes(robot, show=show, progress=progress, pixels=pixels)
     for problem in shapes.problems:
-        console.error(problem)
+        console.print_error(problem)
     report_gltf_axes(console, robot)
     poses = link_poses(robot, add_mimic_positions(robot, positions))
     if not len(shapes):
@@ -200,7 +200,7 @@ def write_pictures(
         raise ModelError(f"the robot has no {what}geometry to draw{more}", at=robot.place)
     nowhere = [link for link in robot.links if link.name not in poses and not link.is_frame]
     for link in nowhere:
-        console.error(
+        console.print_error(
             ModelError(
                 f"link '{link.name}' is not connected to the root link and is not drawn",
                 at=link.place,
@@ -210,7 +210,7 @@ def write_pictures(
     if picture is not None:
         image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
         write_picture(png(image), picture, robot)
-        console.note(f"wrote {picture}, {image.shape[1]} × {image.shape[0]} pixels")
+        console.print_note(f"wrote {picture}, {image.shape[1]} × {image.shape[0]} pixels")
     if contact_sheet is not None:
         _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
     return 1 if shapes.problems or nowhere else 0
@@ -271,4 +271,4 @@ def _write_sheet(
         )
     write_picture(png(image), target, robot)
     count = f"{len(sweeps)} joint{'s' if len(sweeps) > 1 else ''}"
-    console.note(f"wrote {target}, {count}, {image.shape[1]} × {image.shape[0]} pixels")
+    console.print_note(f"wrote {target}, {count}, {image.shape[1]} × {image.shape[0]} pixels")

@@ -28,7 +28,7 @@ def compare_extensions(
 def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
     """Return blocks by their name or reference."""
     found: dict[str, list[Element]] = {}
-    for element in () if robot.xml is None else robot.xml.all(tag):
+    for element in () if robot.xml is None else robot.xml.list_children(tag):
         name = element.get("reference" if tag == "gazebo" else "name") or ""
         found.setdefault(renamed.get(name, name), []).append(element)
     return found

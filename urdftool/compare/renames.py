@@ -30,7 +30,7 @@ def find_renames(
     for name in a.tree.order:
         if name in b.link:
             continue
-        joint = a.tree.parent_joint(name)
+        joint = a.tree.get_parent_joint(name)
         for other, link in _list_replacements(a, b, name, joint, links):
             if link.name in a.link or link.name in taken or not same_link(a.link[name], link):
                 continue
@@ -62,7 +62,7 @@ def _list_replacements(
         yield from ((None, link) for link in b.tree.roots)
         return
     parent = links.get(joint.parent, joint.parent)
-    below = b.tree.child_joints(parent)
+    below = b.tree.get_child_joints(parent)
     for other in sorted(below, key=lambda other: other.name != joint.name):
         if other.child in b.link:
             yield other, b.link[other.child]

@@ -66,26 +66,26 @@ class Checkout:
     revision: str
     modules: tuple[str, ...] = ()
 
-    def shown(self, text: str) -> str:
+    def format_path(self, text: str) -> str:
         """Return a text with paths of the temporary folder as ``REV:path``."""
         text = text.replace(f"{self.folder}{os.sep}", f"{self.revision}:")
         return text.replace(str(self.folder), f"{self.revision}:")
 
-    def there(self, folder: str | Path) -> Path:
+    def map_folder(self, folder: str | Path) -> Path:
         """Map a folder of the working tree to the temporary folder; other folders are unchanged."""
         real = Path(os.path.realpath(folder))
         if real == self.top or self.top in real.parents:
             return self.folder / real.relative_to(self.top)
         return real
 
-    def renamed(self, robot: Robot) -> Robot:
+    def restore_paths(self, robot: Robot) -> Robot:
         """Replace paths of the temporary folder in a robot by paths of the working tree.
 
         Source files get ``REV:path``. The robot is modified and returned.
         """
         if robot.source is not None:
             for file in robot.source.files:
-                file.path = self.shown(file.path)
+                file.path = self.format_path(file.path)
         here, there = str(self.folder), str(self.top)
         for element in robot.element.walk():
             for name, value in element.attributes.items():
@@ -97,16 +97,16 @@ class Checkout:
                 shape.geometry.filename = shape.geometry.filename.replace(here, there)
         return robot
 
-    def renamed_error(self, error: UrdftoolError) -> UrdftoolError:
+    def restore_error_paths(self, error: UrdftoolError) -> UrdftoolError:
         """Replace paths of the temporary folder in an error by ``REV:path`` and return it."""
-        error.message = self.shown(error.message)
-        error.path = None if error.path is None else self.shown(error.path)
-        error.notes = tuple(map(self.shown, error.notes))
+        error.message = self.format_path(error.message)
+        error.path = None if error.path is None else self.format_path(error.path)
+        error.notes = tuple(map(self.format_path, error.notes))
         for call in error.calls:
-            call.file.path = self.shown(call.file.path)
+            call.file.path = self.format_path(call.file.path)
         return error
 
-    def neighbors(self) -> Mapping[str, Path]:
+    def find_neighbors(self) -> Mapping[str, Path]:
         """Return packages in present submodules, and next to a repository that is a package."""
         found: dict[str, Path] = {}
         above = self.top.parent

@@ -30,13 +30,13 @@ class View:
     reach: tuple[float, float]
     size: tuple[int, int]
 
-    def seen(self, points: Floats) -> Floats:
+    def transform(self, points: Floats) -> Floats:
         """Transform world points [m] to the camera frame; points in front of it have z < 0."""
         return transform_points(shift_points(points, -self.eye), self.axes)
 
-    def pixels(self, points: Floats) -> Floats:
+    def project(self, points: Floats) -> Floats:
         """Project world points to the picture: column and row, from the upper left."""
-        seen = self.seen(points)
+        seen = self.transform(points)
         flat = seen[..., :2] / -seen[..., 2:]
         half = np.array(self.size) / 2
         return np.asarray(half + flat / np.array(self.reach) * half * [1, -1])

@@ -117,7 +117,7 @@ def draw_contact_sheet(
         Pixels, shape (height, width, 3); a sheet with only a title if no joint moves.
     """
     given = dict(positions or {})
-    corners, _, there = shapes.posed(link_poses(robot, add_mimic_positions(robot, given)))
+    corners, _, there = shapes.transform(link_poses(robot, add_mimic_positions(robot, given)))
     seen = corners[there].reshape(-1, 3)
     size = compute_extent(seen) if len(seen) else 1.0
     sweeps = list_sweeps(robot, slide=_SLIDE * size, shown=list_shown_links(shapes))
@@ -255,7 +255,7 @@ def _pair(
     ]
     both = []
     for poses in at:
-        corners, _, there = shapes.posed(poses)
+        corners, _, there = shapes.transform(poses)
         both.append(corners[there])
     if camera is None:
         camera = choose_best_camera(cloud, at, names, _list_cameras())
@@ -280,7 +280,7 @@ def _find_moved_links(robot: Robot, sweep: Sweep) -> set[str]:
     moved: set[str] = set()
     for name in (sweep.joint.name, *sweep.followers):
         child = robot.joint[name].child
-        moved |= {child, *robot.tree.descendants(child)}
+        moved |= {child, *robot.tree.list_descendants(child)}
     return moved
 
 
@@ -291,7 +291,7 @@ def _color_moved(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
     colors[:, :3] = own * (1 - _FADED) + _GREY * _FADED
     for names, color in ((_find_moved_links(robot, sweep), _AFTER), ({sweep.joint.child}, _CHILD)):
         colors[_find_rows(shapes, names), :3] = color
-    return shapes.painted(colors)
+    return shapes.with_colors(colors)
 
 
 def _find_rows(shapes: Shapes, names: set[str]) -> Indices:

@@ -52,7 +52,7 @@ class Ground:
         self._shadow = shadow
         self._soft = None
         if shadow is not None:
-            covered = shadow.covered()
+            covered = shadow.compute_shadow()
             self._soft = blur(covered, _SOFT * len(covered))
         self._touch = self._map_contact(corners)
 
@@ -63,7 +63,7 @@ class Ground:
         if not len(low):
             return None
         seen = ShadowMap(low, np.array([0.0, 0.0, -1.0]), _CONTACT_MAP)
-        gap = np.clip((-seen.depths() - self.height) / reach, 0, 1)
+        gap = np.clip((-seen.compute_depths() - self.height) / reach, 0, 1)
         return seen, blur(np.square(1 - gap), _NEAR * _CONTACT_MAP)
 
     def paint(self, pixels: Colors, view: View) -> None:

@@ -75,7 +75,7 @@ class Gathering:
     read: Callable[[MeshGeometry], Mesh] | None = None
     """Reader of a mesh with less detail; None reads files as they are."""
 
-    def image(self, source: object, at: MeshGeometry | Material) -> int:
+    def load_image(self, source: object, at: MeshGeometry | Material) -> int:
         """Return the row of an image; -1 with a problem recorded if it cannot be read."""
         if source not in self.image_rows:
             self.image_rows[source] = -1
@@ -83,10 +83,12 @@ class Gathering:
                 self.images.append(read_texture(source))  # type: ignore[arg-type]
                 self.image_rows[source] = len(self.images) - 1
             except MeshError as error:
-                self.note(f"texture of {_get_name(at)}: {error}", at)
+                self.record_problem(f"texture of {_get_name(at)}: {error}", at)
         return self.image_rows[source]
 
-    def note(self, message: str, at: MeshGeometry | Material | Visual | Collision) -> None:
+    def record_problem(
+        self, message: str, at: MeshGeometry | Material | Visual | Collision
+    ) -> None:
         """Record a problem, once per place."""
         error = MeshError(message, at=at.place)
         self.problems.setdefault(str(error), error)
@@ -109,7 +111,7 @@ def read_surface(
         return None
     placed = _place_surface(surface, make_pose(shape.origin))
     if not (np.abs(placed.corners) < LARGEST).all():
-        gathering.note(
+        gathering.record_problem(
             f"geometry extends beyond {LARGEST:g} m or is not finite; it is not drawn", shape
         )
         return None
@@ -122,14 +124,14 @@ def _read_surface(gathering: Gathering, shape: Visual | Collision) -> Surface | 
         try:
             return _read_mesh_surface(gathering, geometry)
         except UrdftoolError as error:
-            gathering.note(f"mesh '{geometry.filename}': {error.message}", geometry)
+            gathering.record_problem(f"mesh '{geometry.filename}': {error.message}", geometry)
             return None
     sized = _get_primitive(geometry)
     if sized is None:
         return None
     kind, size = sized
     if not np.isfinite(size).all():
-        gathering.note(f"size of the {kind} is not finite; it is not drawn", shape)
+        gathering.record_problem(f"size of the {kind} is not finite; it is not drawn", shape)
         return None
     if not any(size) or (kind != "box" and not size[0]):
         return None
@@ -205,7 +207,7 @@ def _look(
     """Apply the color and image of a mesh part to its triangles."""
     some = slice(part.first, part.first + part.count)
     image = part.texture if part.image is None else part.image
-    row = -1 if image is None else gathering.image(image, geometry)
+    row = -1 if image is None else gathering.load_image(image, geometry)
     linear = mesh.format in ("gltf", "glb")  # glTF colors are linear
     rgba = from_linear(part.rgba) if part.rgba is not None and linear else part.rgba
     if part.uv is not None:
@@ -251,7 +253,7 @@ def _color_surface(
         surface.colors = np.tile(np.array(color), (count, 1))
         surface.image = np.full(count, -1, dtype=np.int64)
         return surface
-    material = gathering.materials.of(shape)
+    material = gathering.materials.find_material(shape)
     bare = ~surface.colored
     if not bare.any():
         return surface
@@ -279,9 +281,9 @@ def _load_material_image(gathering: Gathering, material: Material) -> int:
     try:
         path = gathering.robot.source.resolve(material.texture)
     except UrdftoolError as error:
-        gathering.note(f"texture of {_get_name(material)}: {error.message}", material)
+        gathering.record_problem(f"texture of {_get_name(material)}: {error.message}", material)
         return -1
-    return gathering.image(path, material)
+    return gathering.load_image(path, material)
 
 
 def _get_name(part: MeshGeometry | Material) -> str:

@@ -37,7 +37,7 @@ class Materials:
             if material is not None and material.name and (material.color or material.texture):
                 self._defined.setdefault(material.name, material)
         shown = [link for link in robot.links if link.visuals]
-        plain = not any(self.of(visual) for link in shown for visual in link.visuals)
+        plain = not any(self.find_material(visual) for link in shown for visual in link.visuals)
         self._tints = {
             id(visual): TINTS[number % len(TINTS)]
             for number, link in enumerate(shown if plain and len(shown) > 1 else [])
@@ -48,7 +48,7 @@ class Materials:
         """Return a color for a visual without one: by link if the robot defines no colors."""
         return self._tints.get(id(visual), PLAIN)
 
-    def of(self, visual: Visual) -> Material | None:
+    def find_material(self, visual: Visual) -> Material | None:
         """Return the material with the color or image of a visual; None if it has neither."""
         material = visual.material
         if material is None:

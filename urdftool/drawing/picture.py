@@ -60,7 +60,7 @@ def draw(
     Returns:
         Pixels, shape (height, width, 3).
     """
-    corners, normals, there = shapes.posed(poses)
+    corners, normals, there = shapes.transform(poses)
     rows = np.flatnonzero(there)
     corners = corners[rows]
     view = view_of(corners, camera, size)
@@ -79,7 +79,7 @@ def draw(
         floor = Ground(height, corners, shadow, scale)
         floor.paint(pixels, view)
     fine = (view.size[0] * FINER, view.size[1] * FINER)
-    scene = Scene(shapes, view, lights, shadow, rows, view.seen(corners), normals[rows], fine)
+    scene = Scene(shapes, view, lights, shadow, rows, view.transform(corners), normals[rows], fine)
     light, opacity = _compute_samples(scene, shapes.colors[rows, 3] >= OPAQUE, floor)
     over = _average_pixels(opacity[:, None], view.size)
     return to_screen(_average_pixels(light, view.size) + pixels * (1 - over))
@@ -172,7 +172,7 @@ def _put_some(
     light: Colors,
     opacity: Colors,
 ) -> None:
-    color, alpha, heights = scene.shaded(triangles, samples)
+    color, alpha, heights = scene.compute_shading(triangles, samples)
     if floor is not None and scene.view.eye[2] > floor.height:
         alpha = np.where(heights < floor.height - 1e-4, np.float32(0), alpha)
     alpha = np.where(alpha >= OPAQUE, np.float32(1), alpha)

@@ -40,7 +40,9 @@ class Scene:
     normals: Floats
     size: tuple[int, int]
 
-    def shaded(self, triangles: Indices, samples: Indices) -> tuple[Colors, Colors, Colors]:
+    def compute_shading(
+        self, triangles: Indices, samples: Indices
+    ) -> tuple[Colors, Colors, Colors]:
         """Compute light, opacity, and height in the world at samples that triangles cover.
 
         A ray d from the eye meets the plane of a triangle a b c at barycentric weights proportional
@@ -79,7 +81,7 @@ class Scene:
         _normalize(to_eye)
         lit = np.ones(len(world), dtype=np.float32)
         if self.shadow is not None:
-            lit = self.shadow.lit(world, normals)
+            lit = self.shadow.compute_light(world, normals)
         colors, opacity = self._compute_colors(self.rows[used], row, weights)
         return shade(colors, normals, to_eye, lit, self.lights), opacity, world[:, 2]
 

@@ -102,13 +102,13 @@ class ShadowMap:
     def _find_near(self, along: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
         return 1.0 + (along - self._low) / self._range
 
-    def covered(self) -> Colors:
+    def compute_shadow(self) -> Colors:
         """Return the shadowed part of each block of 2 × 2 samples, as a square map."""
         half = self.resolution // 2
         square = (self._nearness > 0).reshape(half, 2, half, 2)
         return np.asarray(square.mean(axis=(1, 3)), dtype=np.float32)
 
-    def depths(self) -> Colors:
+    def compute_depths(self) -> Colors:
         """Return the first surface's coordinate toward the light by sample; -inf if none."""
         square = self._nearness.reshape(self.resolution, self.resolution)
         along = (square - 1) * np.float32(self._range) + np.float32(self._low)
@@ -120,7 +120,7 @@ class ShadowMap:
         corner = (self._corner / self.texel).astype(np.float32)
         return np.asarray(axes @ points.T - corner[:, None])
 
-    def lit(self, points: Colors, normals: Colors) -> Colors:
+    def compute_light(self, points: Colors, normals: Colors) -> Colors:
         """Compute the part of the light, 0 … 1, that reaches points with unit normals."""
         # offset along the normal to avoid self-shadowing of coarse samples
         lifted = points + normals * np.float32(1.6 * self.texel)

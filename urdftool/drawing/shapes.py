@@ -56,7 +56,7 @@ class Shapes:
         """Return the number of triangles."""
         return len(self.corners)
 
-    def painted(self, colors: Floats) -> Shapes:
+    def with_colors(self, colors: Floats) -> Shapes:
         """Return the same triangles in other colors, shape (m, 4), without images."""
         none = np.full(len(self), -1, dtype=np.int64)
         return Shapes(
@@ -64,7 +64,7 @@ class Shapes:
             self.problems,
         )  # fmt: skip
 
-    def posed(self, poses: Mapping[str, Pose]) -> tuple[Floats, Floats, npt.NDArray[np.bool_]]:
+    def transform(self, poses: Mapping[str, Pose]) -> tuple[Floats, Floats, npt.NDArray[np.bool_]]:
         """Transform corners and normals to the world, and return a mask of the visible triangles.
 
         Triangles of links without a pose, or with one that is infinite or too far away, are masked.

@@ -51,7 +51,7 @@ class Cloud:
         self.points: Floats = np.einsum("ij,ijk->ik", weights, shapes.corners[chosen])
         self.link = shapes.link[chosen]
 
-    def at(self, poses: Mapping[str, Pose]) -> Floats:
+    def transform(self, poses: Mapping[str, Pose]) -> Floats:
         """Transform the points to the world, shape (n, 3); NaN if a link has no pose."""
         placed = np.full_like(self.points, np.nan)
         for row in np.unique(self.link):
@@ -82,7 +82,7 @@ def choose_best_camera(
     moves = np.isin(cloud.link, [row for row, name in enumerate(cloud.links) if name in moved])
     points = []
     for some in poses:
-        placed = cloud.at(some)
+        placed = cloud.transform(some)
         there = np.isfinite(placed).all(axis=1) & (np.abs(placed) < LARGEST).all(axis=1)
         points.append((placed[there], moves[there]))
     everything = np.concatenate([placed for placed, _ in points])
@@ -101,10 +101,10 @@ def _count_visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
     """Count the pixels that show moved points, in the picture with the fewest."""
     counts = []
     for placed, moves in points:
-        seen = view.seen(placed)
+        seen = view.transform(placed)
         depth = -seen[:, 2]
         ahead = depth > 0
-        pixels = view.pixels(placed[ahead]).astype(np.int64)
+        pixels = view.project(placed[ahead]).astype(np.int64)
         inside = ((pixels >= 0) & (pixels < np.array(view.size))).all(axis=1)
         cells = pixels[inside, 0] + pixels[inside, 1] * view.size[0]
         depth, moving = depth[ahead][inside], moves[ahead][inside]
@@ -118,11 +118,11 @@ def _count_visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
 
 def mask_hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, view: View) -> Mask:
     """Mask the pixels where other triangles hide moved ones, shape (height, width)."""
-    corners, _, there = shapes.posed(poses)
+    corners, _, there = shapes.transform(poses)
     rows = np.flatnonzero(there)
     hidden = np.zeros(view.size[0] * view.size[1], dtype=bool)
     if moved[rows].any():
-        seen = view.seen(corners[rows])
+        seen = view.transform(corners[rows])
         flat, owner = project_triangles(seen, view.reach, view.size, nearest(seen))
         moves = moved[rows][owner]
         first, _ = find_front(flat, view.size)

@@ -61,13 +61,13 @@ def _write_ros(figure: Figure, folder: str | None) -> Iterator[str]:
     yield "digraph G {"
     yield from _write_caption(figure)
     yield "node [shape=box];"
-    for node in figure.of_kind("link"):
+    for node in figure.list_nodes("link"):
         yield (
             f"{quote_text(node.key)} "
             f"[label={_make_ros_label(node)}{_make_ros_attributes(node, folder)}];"
         )
     yield "node [shape=ellipse, color=blue, fontcolor=blue];"
-    for node in figure.of_kind("joint", "missing"):
+    for node in figure.list_nodes("joint", "missing"):
         more = _make_ros_attributes(node, folder)
         label = _make_ros_label(node)
         if more or label != f'"{node.key}"':
@@ -80,7 +80,7 @@ def _write_ros(figure: Figure, folder: str | None) -> Iterator[str]:
 
 def _make_ros_label(node: Node) -> str:
     return _join_lines(
-        [node.name or "(no name)", *_list_members(node), *(mark for mark, _ in node.marks())]
+        [node.name or "(no name)", *_list_members(node), *(mark for mark, _ in node.list_marks())]
     )
 
 
@@ -136,7 +136,7 @@ def _format_html(node: Node) -> str:
         rows.append(f'<FONT POINT-SIZE="10">{"<BR/>".join(small)}</FONT>')
     marks = [
         f'<FONT POINT-SIZE="10" COLOR="{COLORS[severity]}"><B>{_escape_html(mark)}</B></FONT>'
-        for mark, severity in node.marks()
+        for mark, severity in node.list_marks()
     ]
     if marks:
         rows.append("<BR/>".join(marks))

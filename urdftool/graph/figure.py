@@ -53,7 +53,7 @@ class Node:
             return Severity.ERROR
         return max((finding.severity for finding in self.findings), default=None)
 
-    def marks(self) -> Iterator[tuple[str, Severity]]:
+    def list_marks(self) -> Iterator[tuple[str, Severity]]:
         """Yield short texts of faults and findings with their severity, the highest first."""
         yield from ((fault, Severity.ERROR) for fault in self.faults)
         counts: dict[tuple[Severity, str], int] = {}
@@ -111,6 +111,6 @@ class Figure:
         self.nodes[node.key] = node
         return node
 
-    def of_kind(self, *kinds: str) -> Iterator[Node]:
+    def list_nodes(self, *kinds: str) -> Iterator[Node]:
         """Return the nodes of some kinds."""
         return (node for node in self.nodes.values() if node.kind in kinds)

@@ -14,7 +14,7 @@ def fold_fixed(figure: Figure) -> Figure:
     above = {edge.head: edge.tail for edge in figure.edges if edge.kind == "joint"}
     below = {edge.tail: edge.head for edge in figure.edges if edge.kind == "joint"}
     into: dict[str, str] = {}
-    for joint in figure.of_kind("joint"):
+    for joint in figure.list_nodes("joint"):
         parent, child = above.get(joint.key, ""), below.get(joint.key, "")
         ends = figure.nodes.get(parent), figure.nodes.get(child)
         sound = all(node is not None and node.kind == "link" and not node.faults for node in ends)

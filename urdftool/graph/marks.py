@@ -39,7 +39,7 @@ def mark_findings(figure: Figure, findings: Iterable[Finding]) -> None:
         found: dict[str, Node] = {}
         for name, calls in ((finding.name, place.calls), *finding.others):
             nodes = named.get((finding.kind, name), []) if name else []
-            owner = owners.at(place, calls)
+            owner = owners.find_node(place, calls)
             if owner is not None and (owner in nodes or not nodes):
                 nodes = [owner]
             found.update((node.key, node) for node in nodes)
@@ -62,11 +62,11 @@ class _Owners:
         for starts in self._starts.values():
             starts.sort(key=itemgetter(0))
 
-    def at(self, place: Place, calls: tuple[Call, ...]) -> Node | None:
+    def find_node(self, place: Place, calls: tuple[Call, ...]) -> Node | None:
         """Return the node whose XML has a tag at a place."""
         starts = self._starts.get((place.file.path, calls), [])
         index = bisect_right(starts, place.start, key=itemgetter(0)) - 1
         if index < 0:
             return None
         start, node = starts[index]
-        return node if place.start < place.file.tag_end(start) else None
+        return node if place.start < place.file.find_tag_end(start) else None

@@ -71,7 +71,7 @@ def _write_lines(figure: Figure) -> Iterator[str]:
 def _format_text(node: Node) -> str:
     name = label(node.name) if node.name.strip() else "no name"
     lines = [f"+ {member}" for member in node.members] + node.lines
-    lines += [mark for mark, _ in node.marks()]
+    lines += [mark for mark, _ in node.list_marks()]
     return "<br>".join([name, *map(label, lines)])
 
 

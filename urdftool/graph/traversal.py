@@ -35,7 +35,7 @@ def walk(robot: Robot, order: Callable[[Sequence[Joint]], Sequence[Joint]] = lis
                 continue
             seen.add(name)
             found.links.append(robot.link[name])
-            below = order(tree.child_joints(name))
+            below = order(tree.get_child_joints(name))
             todo.extend((joint, joint.child) for joint in reversed(below))
     found.joints.extend(joint for joint in robot.joints if joint.parent not in robot.link)
     return found

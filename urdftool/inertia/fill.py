@@ -276,16 +276,16 @@ class _Editor:
         element = source.elements[site.start]
         if want.attribute is not None:
             return edit.set_attribute(source, element, site.what, want.value)
-        after = element.child(want.after) if want.after else None
+        after = element.find_child(want.after) if want.after else None
         if want.after == "mass" and after is None:
-            after = element.child("origin")
+            after = element.find_child("origin")
         return edit.insert_child(source, element, want.lines, after=after)
 
 
 def _place(want: Want) -> Place:
     if want.attribute is None:
         return want.element.place
-    return want.element.attribute_place(want.attribute)
+    return want.element.locate_attribute(want.attribute)
 
 
 def _describe_edit(want: Want) -> str:

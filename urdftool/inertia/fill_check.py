@@ -87,8 +87,8 @@ def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
     from ..source.expand import expand_xacro
 
     packages = copy(description.packages)
-    packages.workspace = packages.workspace.with_overlay(edited)
-    return expand_xacro(file, description.arguments, packages).document()
+    packages.workspace = packages.workspace.get_with_overlay(edited)
+    return expand_xacro(file, description.arguments, packages).make_document()
 
 
 def _list_outside(

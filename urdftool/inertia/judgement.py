@@ -64,7 +64,7 @@ def read_written(item: LinkReview) -> None:
 
 def _is_unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bool:
     """Tell whether an attribute is present but not a number, and add a fault if so."""
-    element = None if inertial.xml is None else inertial.xml.child(tag)
+    element = None if inertial.xml is None else inertial.xml.find_child(tag)
     text = element.get(name) if element is not None else None
     if element is None or text is None or number(text) is not None:
         return False
@@ -72,7 +72,7 @@ def _is_unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) ->
     if text.startswith("{") and text.endswith("}"):
         hint = f"; xacro evaluates ${text} only in braces"
     message = f'{name}="{text}" is not a finite number{hint}'
-    item.faults.append(Fault("unreadable", Severity.ERROR, message, element.attribute_place(name)))
+    item.faults.append(Fault("unreadable", Severity.ERROR, message, element.locate_attribute(name)))
     return True
 
 
@@ -186,7 +186,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
                 "not compared with its geometry: its visual and collision geometry do not overlap"
             )
             return
-        whole = whole.joined(box)
+        whole = whole.join(box)
     if whole is None or not any(whole.size):
         return
     shapes = [shape for kind in kinds for shape in get_shapes(link, kind)]
@@ -201,7 +201,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
             box = _compute_shapes_box(more, at, context)
             if box is None:
                 return
-            whole = whole.joined(box)
+            whole = whole.join(box)
     for subject, misfit in misfits(whole, has_mesh, attached):
         message = f"the {subject} {misfit.sentence}"
         if not misfit.certain:
@@ -221,7 +221,7 @@ def _compute_shapes_box(shapes: Sequence[Shape], at: Pose, context: Context) -> 
             other = compute_bounds_at(geometry, pose)
         if other is None:
             return None
-        box = other if box is None else box.joined(other)
+        box = other if box is None else box.join(other)
     return box
 
 
@@ -269,6 +269,6 @@ def _propose_repair(
         rotate(back, written.com),
         rotate_tensor(written.tensor, back),
         solid=unit.with_mass(written.mass).tensor,
-        box=Bounds(low, high).rotated(back),
+        box=Bounds(low, high).rotate(back),
         rotation=None if rotation == IDENTITY_ROTATION else rotation,
     )

@@ -89,7 +89,7 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
     for top, members in robot.tree.body_links.items():
         if top not in poses:
             continue
-        to_top = poses[top].inverse()
+        to_top = poses[top].invert()
         bodies = [
             weights[name].transform(to_top @ poses[name]) for name in members if name in weights
         ]

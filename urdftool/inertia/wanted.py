@@ -73,7 +73,7 @@ def determine_edits(item: LinkReview, *, recompute: bool) -> Wanted:
         want = Want(item.link.element, child="inertial", lines=lines)
         return Wanted(item, result, [want])
     element = inertial.element
-    origin, mass, inertia = (element.child(tag) for tag in ("origin", "mass", "inertia"))
+    origin, mass, inertia = (element.find_child(tag) for tag in ("origin", "mass", "inertia"))
     back = transpose(get_inertial_rotation(inertial))
     along = round_properties(
         replace(result, tensor=rotate_tensor(result.tensor, back)),

@@ -100,7 +100,7 @@ def count_degrees_of_freedom(joints: Iterable[Joint]) -> int:
 def _compute_depth(robot: Robot) -> int:
     depths: dict[str, int] = {}
     for name in robot.tree.order:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         depths[name] = 0 if joint is None else depths.get(joint.parent, -1) + 1
     return max(depths.values(), default=0)
 

@@ -50,7 +50,7 @@ class Measured:
     bounds: Bounds | None = None
     meshes: list[MeshFile] = field(default_factory=list)
 
-    def triangles(self, kind: str) -> int:
+    def count_triangles(self, kind: str) -> int:
         """Return the number of triangles of all ``visuals`` or ``collisions``; each use counts."""
         return sum((mesh.triangles or 0) * getattr(mesh, kind) for mesh in self.meshes)
 
@@ -85,7 +85,7 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
         except UrdftoolError as error:
             mesh.reason = error.message
     for box in boxes:
-        measured.bounds = box if measured.bounds is None else measured.bounds.joined(box)
+        measured.bounds = box if measured.bounds is None else measured.bounds.join(box)
     if measured.bounds is not None and not all(map(math.isfinite, measured.bounds.size)):
         measured.bounds = None  # overflow
     return measured

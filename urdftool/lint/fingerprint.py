@@ -47,6 +47,6 @@ def _get_source_attributes(finding: Finding) -> list[str]:
     """Return the attributes of the tag at the location of a finding, or the text there."""
     file, start, end, _ = finding.location
     data = file.data[start:end]
-    spans = file.attribute_spans(start) if data.startswith(b"<") else {}
+    spans = file.locate_attributes(start) if data.startswith(b"<") else {}
     pieces = [file.data[a:b] for _, (a, b) in sorted(spans.items())] or [data]
     return [" ".join(piece.decode(file.encoding, "replace").split()) for piece in pieces]

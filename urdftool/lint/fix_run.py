@@ -285,7 +285,7 @@ class _Round:
         changed = [path for path, data in edited.items() if result.after.get(path) != data]
         others = sorted(set().union(*(self.concerned.get(path, ()) for path in changed)))
         fresh: dict[int, Report] = {}
-        trial = self.options.workspace.with_overlay(after)
+        trial = self.options.workspace.get_with_overlay(after)
         for number in dict.fromkeys((*own, *others)):
             old = result.reports[number]
             new = check_file(old.path, replace(self.options, workspace=trial))
@@ -325,7 +325,7 @@ class _Round:
                 )
         edited = {path: _splice(files[path], spans) for path, spans in replaced.items()}
         before: dict[str, bytes | None] = dict(files)
-        workspace = self.options.workspace.with_overlay(self.start)
+        workspace = self.options.workspace.get_with_overlay(self.start)
         for rewrite in _list_rewrites(one.finding for one in chosen):
             try:
                 now, made = (

@@ -102,7 +102,7 @@ class Settler:
         if file.path not in self.sources:
             self._check_file(file)
             try:
-                self.sources[file.path] = file.editable()
+                self.sources[file.path] = file.parse_for_edits()
             except SourceError as error:
                 raise RefusedError(error.message) from None
         return self.sources[file.path]
@@ -118,8 +118,8 @@ class Settler:
 
     def _check_inside(self, file: str) -> None:
         files, packages = self.description.workspace, self.description.packages
-        root = files.real_path(packages.own[1] if packages.own else packages.file.parent)
-        if self.main == STDIN or not files.real_path(file).startswith(root + os.sep):
+        root = files.resolve_links(packages.own[1] if packages.own else packages.file.parent)
+        if self.main == STDIN or not files.resolve_links(file).startswith(root + os.sep):
             raise OutsideError(f"{file}, outside of {shorten_path(root)}")
 
 
@@ -164,7 +164,7 @@ def _edit_element(source: edit.Source, raw: Element, change: Change) -> Iterator
 
 
 def _collect_spans(raw: Element, name: str) -> tuple[int, int]:
-    span = raw.file.attribute_spans(raw.start).get(name)
+    span = raw.file.locate_attributes(raw.start).get(name)
     if span is None:
         raise RefusedError(f"{name} is not in the source")
     return span
@@ -183,7 +183,7 @@ def _remove_element(source: edit.Source, raw: Element) -> edit.Edit:
     """Return the edit that removes an element; a comment after it moves to its place."""
     made = edit.remove_element(source, raw)
     data = source.file.data
-    if made.end == raw.end and source.indentation(raw) is not None:
+    if made.end == raw.end and source.get_indentation(raw) is not None:
         blanks = re.compile(rb"[ \t]*(?=<!--)").match(data, raw.end)
         if blanks is not None:
             return edit.Edit(made.start, blanks.end(), b"")
@@ -193,7 +193,7 @@ def _remove_element(source: edit.Source, raw: Element) -> edit.Edit:
 def _rename_tag(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Edit]:
     data, old, new = source.file.data, raw.tag.encode(), tag.encode()
     yield edit.Edit(raw.start + 1, raw.start + 1 + len(old), new)
-    tag_end = source.file.tag_end(raw.start)
+    tag_end = source.file.find_tag_end(raw.start)
     if data[tag_end - 2 : tag_end] != b"/>":
         close = data.rfind(b"</", 0, raw.end) + 2
         yield edit.Edit(close, close + len(old), new)
@@ -202,7 +202,7 @@ def _rename_tag(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Ed
 def _replace_text(source: edit.Source, raw: Element, change: Change) -> edit.Edit:
     """Return the edit that replaces the text of an element, keeping surrounding whitespace."""
     data = source.file.data
-    begin, end = source.file.tag_end(raw.start), data.rfind(b"</", 0, raw.end)
+    begin, end = source.file.find_tag_end(raw.start), data.rfind(b"</", 0, raw.end)
     inner = data[begin:end]
     if data[begin - 2 : begin] == b"/>" or b"<" in inner:
         raise RefusedError("it is not written as plain text")

@@ -25,7 +25,7 @@ def is_link_unused(robot: Robot | None, element: Element) -> bool:
     seen: set[str] = set()
     while name != "world" and name not in seen:
         seen.add(name)
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is None or not joint.is_fixed:
             return False
         name = joint.parent
@@ -41,4 +41,4 @@ def is_welded_in_mujoco(robot: Robot | None, element: Element) -> bool:
     name = element.get("name")
     if robot is None or element.tag != "link" or name not in robot.tree.bodies:
         return False
-    return robot.tree.parent_joint(robot.tree.bodies[name]) is None
+    return robot.tree.get_parent_joint(robot.tree.bodies[name]) is None

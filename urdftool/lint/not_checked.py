@@ -46,7 +46,7 @@ def refuse_srdf(description: Description) -> None:
         SourceError: It is an SRDF.
     """
     root = description.document.root
-    if description.path.endswith(".srdf") and root.tag == "robot" and not root.child("link"):
+    if description.path.endswith(".srdf") and root.tag == "robot" and not root.find_child("link"):
         raise SourceError(
             "is an SRDF, which is checked together with its robot: lint the URDF or xacro",
             path=description.path,

@@ -86,7 +86,7 @@ def check(
         configuration = find_configuration(robot.source.path, config)
         settings = read_settings(robot.source.path, configuration, line)
         report = Report(robot.source.path)
-        source = robot.source.unread()
+        source = robot.source.without_cache()
         again = replace(robot, source=source)
         _check_description(source, again, settings, report, [], Options(fixes=fixes))
     else:
@@ -151,7 +151,7 @@ def _check_with_cache(
     question = path, options, configuration, settings
     if options.cache is None or str(path) == "-":
         return label(options.arguments), _check_variant(*question)
-    view = options.workspace.recorded()
+    view = options.workspace.with_record()
     report = _check_variant(path, replace(options, workspace=view), configuration, settings)
     assert view.dependencies is not None
     options.cache.write(options.cache.get_key(*question), report, view.dependencies)
@@ -179,7 +179,7 @@ def _check_variant(
             description = _read_mended(file, options, configuration)
         if description is not None:
             root = description.document.root
-            if description.expansion and not (root.child("link") or root.child("joint")):
+            if description.expansion and not (root.find_child("link") or root.find_child("joint")):
                 from .skipped import explain_no_links
 
                 report.skipped = explain_no_links(description)

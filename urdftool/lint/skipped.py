@@ -58,7 +58,7 @@ def _explain_skipped(path: str) -> str:
     except SourceError as error:
         return error.message
     calls = (tag for tag in (child.tag for child in root.children) if tag.startswith("xacro:"))
-    if root.child("link") or any(call not in _DEFINITIONS for call in calls):
+    if root.find_child("link") or any(call not in _DEFINITIONS for call in calls):
         return (
             "may be a robot, since it has links or calls macros; give the file itself to check it"
         )

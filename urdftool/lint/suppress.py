@@ -142,7 +142,7 @@ def _extend_to_element(document: Document, start: int, end: int) -> tuple[int, i
     inside = [
         element.start
         for element in document.root.walk()
-        if element.start < start < document.file.tag_end(element.start) <= end
+        if element.start < start < document.file.find_tag_end(element.start) <= end
     ]
     return min([start, *inside]), end
 

@@ -49,7 +49,7 @@ def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
         targets.add("ros1")
     if robot.gazebo and not targets & {"gz", "gazebo-classic"}:
         targets.add("gz" if "ros2" in targets else "gazebo-classic")
-    if robot.element.child("mujoco") is not None:
+    if robot.element.find_child("mujoco") is not None:
         targets.add("mujoco")
     if description.path != "-" and _has_srdf(description):
         targets.add("moveit")
@@ -65,7 +65,7 @@ def _infer_from_package(description: Description) -> frozenset[str]:
 
 def _has_srdf(description: Description) -> bool:
     folder = Path(description.path).parent
-    return bool(description.workspace.glob(folder, "*.srdf"))
+    return bool(description.workspace.list_matches(folder, "*.srdf"))
 
 
 @memoize_by_workspace

@@ -34,13 +34,13 @@ def find_attached_links(robot: Robot, link: Link) -> Attached:
         return found
     tree, seen = robot.tree, {link.name}
     for member, pose in found:  # the loop appends to this list
-        above = tree.parent_joint(member.name)
+        above = tree.get_parent_joint(member.name)
         steps = [
             (joint.child, pose @ make_pose(joint.origin), joint)
-            for joint in tree.child_joints(member.name)
+            for joint in tree.get_child_joints(member.name)
         ]
         if above is not None:
-            steps.append((above.parent, pose @ make_pose(above.origin).inverse(), above))
+            steps.append((above.parent, pose @ make_pose(above.origin).invert(), above))
         for name, at, joint in steps:
             if joint.is_fixed and name in robot.link and name not in seen and name != WORLD:
                 seen.add(name)
@@ -52,7 +52,7 @@ def is_fixed_to_world(robot: Robot, link: Link) -> bool:
     """Tell whether fixed joints connect a link to the link ``world``."""
     name, seen = link.name, set()
     while name != WORLD:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is None or not joint.is_fixed or name in seen:
             return False
         seen.add(name)

@@ -39,13 +39,13 @@ class Bounds(NamedTuple):
         (a, b, c), (d, e, f) = self
         return (a + d) / 2, (b + e) / 2, (c + f) / 2
 
-    def joined(self, other: Bounds) -> Bounds:
+    def join(self, other: Bounds) -> Bounds:
         """Return the bounding box of both boxes."""
         low = tuple(map(min, self.low, other.low))
         high = tuple(map(max, self.high, other.high))
         return Bounds(low, high)  # type: ignore[arg-type]
 
-    def rotated(self, rotation: Rotation) -> Bounds:
+    def rotate(self, rotation: Rotation) -> Bounds:
         """Return the bounding box of this box after a rotation about the origin."""
         x, y, z = rotate(rotation, self.centre)
         a, b, c = (

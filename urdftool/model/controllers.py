@@ -65,9 +65,9 @@ class Controller:
     def joints(self) -> list[Node]:
         """Return the scalars that name joints, in the order of the parameter table."""
         wheels, steered = DRIVES.get(self.kind, ((), ()))
-        return [one for name in (*wheels, *steered, *_JOINTS) for one in self.named(name)]
+        return [one for name in (*wheels, *steered, *_JOINTS) for one in self.list_scalars(name)]
 
-    def named(self, parameter: str) -> list[Node]:
+    def list_scalars(self, parameter: str) -> list[Node]:
         """Return the non-empty scalars of a parameter, which may be one scalar or a list."""
         node = (self.parameters.fields or {}).get(parameter)
         nodes = [] if node is None else [node] if node.items is None else node.items

@@ -307,9 +307,9 @@ class GazeboExtension(Part):
     sensors: list[Sensor] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
 
-    def value(self, keyword: str) -> str | None:
+    def get_value(self, keyword: str) -> str | None:
         """Return the ``value`` attribute or the text of a child element; None if absent."""
-        child = self.element.child(keyword)
+        child = self.element.find_child(keyword)
         if child is None:
             return None
         return (child.get("value") or child.text).strip()

@@ -297,10 +297,13 @@ def _collect_texts(system: System, child: Element) -> list[str]:
 
 
 def _collect_remappings(element: Element) -> dict[str, str]:
-    ros = element.child("ros")
+    ros = element.find_child("ros")
     if ros is None:
         return {}
-    pairs = (e.text.strip().partition(":=") for e in (*ros.all("remapping"), *ros.all("argument")))
+    pairs = (
+        e.text.strip().partition(":=")
+        for e in (*ros.list_children("remapping"), *ros.list_children("argument"))
+    )
     return {old.strip(): new.strip() for old, arrow, new in pairs if arrow}
 
 

@@ -28,7 +28,7 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
     """
     poses: dict[str, Pose] = {}
     for name in robot.tree.order:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is None:
             poses[name] = IDENTITY
         elif joint.parent in poses:

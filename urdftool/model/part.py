@@ -48,13 +48,13 @@ class Part:
         """Return the source in a list; an empty one for a generated part."""
         return [] if self.provenance is None else [self.provenance]
 
-    def child_xml(self, tag: str) -> Element | None:
+    def find_child_xml(self, tag: str) -> Element | None:
         """Return the first child with a tag of the URDF element; None without one."""
-        return None if self.xml is None else self.xml.child(tag)
+        return None if self.xml is None else self.xml.find_child(tag)
 
-    def attribute_place(self, name: str) -> Place:
+    def locate_attribute(self, name: str) -> Place:
         """Return the span of an attribute of the URDF element; of the part without one."""
-        return self.place if self.xml is None else self.xml.attribute_place(name)
+        return self.place if self.xml is None else self.xml.locate_attribute(name)
 
     @property
     def place(self) -> Place:

@@ -37,7 +37,7 @@ class Pose(NamedTuple):
         """Return a point of the child frame [m] in the parent frame."""
         return add(rotate(self.rotation, point), self.translation)
 
-    def inverse(self) -> Pose:
+    def invert(self) -> Pose:
         """Return the pose of the parent in the child frame."""
         turned = transpose(self.rotation)
         x, y, z = rotate(turned, self.translation)

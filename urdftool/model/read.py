@@ -148,9 +148,9 @@ def _read_visual(element: Element) -> Visual:
     return Visual(
         element,
         element.attributes.get("name"),
-        _read_optional(element.child("origin"), _read_origin),
-        _read_geometry(element.child("geometry")),
-        _read_optional(element.child("material"), _read_material),
+        _read_optional(element.find_child("origin"), _read_origin),
+        _read_geometry(element.find_child("geometry")),
+        _read_optional(element.find_child("material"), _read_material),
     )
 
 
@@ -158,8 +158,8 @@ def _read_collision(element: Element) -> Collision:
     return Collision(
         element,
         element.attributes.get("name"),
-        _read_optional(element.child("origin"), _read_origin),
-        _read_geometry(element.child("geometry")),
+        _read_optional(element.find_child("origin"), _read_origin),
+        _read_geometry(element.find_child("geometry")),
     )
 
 
@@ -185,7 +185,7 @@ def _read_geometry(element: Element | None) -> Geometry | None:
 
 def _read_material(element: Element) -> Material:
     material = Material(element, element.attributes.get("name", ""))
-    color, texture = element.child("color"), element.child("texture")
+    color, texture = element.find_child("color"), element.find_child("texture")
     if color is not None:
         material.color = parse_numbers(color.get("rgba"), 4)  # type: ignore[assignment]
     if texture is not None:
@@ -263,14 +263,14 @@ _JOINT_READERS: dict[str, Callable[[Joint, Element], None]] = {
 
 
 def _read_transmission(element: Element) -> Transmission:
-    kind = element.child("type")
+    kind = element.find_child("type")
     return Transmission(
         element,
         element.get("name") or "",
         (element.get("type") or (kind.text if kind is not None else "")).strip(),
         [
             TransmissionJoint(e, e.get("name") or "", _list_texts(e, "hardwareInterface"))
-            for e in element.all("joint")
+            for e in element.list_children("joint")
         ],
         [
             Actuator(
@@ -279,13 +279,13 @@ def _read_transmission(element: Element) -> Transmission:
                 number(next(iter(_list_texts(e, "mechanicalReduction")), None)),
                 _list_texts(e, "hardwareInterface"),
             )
-            for e in element.all("actuator")
+            for e in element.list_children("actuator")
         ],
     )
 
 
 def _list_texts(element: Element, tag: str) -> list[str]:
-    return [child.text.strip() for child in element.all(tag)]
+    return [child.text.strip() for child in element.list_children(tag)]
 
 
 def _read_gazebo(element: Element) -> GazeboExtension:
@@ -294,7 +294,7 @@ def _read_gazebo(element: Element) -> GazeboExtension:
         element.get("reference"),
         [
             Sensor(e, e.get("name") or "", (e.get("type") or "").strip(), _read_plugins(e))
-            for e in element.all("sensor")
+            for e in element.list_children("sensor")
         ],
         _read_plugins(element),
     )
@@ -303,13 +303,13 @@ def _read_gazebo(element: Element) -> GazeboExtension:
 def _read_plugins(element: Element) -> list[Plugin]:
     return [
         Plugin(e, e.get("name") or "", (e.get("filename") or "").strip())
-        for e in element.all("plugin")
+        for e in element.list_children("plugin")
     ]
 
 
 def _read_ros2_control(element: Element) -> Ros2Control:
-    hardware = element.child("hardware")
-    plugin = hardware.child("plugin") if hardware is not None else None
+    hardware = element.find_child("hardware")
+    plugin = hardware.find_child("plugin") if hardware is not None else None
     return Ros2Control(
         element,
         element.get("name") or "",
@@ -332,8 +332,10 @@ def _read_ros2_control(element: Element) -> Ros2Control:
 
 
 def _read_interfaces(element: Element, tag: str) -> list[Interface]:
-    return [Interface(e, e.get("name") or "", _read_parameters(e)) for e in element.all(tag)]
+    return [
+        Interface(e, e.get("name") or "", _read_parameters(e)) for e in element.list_children(tag)
+    ]
 
 
 def _read_parameters(element: Element) -> dict[str, str]:
-    return {e.get("name") or "": e.text.strip() for e in element.all("param")}
+    return {e.get("name") or "": e.text.strip() for e in element.list_children("param")}

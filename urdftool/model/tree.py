@@ -39,12 +39,12 @@ class KinematicTree:
         """Return the root if there is exactly one, else None."""
         return self.roots[0] if len(self.roots) == 1 else None
 
-    def parent_joint(self, link: str) -> Joint | None:
+    def get_parent_joint(self, link: str) -> Joint | None:
         """Return the first joint whose child is the link; None for a root."""
         joints = self.joints_of_child.get(link)
         return joints[0] if joints else None
 
-    def child_joints(self, link: str) -> list[Joint]:
+    def get_child_joints(self, link: str) -> list[Joint]:
         """Return the joints whose parent is the link."""
         return self.joints_of_parent.get(link, [])
 
@@ -57,7 +57,7 @@ class KinematicTree:
             name = todo.pop()
             if name not in seen and name in self._robot.link:
                 seen[name] = None
-                todo.extend(joint.child for joint in reversed(self.child_joints(name)))
+                todo.extend(joint.child for joint in reversed(self.get_child_joints(name)))
         return list(seen)
 
     @cached_property
@@ -66,25 +66,25 @@ class KinematicTree:
         reached = set(self.order)
         return [link for name, link in self._robot.link.items() if name not in reached]
 
-    def ancestors(self, link: str) -> Iterator[str]:
+    def list_ancestors(self, link: str) -> Iterator[str]:
         """Yield the names of the ancestors of a link, nearest first; a loop is traversed once."""
         seen = {link}
-        joint = self.parent_joint(link)
+        joint = self.get_parent_joint(link)
         while joint is not None and joint.parent not in seen:
             seen.add(joint.parent)
             yield joint.parent
-            joint = self.parent_joint(joint.parent)
+            joint = self.get_parent_joint(joint.parent)
 
-    def descendants(self, link: str) -> Iterator[str]:
+    def list_descendants(self, link: str) -> Iterator[str]:
         """Yield the names of the descendants of a link."""
         seen = {link}
-        todo = [joint.child for joint in self.child_joints(link)]
+        todo = [joint.child for joint in self.get_child_joints(link)]
         while todo:
             name = todo.pop()
             if name not in seen:
                 seen.add(name)
                 yield name
-                todo.extend(joint.child for joint in self.child_joints(name))
+                todo.extend(joint.child for joint in self.get_child_joints(name))
 
     @cached_property
     def bodies(self) -> dict[str, str]:
@@ -94,7 +94,7 @@ class KinematicTree:
         """
         owner: dict[str, str] = {}
         for name in self.order:
-            joint = self.parent_joint(name)
+            joint = self.get_parent_joint(name)
             fixed = joint is not None and joint.is_fixed and joint.parent in owner
             owner[name] = owner[joint.parent] if joint is not None and fixed else name
         for link in self.detached:

@@ -84,7 +84,7 @@ def diff_with_committed(expansion: Expansion, committed: str) -> str:
     from difflib import unified_diff
 
     written = _format_lines(parse(read_file(committed)).root)
-    wanted = _format_lines(expansion.document().root)
+    wanted = _format_lines(expansion.make_document().root)
     return "".join(
         line + "\n"
         for line in unified_diff(written, wanted, committed, "expanded", lineterm="", n=2)
@@ -112,7 +112,7 @@ def _format_lines(element: Element, indent: str = "") -> list[str]:
 def format_source_map(expansion: Expansion) -> str:
     """Return the origin of each element as JSON: XPath, file, line, column and calls."""
     elements: list[dict[str, Any]] = []
-    _map(expansion.document().root, "", {}, elements)
+    _map(expansion.make_document().root, "", {}, elements)
     table = {"version": 1, "source": expansion.file.path, "elements": elements}
     return format_json(table, 1) + "\n"
 

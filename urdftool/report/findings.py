@@ -80,7 +80,7 @@ def _format_source(finding: Finding, paint: Painter) -> Iterator[str]:
     bar = paint("|", "cyan")
     shown = range(first, min(last, first + _MOST_LINES - 1) + 1)
     for number in shown:
-        text = place.file.line_text(number)
+        text = place.file.get_line_text(number)
         begin = column - 1 if number == first else len(text) - len(text.lstrip())
         end = end_column - 1 if number == last else len(text.rstrip())
         text, begin, end = _shorten_excerpt(text, begin, end)

@@ -117,7 +117,7 @@ def _format_source(finding: Finding) -> str:
     last, end_column = place.end_position
     lines = []
     for number in range(first, min(last, first + _MOST_LINES - 1) + 1):
-        text = place.file.line_text(number)
+        text = place.file.get_line_text(number)
         begin = column - 1 if number == first else len(text) - len(text.lstrip())
         end = end_column - 1 if number == last else len(text.rstrip())
         start = max(0, begin - 40) if len(text) > _LONGEST_LINE else 0

@@ -158,7 +158,7 @@ def _list_related(finding: Finding) -> Iterator[dict[str, Any]]:
 
 
 def _call(call: Call, text: str) -> dict[str, Any]:
-    place = Place(call.file, call.start, call.file.tag_end(call.start))
+    place = Place(call.file, call.start, call.file.find_tag_end(call.start))
     return {"physicalLocation": _place(place), "message": {"text": text}}
 
 

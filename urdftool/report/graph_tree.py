@@ -94,6 +94,6 @@ def _make_line(node: Node) -> Text:
         line.append(f" + {shorten_name(member)}", "bold")
     if node.lines:
         line.append(f"  {', '.join(map(shorten_name, node.lines))}", "dim")
-    for mark, severity in node.marks():
+    for mark, severity in node.list_marks():
         line.append(f"  ! {mark}", _STYLES[severity])
     return line

@@ -90,7 +90,7 @@ def _format_meshes(measured: Measured) -> str:
     if not measured.meshes:
         return "none"
     files = format_count(len(measured.meshes), "file")
-    shown, touched = measured.triangles("visuals"), measured.triangles("collisions")
+    shown, touched = measured.count_triangles("visuals"), measured.count_triangles("collisions")
     return f"{files}; {shown:,} triangles in visuals, {touched:,} in collisions"
 
 
@@ -126,5 +126,5 @@ def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
     said["size"] = None if bounds is None else list(bounds.size)
     said["bounds"] = None if bounds is None else {"low": bounds.low, "high": bounds.high}
     said["meshes"] = [{**asdict(mesh), "reason": mesh.reason or None} for mesh in measured.meshes]
-    said["triangles"] = {kind: measured.triangles(kind) for kind in ("visuals", "collisions")}
+    said["triangles"] = {kind: measured.count_triangles(kind) for kind in ("visuals", "collisions")}
     return format_json(said, 1) + "\n"

@@ -30,7 +30,7 @@ def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection
     Raises:
         RefusedError: Another file refers to it.
     """
-    real_path = context.workspace.real_path
+    real_path = context.workspace.resolve_links
     mine = {real_path(file.path) for file in context.description.files}
     mine.update(map(real_path, but))
     for number, file in enumerate(context.list_nearby(_list_files)):
@@ -100,14 +100,14 @@ def check_not_included(context: FixContext) -> None:
     """
     file = context.description.packages.file
     own = context.description.packages.own
-    for folder in context.description.packages.neighbors():
+    for folder in context.description.packages.list_neighbors():
         for user, said in _find_includes(context.workspace, str(folder)).get(file.name, ()):
             found = _FIND.match(said)
             if found is not None:
                 is_this = own is not None and found[1] == own[0]
             else:
                 there = os.path.join(os.path.dirname(user), said)
-                real_path = context.workspace.real_path
+                real_path = context.workspace.resolve_links
                 is_this = "$" in said or real_path(there) == real_path(file)
             if is_this:
                 raise RefusedError(

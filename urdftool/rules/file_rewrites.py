@@ -31,7 +31,7 @@ def compute_rewritten_bytes(workspace: Workspace, rewrite: FileRewrite) -> bytes
         OSError: The original cannot be opened.
     """
     try:
-        return _rewrite(workspace.local(rewrite.origin), rewrite)
+        return _rewrite(workspace.materialize(rewrite.origin), rewrite)
     except (ValueError, OverflowError, struct.error) as error:
         raise MeshError(str(error), path=rewrite.origin) from error
 
@@ -117,7 +117,7 @@ def count_collapsed(workspace: Workspace, path: Path) -> int:
         MeshError: It is not a binary STL file.
         OSError: It cannot be read.
     """
-    return sum(map(_is_collapsed, _read_records(workspace.local(path))[1]))
+    return sum(map(_is_collapsed, _read_records(workspace.materialize(path))[1]))
 
 
 def _is_collapsed(record: Record) -> bool:

@@ -241,7 +241,7 @@ def find_attribute(problem: Problem, root: Element | None = None) -> tuple[Eleme
     if found is None:
         return None
     start = problem.place.start
-    for name, span in found.file.attribute_spans(found.start).items():
+    for name, span in found.file.locate_attributes(found.start).items():
         if span[0] == start:
             return found, name
     return None
@@ -263,7 +263,10 @@ def find_element(problem: Problem, root: Element | None = None) -> Element | Non
     around = problem.element if root is None else root
     for element in around.walk():
         if element.file is place.file and element.start <= place.start < place.end:
-            if place.start < element.file.tag_end(element.start) and element.calls == place.calls:
+            if (
+                place.start < element.file.find_tag_end(element.start)
+                and element.calls == place.calls
+            ):
                 return element
     return None
 
@@ -364,7 +367,7 @@ def get_written_value(element: Element, name: str) -> str:
     """Get an attribute as written, expressions included."""
     from ..source.edit import read_literal
 
-    raw = element.file.editable().elements.get(element.start)
+    raw = element.file.parse_for_edits().elements.get(element.start)
     return (read_literal(raw, name) if raw is not None else None) or element.get(name) or ""
 
 
@@ -375,13 +378,13 @@ def is_computed(element: Element, name: str = "name") -> bool:
 
 def may_vary(element: Element) -> bool:
     """Tell whether other arguments may give an element other children."""
-    raw = element.file.editable().elements.get(element.start)
+    raw = element.file.parse_for_edits().elements.get(element.start)
     return raw is None or any(one.tag.startswith("xacro:") for one in raw.walk())
 
 
 def is_always_there(element: Element) -> bool:
     """Tell whether an element exists exactly once for all arguments."""
-    raw = element.file.editable().elements.get(element.start)
+    raw = element.file.parse_for_edits().elements.get(element.start)
     if raw is None or any(call.macro for call in element.calls):
         return False
     parent = raw.parent
@@ -392,7 +395,7 @@ def is_always_there(element: Element) -> bool:
 
 def is_written_inside(inner: Element, outer: Element) -> bool:
     """Tell whether an element is written inside another, not inserted by a macro call."""
-    raw = outer.file.editable().elements.get(outer.start)
+    raw = outer.file.parse_for_edits().elements.get(outer.start)
     return raw is not None and inner.file is outer.file and raw.start <= inner.start < raw.end
 
 
@@ -431,10 +434,10 @@ def get_written_lines(element: Element) -> Iterator[str]:
     Yields:
         Lines, indented by one tab per level.
     """
-    source = element.file.editable()
+    source = element.file.parse_for_edits()
     raw = source.elements[element.start]
     text = element.file.data[raw.start : raw.end].decode(element.file.encoding)
-    own = len((source.indentation(raw) or b"").expandtabs(8))
+    own = len((source.get_indentation(raw) or b"").expandtabs(8))
     step = len(source.step.expandtabs(8)) or 2
     head, *rest = text.splitlines()
     yield head

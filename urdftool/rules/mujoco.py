@@ -10,8 +10,8 @@ def keeps_visuals(robot: Robot) -> bool:
     """Tell whether MuJoCo keeps the visuals of a robot, which it discards by default."""
     return any(
         (compiler.get("discardvisual") or "").strip() == "false"
-        for mujoco in robot.element.all("mujoco")
-        for compiler in mujoco.all("compiler")
+        for mujoco in robot.element.list_children("mujoco")
+        for compiler in mujoco.list_children("compiler")
     )
 
 

@@ -57,5 +57,5 @@ def set_in_origin(part: Visual | Collision | Joint, name: str, value: str) -> Ch
 
 
 def _get_origin_lines(shape: Visual | Collision) -> tuple[str, ...]:
-    origins = shape.element.all("origin")
+    origins = shape.element.list_children("origin")
     return tuple(line for origin in origins for line in get_written_lines(origin))

@@ -171,7 +171,7 @@ def map_twin_links(robot: Robot) -> dict[str, str]:
 def _find_pairs(robot: Robot) -> Iterator[Pair]:
     links, twins = robot.link, map_twin_links(robot)
     for name, other in twins.items():
-        left, right = robot.tree.parent_joint(name), robot.tree.parent_joint(other)
+        left, right = robot.tree.get_parent_joint(name), robot.tree.get_parent_joint(other)
         if left is None or right is None or left.type != right.type:
             continue
         if left.parent == right.parent or twins.get(left.parent) == right.parent:
@@ -182,7 +182,7 @@ def _is_mirrored(robot: Robot, poses: dict[str, Pose], name: str, other: str) ->
     """Tell whether the offsets of two links from their parents are mirror images."""
     steps: list[Vector] = []
     for link in (name, other):
-        above = robot.tree.parent_joint(link)
+        above = robot.tree.get_parent_joint(link)
         if above is None or link not in poses or above.parent not in poses:
             return False
         (a, b, c), (d, e, f) = poses[above.parent].translation, poses[link].translation
@@ -201,8 +201,8 @@ def _has_moving_links(robot: Robot, pair: Pair) -> bool:
     """Tell whether a pair moves or carries moving links; sensors and frames may be asymmetric."""
     if not pair.left_joint.is_fixed:
         return True
-    below = (pair.left.name, *robot.tree.descendants(pair.left.name))
-    return any(not joint.is_fixed for name in below for joint in robot.tree.child_joints(name))
+    below = (pair.left.name, *robot.tree.list_descendants(pair.left.name))
+    return any(not joint.is_fixed for name in below for joint in robot.tree.get_child_joints(name))
 
 
 def _compute_gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:

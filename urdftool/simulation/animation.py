@@ -155,7 +155,7 @@ def _view(run: Run, shapes: Shapes, camera: Camera, size: tuple[int, int]) -> Vi
     some = near[np.unique(np.linspace(0, len(near) - 1, 9).astype(int))]
     boxes = []
     for row in some:
-        corners, _, there = shapes.posed(link_poses(run, recording.poses[row]))
+        corners, _, there = shapes.transform(link_poses(run, recording.poses[row]))
         boxes.append(corners[there].reshape(-1, 3))
     points = np.concatenate(boxes)
     return camera.view(points, size)

@@ -75,7 +75,7 @@ def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Contro
     for controller in controllers:
         if unknown := _explain_unknown_type(controller):
             if strict:
-                raise controller.type.wrong(unknown)
+                raise controller.type.make_error(unknown)
             notes.append(f"{controller.type.place}: {unknown}; its joints are not actuated")
             continue
         for node, control in _list_claims(controller, robot, gains):
@@ -150,9 +150,9 @@ def _list_joints(controller: Controller) -> Iterator[tuple[Node, str]]:
                 node = parameters.find(name)
                 if node is not None and (node.text or node.items):
                     found = True
-                    yield from ((one, interface) for one in node.names(name))
+                    yield from ((one, interface) for one in node.list_names(name))
         if not found:
-            raise controller.type.wrong(
+            raise controller.type.make_error(
                 f"controller '{controller.name}' names no wheels; write {wheels[0]}"
             )
         return
@@ -160,12 +160,12 @@ def _list_joints(controller: Controller) -> Iterator[tuple[Node, str]]:
     for name in ("joints", "joint", "dof_names", "dof_name"):
         node = parameters.find(name)
         if node is not None:
-            named = node.names(name)
+            named = node.list_names(name)
             if not named:
-                raise node.wrong(f"controller '{controller.name}' has an empty list of {name}")
+                raise node.make_error(f"controller '{controller.name}' has an empty list of {name}")
             yield from ((one, interface) for one in named)
             return
-    raise controller.type.wrong(
+    raise controller.type.make_error(
         f"controller '{controller.name}' names no joint; write joint: NAME or joints: [NAME, …]"
     )
 
@@ -185,16 +185,16 @@ def _get_interface(controller: Controller) -> str:
         node = controller.parameters.find(name)
         if node is None:
             continue
-        words = [(one.text or "").rpartition("/")[2] for one in node.names(name)]
+        words = [(one.text or "").rpartition("/")[2] for one in node.list_names(name)]
         for word in _INTERFACES:
             if word in words:
                 return word
-        raise node.wrong(
-            f"{name} of controller '{controller.name}' is {node.said}; it has one of "
+        raise node.make_error(
+            f"{name} of controller '{controller.name}' is {node.described}; it has one of "
             + ", ".join(_INTERFACES)
         )
     if controller.kind in _FORWARD or controller.kind in _PID:
-        raise controller.type.wrong(
+        raise controller.type.make_error(
             f"controller '{controller.name}' does not say what it commands; write interface_name "
             "or command_interface"
         )
@@ -204,12 +204,12 @@ def _get_interface(controller: Controller) -> str:
 def _check_joints_exist(node: Node, joint: str, robot: Robot) -> None:
     if joint in robot.joint:
         if robot.joint[joint].is_fixed:
-            raise node.wrong(f"joint '{joint}' is fixed; no controller can move it")
+            raise node.make_error(f"joint '{joint}' is fixed; no controller can move it")
         return
     hint = suggest_name(joint, robot.joint, 0.5) or "; see 'urdftool graph'"
     if "$(" in joint:
         hint = "; a launch file would put something in its place: write the name"
-    raise node.wrong(f"the robot has no joint '{joint}'{hint}")
+    raise node.make_error(f"the robot has no joint '{joint}'{hint}")
 
 
 def _has_interface(
@@ -235,7 +235,7 @@ def _has_interface(
     ]
     known = [word for word in there if any(one in word for one in _INTERFACES)]
     if known and not any(interface in word for word in known):
-        raise node.wrong(
+        raise node.make_error(
             f"controller '{controller.name}' commands the {interface} of joint '{joint}', which "
             f"has {', '.join(dict.fromkeys(known))} in the robot's file; the controller would not "
             "start"
@@ -261,7 +261,7 @@ def _make_control(
 
 def _measures_velocity(controller: Controller) -> bool:
     node = controller.parameters.find("reference_and_state_interfaces")
-    words = [] if node is None else [one.text for one in node.names(node.key)]
+    words = [] if node is None else [one.text for one in node.list_names(node.key)]
     return bool(words) and "position" not in words
 
 
@@ -276,7 +276,7 @@ def _build_gains(controller: Controller, joint: str) -> Node:
         wanted = f"gains: {{{joint}: {{p: …, i: …, d: …}}}}"
     elif "Group" in controller.kind:
         wanted = f"{joint}: {{pid: {{p: …, i: …, d: …}}}}"
-    raise controller.type.wrong(
+    raise controller.type.make_error(
         f"controller '{controller.name}' has no gains of joint '{joint}'; write {wanted}"
     )
 
@@ -284,14 +284,14 @@ def _build_gains(controller: Controller, joint: str) -> Node:
 def _read_pid(node: Node) -> Pid:
     """Read the gains of a mapping, with the defaults of control_toolbox."""
     if node.fields is None:
-        raise node.wrong(f"gains are {node.said}; write {{p: …, i: …, d: …}}")
+        raise node.make_error(f"gains are {node.described}; write {{p: …, i: …, d: …}}")
     if "p" not in node.fields:
-        raise node.wrong("gains without a p; write {p: …, i: …, d: …}")
+        raise node.make_error("gains without a p; write {p: …, i: …, d: …}")
 
     def number(*names: str) -> float | None:
         for name in names:
             if name in (node.fields or {}):
-                return (node.fields or {})[name].number(name)
+                return (node.fields or {})[name].read_number(name)
         return None
 
     clamp = abs(number("i_clamp") or 0.0)
@@ -304,5 +304,5 @@ def _read_pid(node: Node) -> Pid:
         number("d") or 0.0,
         low,
         high,
-        windup is not None and windup.truth("antiwindup"),
+        windup is not None and windup.read_boolean("antiwindup"),
     )

@@ -257,10 +257,7 @@ def _list_model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     ]
     if loaded:
         yield _Cause(
-            (
-                f"inertia: {_format_names('link', loaded)} is not simulated as written by one of the "
-                "engines"
-            ),
+            f"inertia: an engine does not simulate {_format_names('link', loaded)} as written",
             tuple(loaded),
         )
     many = [s.link for b in bodies.bodies for s in b.shapes if len(s.pieces) > 1]

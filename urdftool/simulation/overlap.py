@@ -136,8 +136,8 @@ def tessellate_primitive_triangles(shape: Collision | Visual) -> Array:
 def _measure_deepest(one: Surface, at: Pose, other: Surface, there: Pose, least: float) -> float:
     """Measure how deep two surfaces at poses in the world overlap [m]."""
     return max(
-        _measure_inside(one, other, there.inverse() @ at, least),
-        _measure_inside(other, one, at.inverse() @ there, least),
+        _measure_inside(one, other, there.invert() @ at, least),
+        _measure_inside(other, one, at.invert() @ there, least),
     )
 
 

@@ -62,7 +62,7 @@ def _unsupported_joints(robot: Robot) -> Iterator[Finding]:
             joint.type == "floating"
             and root is not None
             and joint.parent == root.name
-            and len(robot.tree.child_joints(root.name)) == 1
+            and len(robot.tree.get_child_joints(root.name)) == 1
             and not root.collisions
         ):
             continue
@@ -71,7 +71,7 @@ def _unsupported_joints(robot: Robot) -> Iterator[Finding]:
             f"joint '{joint.name}' is {joint.type}, which no engine here simulates; model it by "
             "prismatic and revolute joints"
             + (", or let the root float" * (joint.type == "floating")),
-            joint.attribute_place("type"),
+            joint.locate_attribute("type"),
             "joint",
             joint.name,
         )

@@ -168,7 +168,7 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     positions, clamped = start_positions(robot, settings.pose)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
     poses = link_poses(robot, positions)
-    back = poses[top].inverse()
+    back = poses[top].invert()
     shapes = [(back @ poses[body.name], body.shapes) for body in made]
     at_origin = fixed_base and _is_world(robot.link[top])
     start, size = spawn_pose(shapes, settings, fixed=fixed_base, at_origin=at_origin)
@@ -192,7 +192,7 @@ def _find_root(robot: Robot) -> str:
     """Find the root; below a frame from which the robot floats, the floating link."""
     assert robot.tree.root is not None
     name = robot.tree.root.name
-    joints = robot.tree.child_joints(name)
+    joints = robot.tree.get_child_joints(name)
     free = len(joints) == 1 and joints[0].type == "floating" and not robot.link[name].collisions
     return joints[0].child if free else name
 
@@ -203,7 +203,7 @@ def _collect_lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody
     members: dict[str, list[str]] = {}
     owner: dict[str, str] = {}
     for name in order:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         fixed = joint is not None and joint.is_fixed and name != top
         owner[name] = owner[joint.parent] if joint is not None and fixed else name
         members.setdefault(owner[name], []).append(name)
@@ -211,13 +211,13 @@ def _collect_lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody
     bodies: list[RigidBody] = []
     shape_count = 0
     for name, links in members.items():
-        back = poses[name].inverse()
+        back = poses[name].invert()
         places = {link: back @ poses[link] if link != name else IDENTITY for link in links}
         shapes: list[Shape] = []
         for link in links:
             shapes += make_shapes(robot, robot.link[link], places[link], shape_count)
             shape_count += len(robot.link[link].collisions)
-        joint = robot.tree.parent_joint(name) if name != top else None
+        joint = robot.tree.get_parent_joint(name) if name != top else None
         parent, origin = -1, IDENTITY
         if joint is not None:
             parent = index[owner[joint.parent]]

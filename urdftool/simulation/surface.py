@@ -59,11 +59,11 @@ def _list_texts(
 ) -> Iterable[tuple[str, str]]:
     for block in robot.extensions.get(link, ()):
         for word in tags:
-            text = block.value(word)
+            text = block.get_value(word)
             if text is not None:
                 yield f"<{word}>", text
     element = robot.link[link].xml
-    contact = None if element is None else element.child("contact")
-    inner = None if contact is None else contact.child(tag)
+    contact = None if element is None else element.find_child("contact")
+    inner = None if contact is None else contact.find_child(tag)
     if inner is not None:
         yield f"<{tag}>", inner.get("value") or inner.text

@@ -54,10 +54,10 @@ class Description:
         """Return the workspace that reads its files."""
         return self.packages.workspace
 
-    def unread(self) -> Description:
+    def without_cache(self) -> Description:
         """Return the same description with a workspace that rereads other files."""
         packages = copy(self.packages)
-        packages.workspace = self.workspace.unread()
+        packages.workspace = self.workspace.with_empty_memo()
         return replace(self, packages=packages)
 
     def resolve(self, uri: str) -> Path:
@@ -117,7 +117,7 @@ def read_description(
     expansion = expand_xacro(file, arguments, finder)
     return Description(
         str(path),
-        expansion.document(),
+        expansion.make_document(),
         list(expansion.files.values()),
         finder,
         arguments,

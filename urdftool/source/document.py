@@ -78,14 +78,14 @@ class Element:
         """Return the value of an attribute, or the default."""
         return self.attributes.get(name, default)
 
-    def child(self, tag: str) -> Element | None:
+    def find_child(self, tag: str) -> Element | None:
         """Return the first child with a tag, which URDF readers use; None if there is none."""
         for child in self.children:
             if child.tag == tag:
                 return child
         return None
 
-    def all(self, tag: str) -> Iterator[Element]:
+    def list_children(self, tag: str) -> Iterator[Element]:
         """Return the children with a tag."""
         return (child for child in self.children if child.tag == tag)
 
@@ -100,21 +100,21 @@ class Element:
     @property
     def place(self) -> Place:
         """Return the span of the start tag."""
-        return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
+        return Place(self.file, self.start, self.file.find_tag_end(self.start), self.calls)
 
     @property
     def end(self) -> int:
         """Return the byte after the end tag; after the start tag if the end is unknown."""
         data = self.file.data
-        start_tag_end = self.file.tag_end(self.start)
+        start_tag_end = self.file.find_tag_end(self.start)
         if self._close < 0 or data[start_tag_end - 2 : start_tag_end] == b"/>":
             return start_tag_end
         end = data.find(b">", self._close)
         return len(data) if end < 0 else end + 1
 
-    def attribute_place(self, name: str) -> Place:
+    def locate_attribute(self, name: str) -> Place:
         """Return the span of an attribute, name and value; of the start tag if it is absent."""
-        span = self.file.attribute_spans(self.start).get(name)
+        span = self.file.locate_attributes(self.start).get(name)
         return self.place if span is None else Place(self.file, *span, self.calls)
 
 
@@ -151,7 +151,7 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     shown = str(path)
     named = STDIN if shown == "-" else shown
     workspace = workspace or Workspace()
-    copy = workspace.overlaid(named)
+    copy = workspace.get_overlay(named)
     if copy is not None:
         workspace.record("file", named)
         return SourceFile(named, copy)

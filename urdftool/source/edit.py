@@ -51,17 +51,17 @@ class Source:
         self.elements: dict[int, Element] = {e.start: e for e in self.document.root.walk()}
         self.line_end = b"\r\n" if b"\r\n" in data else b"\n"
 
-    def indentation(self, element: Element) -> bytes | None:
+    def get_indentation(self, element: Element) -> bytes | None:
         """Return the whitespace before an element; None if other text precedes it on its line."""
         start = self.file.data.rfind(b"\n", 0, element.start) + 1
         before = self.file.data[start : element.start]
         return before if not before.strip(b" \t") else None
 
-    def inner_indentation(self, element: Element) -> bytes | None:
+    def get_inner_indentation(self, element: Element) -> bytes | None:
         """Return the whitespace before the children of an element; None if it is on one line."""
-        own = self.indentation(element)
+        own = self.get_indentation(element)
         for child in element.children:
-            inner = self.indentation(child)
+            inner = self.get_indentation(child)
             if inner is not None:
                 return inner
         if own is None or element.children:
@@ -72,9 +72,9 @@ class Source:
     def step(self) -> bytes:
         """Return the indentation of one level in this file."""
         for element in self.elements.values():
-            inner, outer = self.indentation(element), None
+            inner, outer = self.get_indentation(element), None
             if element.parent is not None:
-                outer = self.indentation(element.parent)
+                outer = self.get_indentation(element.parent)
             if inner is not None and outer is not None and len(inner) > len(outer):
                 return inner[len(outer) :] if inner.startswith(outer) else inner
         return b"  "
@@ -82,7 +82,7 @@ class Source:
 
 def read_literal(element: Element, name: str) -> str | None:
     """Return the value of an attribute as written, with references resolved; None if absent."""
-    span = element.file.attribute_spans(element.start).get(name)
+    span = element.file.locate_attributes(element.start).get(name)
     if span is None:
         return None
     start, end = locate_value(element.file.data, span)
@@ -92,7 +92,7 @@ def read_literal(element: Element, name: str) -> str | None:
 def set_attribute(source: Source, element: Element, name: str, value: str) -> Edit:
     """Return the edit that sets an attribute, appended if it is not written."""
     data = source.file.data
-    spans = source.file.attribute_spans(element.start)
+    spans = source.file.locate_attributes(element.start)
     if name in spans:
         start, end = locate_value(data, spans[name])
         return Edit(start, end, _get_attribute_bytes(value, data[start - 1 : start]))
@@ -120,8 +120,8 @@ def insert_child(
         after: The preceding child; None inserts before all children.
     """
     data = source.file.data
-    inner = source.inner_indentation(parent)
-    tag_end = source.file.tag_end(parent.start)
+    inner = source.get_inner_indentation(parent)
+    tag_end = source.file.find_tag_end(parent.start)
     closed = data[tag_end - 2 : tag_end] == b"/>"
     if inner is None:
         text = "".join(line.strip("\t") for line in lines).encode("ascii")
@@ -133,7 +133,7 @@ def insert_child(
             for line in shown
         )
     if closed:
-        own = source.indentation(parent) or b""
+        own = source.get_indentation(parent) or b""
         tail = b"" if inner is None else source.line_end + own
         begin = len(data[: tag_end - 2].rstrip())
         return Edit(begin, tag_end, b">" + text + tail + f"</{parent.tag}>".encode())
@@ -141,7 +141,7 @@ def insert_child(
     if inner is not None:
         rest = _REST_OF_LINE.match(data, at)
         if rest is None and after is None and not parent.children:
-            own = source.indentation(parent) or b""
+            own = source.get_indentation(parent) or b""
             blank = _BLANK.match(data, at)
             end = blank.end() if blank else at
             if data.startswith(b"</", end):
@@ -159,7 +159,7 @@ def replace_element(source: Source, element: Element, blocks: Sequence[Sequence[
         element: Element to replace.
         blocks: Lines of each new element, indented by one tab for each level.
     """
-    own = source.indentation(element)
+    own = source.get_indentation(element)
     step = source.step
     parts = []
     for lines in blocks:
@@ -177,7 +177,7 @@ def remove_element(source: Source, element: Element) -> Edit:
     """Return the edit that removes an element, with its line if nothing else is on it."""
     data = source.file.data
     start, end = element.start, element.end
-    own = source.indentation(element)
+    own = source.get_indentation(element)
     rest = re.compile(rb"[ \t]*\r?\n").match(data, end)
     if own is not None and rest is not None:
         return Edit(start - len(own), rest.end(), b"")
@@ -185,7 +185,7 @@ def remove_element(source: Source, element: Element) -> Edit:
 
 
 def _step_within(source: Source, parent: Element, inner: bytes) -> bytes:
-    own = source.indentation(parent)
+    own = source.get_indentation(parent)
     if own is not None and inner.startswith(own) and len(inner) > len(own):
         return inner[len(own) :]
     return source.step

@@ -33,7 +33,7 @@ def expand_xacro(
     """
     with _lock:
         run = Run(Expansion(file, arguments), packages)
-        with run.hooks():
+        with run.install_hooks():
             try:
                 run.expand()
             except UrdftoolError:

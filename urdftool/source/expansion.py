@@ -65,7 +65,7 @@ class Expansion:
             ],
         )
 
-    def document(self) -> Document:
+    def make_document(self) -> Document:
         """Return the expanded tree as a document whose elements know their source."""
         return Document(self.file, _convert(self.tree.documentElement, None), [])
 

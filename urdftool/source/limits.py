@@ -45,7 +45,7 @@ class EvaluationLimits:
         self._memory = 0
 
     @contextmanager
-    def kept(self) -> Iterator[None]:
+    def enforce(self) -> Iterator[None]:
         """Check the limits periodically, on POSIX in the main thread if no other timer is set."""
         main = threading.current_thread() is threading.main_thread()
         if sys.platform == "win32" or not main or signal.getitimer(signal.ITIMER_REAL)[0]:

@@ -56,7 +56,7 @@ class SourceFile:
         text = self.data[start:offset]
         return line, len(text.decode(self.encoding, "replace")) + 1
 
-    def line_text(self, line: int) -> str:
+    def get_line_text(self, line: int) -> str:
         """Return the text of a line (from 1), without its end."""
         starts = self.line_starts
         if not 1 <= line <= len(starts):
@@ -65,7 +65,7 @@ class SourceFile:
         text = self.data[starts[line - 1] : end].decode(self.encoding, "replace")
         return text.rstrip("\r\n").removeprefix("\ufeff")
 
-    def attribute_spans(self, start: int) -> dict[str, tuple[int, int]]:
+    def locate_attributes(self, start: int) -> dict[str, tuple[int, int]]:
         """Return the byte span (name to closing quote) of each attribute of the tag at a byte."""
         spans = self._tags.get(start)
         if spans is None:
@@ -74,13 +74,13 @@ class SourceFile:
             spans = self._tags[start] = locate_attributes(self.data, start)
         return spans
 
-    def tag_end(self, start: int) -> int:
+    def find_tag_end(self, start: int) -> int:
         """Return the byte after the ``>`` of the tag at a byte."""
         from .tags import find_tag_end
 
         return find_tag_end(self.data, start)
 
-    def editable(self) -> Source:
+    def parse_for_edits(self) -> Source:
         """Parse the file once, as written, without expansion.
 
         Raises:

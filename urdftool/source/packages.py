@@ -173,7 +173,7 @@ class Packages:
             rule="package-not-found",
         )
 
-    def neighbors(self) -> list[Path]:
+    def list_neighbors(self) -> list[Path]:
         """Return the folders of the packages around the file, its own first.
 
         Without a package, return the folder of the file.
@@ -185,7 +185,7 @@ class Packages:
         siblings = [folder for root in roots for folder in self._find_packages(root).values()]
         return list(dict.fromkeys([own[1], *siblings]))
 
-    def folder_with(self, name: str, inner: str) -> Path | None:
+    def find_folder_with(self, name: str, inner: str) -> Path | None:
         """Return a folder near the file that contains a file at a path below it; None if none does.
 
         Searched are the folders above the file, folders called ``name`` in the two nearest of them,
@@ -220,7 +220,7 @@ class Packages:
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_NEAR]
         files = self.workspace
         found = [folder / name for folder in above if files.is_file(folder / name / inner)]
-        if len({files.real_path(folder) for folder in found}) != 1:
+        if len({files.resolve_links(folder) for folder in found}) != 1:
             return None
         self.assumed[name] = found[0]
         return found[0]
@@ -246,7 +246,7 @@ class Packages:
             folder = Path(self.configured[name])
             yield f"the configuration: {name} = {folder} (does not exist)", folder
         for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
-            value = self.workspace.variable(variable) or ""
+            value = self.workspace.read_variable(variable) or ""
             if not value:
                 yield f"{variable} (not set)", None
             for entry in filter(None, value.split(os.pathsep)):
@@ -281,7 +281,7 @@ class Packages:
                 return roots
         return roots[:1]
 
-    def installed(self, path: str | Path) -> Path:
+    def find_installed(self, path: str | Path) -> Path:
         """Return the source file that is installed at a path inside a found package.
 
         Args:
@@ -328,7 +328,7 @@ class Packages:
                 same = self._find_folder_named(name, inner) if scheme == "package" else None
                 if same is not None:
                     return same / inner
-                near = self.folder_with(name, inner)
+                near = self.find_folder_with(name, inner)
                 if near is None:
                     raise
                 raise PackageNotFound(
@@ -336,11 +336,11 @@ class Packages:
                     notes=error.notes,
                     rule=error.rule,
                 ) from None
-            return self.installed(folder / inner.lstrip("/"))
+            return self.find_installed(folder / inner.lstrip("/"))
         if separator and scheme == "file":
-            return self.installed(rest)
+            return self.find_installed(rest)
         base = self.file if relative_to is None else Path(os.path.abspath(relative_to))
-        return self.installed(base.parent / uri)
+        return self.find_installed(base.parent / uri)
 
 
 def suggest_folder(name: str, folder: Path) -> str:

@@ -47,15 +47,15 @@ class Sandbox:
         self.packages = packages
         self.workspace = packages.workspace
         self.load_yaml = load_yaml
-        self.trusted = self.workspace.variable(TRUST) == "1"
+        self.trusted = self.workspace.read_variable(TRUST) == "1"
 
-    def variable(self, name: str) -> str:
+    def read_variable(self, name: str) -> str:
         """Return the value of ``$(env NAME)``.
 
         Raises:
             XacroError: It is not set, or not accessible.
         """
-        value = self.workspace.variable(name)
+        value = self.workspace.read_variable(name)
         if value is not None and not self._can_read_variable(name):
             raise _make_hidden_error(name)
         if value is None:
@@ -66,13 +66,13 @@ class Sandbox:
             )
         return value
 
-    def optional_variable(self, name: str, default: str = "") -> str:
+    def read_optional_variable(self, name: str, default: str = "") -> str:
         """Return the value of ``$(optenv NAME DEFAULT)``.
 
         Raises:
             XacroError: The variable is set, but not accessible.
         """
-        value = self.workspace.variable(name)
+        value = self.workspace.read_variable(name)
         if value is not None and not self._can_read_variable(name):
             raise _make_hidden_error(name)
         return default if value is None else value
@@ -88,7 +88,7 @@ class Sandbox:
             XacroError: It is outside, directly or through a symbolic link, or is a device or pipe.
         """
         files = self.workspace
-        real = Path(files.real_path(path))
+        real = Path(files.resolve_links(path))
         if files.exists(real) and not files.is_file(real) and not files.is_folder(real):
             raise XacroError(
                 f"{path} is a device or a pipe, not a file", at=at, rule="include-not-found"
@@ -107,7 +107,9 @@ class Sandbox:
             rule="include-not-found",
         )
 
-    def symbols(self, original: Mapping[str, Any], warn: Callable[[str], object]) -> dict[str, Any]:
+    def make_symbols(
+        self, original: Mapping[str, Any], warn: Callable[[str], object]
+    ) -> dict[str, Any]:
         """Return the global symbols of expressions, with bounded functions and checked file access.
 
         Args:
@@ -130,7 +132,7 @@ class Sandbox:
                     found[key] = _wrap_deprecated(function, key, name, warn) if old else function
         return found
 
-    def old_evaluation(self, ros: Any) -> Callable[[str, dict[str, Any]], str]:
+    def make_ros1_evaluation(self, ros: Any) -> Callable[[str, dict[str, Any]], str]:
         """Return a function for ``$(eval …)`` with the names that ROS 1 defines for it.
 
         Args:
@@ -162,8 +164,8 @@ class Sandbox:
             known += folders.values()
         known += packages.paths
         for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
-            known += filter(None, (self.workspace.variable(variable) or "").split(os.pathsep))
-        return [Path(self.workspace.real_path(folder)) for folder in known]
+            known += filter(None, (self.workspace.read_variable(variable) or "").split(os.pathsep))
+        return [Path(self.workspace.resolve_links(folder)) for folder in known]
 
     def _find_project(self) -> Path:
         """Return the project folder of a description without a package.

@@ -62,7 +62,7 @@ def _suggest_argument(include: XacroElement | None, result: Expansion) -> str:
     """Return advice to set the argument that names an included file, if it was not given."""
     if include is None:
         return ""
-    span = include.file.attribute_spans(include.start).get("filename")
+    span = include.file.locate_attributes(include.start).get("filename")
     if span is None:
         return ""
     written = include.file.data[span[0] : span[1]].decode(include.file.encoding, "replace")
@@ -96,10 +96,10 @@ def _make_missing_error(
 def _place(node: XacroElement, failed_text: str | None, odd: str) -> Place:
     """Return the span of the unknown attribute or of the one that failed; else of the element."""
     if (odd or node.tagName == "xacro:include") and not failed_text:
-        span = node.file.attribute_spans(node.start).get(odd or "filename")
+        span = node.file.locate_attributes(node.start).get(odd or "filename")
         return node.place if span is None else Place(node.file, *span, node.calls)
     if failed_text:
-        for name, span in node.file.attribute_spans(node.start).items():
+        for name, span in node.file.locate_attributes(node.start).items():
             written = node.file.data[span[0] : span[1]].decode(node.file.encoding, "replace")
             if failed_text in written[len(name) :]:
                 return Place(node.file, *span, node.calls)

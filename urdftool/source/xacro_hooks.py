@@ -89,7 +89,7 @@ class Run:
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
-        self.patience = EvaluationLimits(self.too_long)
+        self.patience = EvaluationLimits(self.make_time_error)
 
     def expand(self) -> None:
         """Parse the file and expand it with xacro; requires :meth:`hooks`."""
@@ -98,24 +98,24 @@ class Run:
         xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)
 
     @contextmanager
-    def hooks(self) -> Iterator[None]:
+    def install_hooks(self) -> Iterator[None]:
         """Replace functions of xacro, and restore them at exit."""
         here: dict[str, Any] = {
             "parse": self.parse,
             "eval_text": self.eval_text,
             "eval_all": self.eval_all(xacro.eval_all),
-            "grab_property": self.around(xacro.grab_property),
+            "grab_property": self.record_node(xacro.grab_property),
             "grab_macro": self.grab_macro(xacro.grab_macro),
             "process_include": self.process_include(xacro.process_include),
             "handle_macro_call": self.handle_macro_call(xacro.handle_macro_call),
             "check_attrs": self.check_attrs(xacro.check_attrs),
             "reqd_attrs": self.reqd_attrs(xacro.reqd_attrs),
             "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
-            "get_include_files": self.included_files,
+            "get_include_files": self.list_included_files,
             "_empty_text_node": Characters("\n\n"),
-            "_global_symbols": self.reach.symbols(xacro._global_symbols, self.warning),
+            "_global_symbols": self.reach.make_symbols(xacro._global_symbols, self.record_warning),
             "safe_eval": evaluate_number,
-            "warning": self.warning,
+            "warning": self.record_warning,
             "print_location": lambda *_: None,
             "all_includes": [],
             "verbosity": 1,
@@ -125,11 +125,11 @@ class Run:
         substitution = _import_substitution_args()
         commands: dict[str, Any] = {
             "find": self.find,
-            "env": self.reach.variable,
-            "optenv": self.reach.optional_variable,
+            "env": self.reach.read_variable,
+            "optenv": self.reach.read_optional_variable,
         }
         functions: dict[str, Any] = {f"_eval_{name}": f for name, f in commands.items()}
-        functions["_eval"] = self.reach.old_evaluation(substitution)
+        functions["_eval"] = self.reach.make_ros1_evaluation(substitution)
         saved_functions = {name: getattr(substitution, name) for name in functions}
         saved_commands = {name: substitution._eval_dict[name] for name in commands}
         limit = sys.getrecursionlimit()
@@ -140,9 +140,9 @@ class Run:
                 setattr(substitution, name, function)
             substitution._eval_dict.update(commands)
             sys.setrecursionlimit(max(limit, _RECURSION_LIMIT))
-            with self.patience.kept():
+            with self.patience.enforce():
                 yield
-            self.note_dependencies()
+            self.store_dependencies()
         finally:
             sys.setrecursionlimit(limit)
             for name, value in saved.items():
@@ -156,7 +156,7 @@ class Run:
 
     def parse(self, _: object, filename: str) -> XacroDocument:
         """Parse an included file; raise xacro's exception if it cannot be opened."""
-        path = shorten_path(self.packages.installed(filename))
+        path = shorten_path(self.packages.find_installed(filename))
         if len(xacro.filestack) > MAX_INCLUDES:
             raise XacroError(
                 f"includes are nested more than {MAX_INCLUDES} deep; a file includes itself",
@@ -186,18 +186,18 @@ class Run:
         def absolute(spec: str) -> str:
             path = original(spec)
             there = self.packages.workspace.exists(path)
-            return path if there else str(self.packages.installed(path))
+            return path if there else str(self.packages.find_installed(path))
 
         return absolute
 
-    def included_files(self, spec: str, symbols: Any) -> Iterator[str]:
+    def list_included_files(self, spec: str, symbols: Any) -> Iterator[str]:
         """Yield the files that an include names, as ``xacro.get_include_files``."""
         path = str(xacro.abs_filename_spec(self.eval_text(spec, symbols)))
         names = [path]
         if re.search(r"[*[?]", path):
             names = self.packages.workspace.match(path)
             if not names:
-                self.warning(xacro.include_no_matches_msg.format(path))
+                self.record_warning(xacro.include_no_matches_msg.format(path))
         for name in names:
             xacro.all_includes.append(name)
             yield name
@@ -221,11 +221,11 @@ class Run:
                 xacro.filestack.pop()
                 xacro.all_includes.append(path)
 
-    def warning(self, *words: object, **_: object) -> None:
+    def record_warning(self, *words: object, **_: object) -> None:
         """Record a warning with its location."""
         self.result.warnings.append(Warned(" ".join(map(str, words)), self.place))
 
-    def around(self, original: Callable[..., Any]) -> Callable[..., Any]:
+    def record_node(self, original: Callable[..., Any]) -> Callable[..., Any]:
         """Wrap a function of xacro to record the element that it processes."""
 
         def wrapped(node: XacroElement, *rest: Any) -> Any:
@@ -238,7 +238,7 @@ class Run:
 
     def eval_all(self, original: Callable[..., Any]) -> Callable[..., Any]:
         """Wrap the expansion of an element to limit the number of elements."""
-        wrapped = self.around(original)
+        wrapped = self.record_node(original)
 
         def evaluate(node: XacroElement, macros: Any, symbols: Any) -> None:
             self.elements += 1
@@ -277,7 +277,7 @@ class Run:
 
     def grab_macro(self, original: Callable[..., Any]) -> Callable[..., Any]:
         """Wrap the definition of a macro so that its copies record their call."""
-        wrapped = self.around(original)
+        wrapped = self.record_node(original)
 
         def grab(element: XacroElement, macros: Any) -> None:
             element.definition_of = self.instances
@@ -287,7 +287,7 @@ class Run:
 
     def process_include(self, original: Callable[..., Any]) -> Callable[..., Any]:
         """Wrap an include so that its elements record it."""
-        wrapped = self.around(original)
+        wrapped = self.record_node(original)
 
         def include(element: XacroElement, *rest: Any) -> None:
             before = self.include_calls
@@ -315,7 +315,9 @@ class Run:
                 )
             before, self.node = self.node, node
             calls = self.instances.calls
-            arguments = tuple((k, self.shown(v, symbols)) for k, v in node.attributes.items())
+            arguments = tuple(
+                (k, self.show_argument(v, symbols)) for k, v in node.attributes.items()
+            )
             self.instances.calls = (Call(node.file, node.start, tag[6:], arguments), *node.calls)
             result = original(node, macros, symbols)
             self.instances.calls = calls
@@ -324,7 +326,7 @@ class Run:
 
         return call
 
-    def shown(self, value: str, symbols: Any) -> str:
+    def show_argument(self, value: str, symbols: Any) -> str:
         """Return an argument of a call evaluated, or as written if that may have effects."""
         if "$" not in value or "xacro." in value or len(value) > 200:
             return value
@@ -393,7 +395,7 @@ class Run:
         """Return the location of the processed element; None before the first."""
         return None if self.node is None else self.node.place
 
-    def too_long(self, seconds: float) -> XacroError:
+    def make_time_error(self, seconds: float) -> XacroError:
         """Make the error for an expansion that was stopped after a time [s]."""
         return XacroError(
             f"the expansion was stopped because it takes more than {seconds:g} s of CPU time",
@@ -402,10 +404,10 @@ class Run:
             rule="endless-expansion",
         )
 
-    def note_dependencies(self) -> None:
+    def store_dependencies(self) -> None:
         """Store the files that xacro read, each once."""
         seen = dict.fromkeys(
-            shorten_path(self.packages.installed(path)) for path in xacro.all_includes
+            shorten_path(self.packages.find_installed(path)) for path in xacro.all_includes
         )
         self.result.dependencies = list(seen)
 

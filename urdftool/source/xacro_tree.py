@@ -166,7 +166,7 @@ class XacroElement(Parent):
     @property
     def place(self) -> Place:
         """Return the span of the start tag."""
-        return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
+        return Place(self.file, self.start, self.file.find_tag_end(self.start), self.calls)
 
     def hasAttribute(self, name: str) -> bool:
         """Tell whether an attribute exists."""

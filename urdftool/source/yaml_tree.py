@@ -86,11 +86,11 @@ class Node:
         for key, node in self.fields.items():
             yield from node.walk(*path, key)
 
-    def wrong(self, message: str) -> ConfigError:
+    def make_error(self, message: str) -> ConfigError:
         """Return an error at this location."""
         return ConfigError(message, at=self.place)
 
-    def number(self, what: str) -> float:
+    def read_number(self, what: str) -> float:
         """Return a finite number.
 
         Raises:
@@ -101,10 +101,10 @@ class Node:
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            raise self.wrong(f"{what} is {self.said}, not a finite number")
+            raise self.make_error(f"{what} is {self.described}, not a finite number")
         return value
 
-    def truth(self, what: str) -> bool:
+    def read_boolean(self, what: str) -> bool:
         """Return a boolean.
 
         Raises:
@@ -113,9 +113,9 @@ class Node:
         word = (self.text or "").lower()
         if word in _YES or word in _NO:
             return word in _YES
-        raise self.wrong(f"{what} is {self.said}, not a boolean; use true or false")
+        raise self.make_error(f"{what} is {self.described}, not a boolean; use true or false")
 
-    def names(self, what: str) -> list[Node]:
+    def list_names(self, what: str) -> list[Node]:
         """Return the scalars of a list of names, or a single name as a list.
 
         Raises:
@@ -124,11 +124,11 @@ class Node:
         nodes = [self] if self.items is None else self.items
         for node in nodes:
             if not node.text:
-                raise node.wrong(f"{what} is {node.said}, not the name of a joint")
+                raise node.make_error(f"{what} is {node.described}, not the name of a joint")
         return nodes
 
     @property
-    def said(self) -> str:
+    def described(self) -> str:
         """Return a description of the value for messages."""
         if self.fields is not None:
             return "a mapping"
@@ -188,7 +188,7 @@ def parse_yaml(file: SourceFile) -> Node:
             line=1,
         )
     reader = _Reader(file, text)
-    first, *others = [reader.node(root, "", 0) for root in roots]
+    first, *others = [reader.build_node(root, "", 0) for root in roots]
     for other in others:
         for name, value in (other.fields or {}).items():
             reader.add(first, name, value)
@@ -209,7 +209,7 @@ class _Reader:
     def _compute_byte(self, index: int) -> int:
         return index if self._ascii else len(self.text[:index].encode())
 
-    def node(self, node: Any, key: str, depth: int) -> Node:
+    def build_node(self, node: Any, key: str, depth: int) -> Node:
         import yaml
 
         self.count += 1
@@ -230,7 +230,7 @@ class _Reader:
             made.text, made.quoted = str(node.value), node.style in ("'", '"')
             made.kind = str(node.tag).rpartition(":")[2]
         elif isinstance(node, yaml.SequenceNode):
-            made.items = [self.node(item, key, depth + 1) for item in node.value]
+            made.items = [self.build_node(item, key, depth + 1) for item in node.value]
         else:
             made.fields = self._build_fields(node, depth)
         return made
@@ -241,11 +241,11 @@ class _Reader:
         for key, value in node.value:
             name = str(getattr(key, "value", ""))
             if getattr(key, "tag", "") == "tag:yaml.org,2002:merge":
-                inner = self.node(value, "<<", depth + 1)
+                inner = self.build_node(value, "<<", depth + 1)
                 for source in inner.items if inner.items is not None else [inner]:
                     merged = {**(source.fields or {}), **merged}
             else:
-                self.add(own, name, self.node(value, name, depth + 1))
+                self.add(own, name, self.build_node(value, name, depth + 1))
         return {**merged, **(own.fields or {})}
 
     def add(self, mapping: Node, name: str, value: Node) -> None:

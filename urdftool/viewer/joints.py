@@ -82,7 +82,7 @@ class Joints:
         same = {
             slider.name: slider for slider in self._list_free() if slider.name in self._positions
         }
-        stay = {name: slider.meant(self._positions[name]) for name, slider in same.items()}
+        stay = {name: slider.clamp_position(self._positions[name]) for name, slider in same.items()}
         self._positions = {}
         self.move({**zero, **stay})
 
@@ -96,8 +96,11 @@ class Joints:
             min=low,
             max=high,
             step=slider.step,
-            initial_value=min(max(slider.shown(slider.zero), low), high),
-            marks=((low, slider.words(slider.lower)), (high, slider.words(slider.upper))),
+            initial_value=min(max(slider.round_position(slider.zero), low), high),
+            marks=(
+                (low, slider.format_position(slider.lower)),
+                (high, slider.format_position(slider.upper)),
+            ),
             disabled=slider.locked,
             hint=f"{shorten_name(slider.name)} [{unit}]{': ' * bool(slider.note)}{slider.note}",
         )
@@ -113,8 +116,8 @@ class Joints:
         handle = self._handles.get(slider.name)
         if handle is None or slider.locked or slider not in self._sliders:
             return
-        if handle.value != slider.shown(self._positions.get(slider.name, 0.0)):
-            self.move({slider.name: slider.meant(handle.value)}, leader=slider.name)
+        if handle.value != slider.round_position(self._positions.get(slider.name, 0.0)):
+            self.move({slider.name: slider.clamp_position(handle.value)}, leader=slider.name)
 
     def move(self, requested: Mapping[str, float], leader: str = "") -> None:
         """Move joints [rad or m] and the joints that mimic them; the others stay.
@@ -132,11 +135,11 @@ class Joints:
         self._moved(positions)
         for slider in self._sliders:
             value, handle = positions[slider.name], self._handles[slider.name]
-            words = f"{shorten_name(slider.name, _LONGEST)} {slider.brief(value)}"
+            words = f"{shorten_name(slider.name, _LONGEST)} {slider.format_short(value)}"
             if handle.label != words:
                 handle.label = words
-            if slider.name != leader and handle.value != slider.shown(value):
-                handle.value = slider.shown(value)
+            if slider.name != leader and handle.value != slider.round_position(value):
+                handle.value = slider.round_position(value)
 
     def put(self, where: str) -> None:
         """Move every joint that does not mimic another to one of ``WHERE``."""

@@ -85,4 +85,4 @@ def _find_owner(owners: Owners, place: Place, calls: tuple[Call, ...]) -> str | 
     if index < 0:
         return None
     start, link = rows[index]
-    return link if place.start < place.file.tag_end(start) else None
+    return link if place.start < place.file.find_tag_end(start) else None

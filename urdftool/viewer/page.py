@@ -194,7 +194,7 @@ class Page:
 
     def _clear(self) -> None:
         with self.server.atomic():
-            self.body.see_through(self._clear_box.value)
+            self.body.set_transparent(self._clear_box.value)
 
     def _update_ground(self) -> None:
         lay_ground(self.server.scene, self.body.size, self._floor, self._grid_box.value)
@@ -281,9 +281,9 @@ class Page:
 
     # Files
 
-    def tend(self) -> None:
+    def poll(self) -> None:
         """Poll once: read the description again if files changed, and lint a new robot."""
-        changed = self._watch.changed()
+        changed = self._watch.find_changes()
         late = self._error is not None and time.monotonic() - self._tried > PATIENCE
         if changed or late:
             self._run_safely(self.reload)
@@ -300,7 +300,7 @@ class Page:
     def run(self) -> None:
         """Poll until the process is interrupted."""
         while True:
-            self.tend()
+            self.poll()
             time.sleep(PAUSE)
 
     def reload(self) -> None:

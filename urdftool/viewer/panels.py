@@ -82,7 +82,7 @@ def _count(number: int, what: str) -> str:
 def format_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
     """Format the properties of the selected link and its parent joint."""
     text = f"<b style='overflow-wrap:anywhere'>{safe(name)}</b>{format_table(rows)}"
-    joint = robot.tree.parent_joint(name)
+    joint = robot.tree.get_parent_joint(name)
     if joint is not None:
         text += f"<b style='overflow-wrap:anywhere'>{safe(joint.name)}</b>"
         text += format_table(list_joint_rows(joint))

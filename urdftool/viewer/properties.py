@@ -68,8 +68,8 @@ def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Ro
         link: The link.
         pose: Current pose of the link in the root frame.
     """
-    joint = robot.tree.parent_joint(link.name)
-    below = robot.tree.child_joints(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
+    below = robot.tree.get_child_joints(link.name)
     if joint is None:
         yield "parent", "none (root link)"
     else:

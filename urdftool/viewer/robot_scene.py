@@ -79,7 +79,7 @@ class RobotScene:
         self.size = 1.0
         self._root = scene.add_frame(root, show_axes=False)
         for number, name in enumerate(robot.tree.order):
-            joint = robot.tree.parent_joint(name)
+            joint = robot.tree.get_parent_joint(name)
             above = root if joint is None else self._paths.get(joint.parent)
             if above is None:
                 continue
@@ -109,7 +109,7 @@ class RobotScene:
         """
         moved = 0
         for name, frame in self._frames.items():
-            joint = self.robot.tree.parent_joint(name)
+            joint = self.robot.tree.get_parent_joint(name)
             if joint is None or joint.type not in MOVABLE:
                 continue
             value = positions.get(joint.name, 0.0)
@@ -133,7 +133,7 @@ class RobotScene:
         points = [[*pose.translation] for name, pose in poses.items() if name in self._paths]
         points = [point for point in points if all(map(math.isfinite, point))]
         for shapes in self.shapes.values():
-            corners, _, there = shapes.posed(poses)
+            corners, _, there = shapes.transform(poses)
             if there.any():
                 seen = corners[there].reshape(-1, 3)
                 points += [seen.min(axis=0).tolist(), seen.max(axis=0).tolist()]
@@ -157,7 +157,7 @@ class RobotScene:
         for _, node in self._nodes[kind]:
             node.visible = visible
 
-    def see_through(self, transparent: bool) -> None:
+    def set_transparent(self, transparent: bool) -> None:
         """Make visual geometry see-through or restore it; textured meshes are unchanged."""
         for _, node in self._nodes.get("visual", []):
             if hasattr(node, "opacity"):
@@ -255,7 +255,7 @@ class RobotScene:
     def _make_axes(self) -> Iterable[tuple[str, Any]]:
         long = 0.14 * self.size
         for link, path in self._paths.items():
-            joint = self.robot.tree.parent_joint(link)
+            joint = self.robot.tree.get_parent_joint(link)
             direction = get_unit_axis(joint)
             if direction is None:
                 continue

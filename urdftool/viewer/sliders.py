@@ -57,12 +57,12 @@ class Slider:
         high = math.ceil(self.upper * scale - 1e-6) / scale
         return low, high
 
-    def shown(self, position: float) -> float:
+    def round_position(self, position: float) -> float:
         """Round a position to the displayed decimals, within the displayed bounds."""
         low, high = self.shown_bounds
         return min(max(round(position, self.digits), low), high)
 
-    def meant(self, shown: float) -> float:
+    def clamp_position(self, shown: float) -> float:
         """Return the position for a displayed value, within the exact bounds."""
         return min(max(shown, self.lower), self.upper)
 
@@ -71,11 +71,11 @@ class Slider:
         """Return zero, or the middle if zero is out of range, as joint_state_publisher does."""
         return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2
 
-    def words(self, position: float) -> str:
+    def format_position(self, position: float) -> str:
         """Format a position in degrees or millimeters."""
         return format_value(position, self.turns)
 
-    def brief(self, position: float) -> str:
+    def format_short(self, position: float) -> str:
         """Format a position in few digits for a label, which would wrap after a decimal point."""
         if self.turns:
             return _format_sign(f"{math.degrees(position):.0f}") + "°"

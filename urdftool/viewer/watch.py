@@ -39,7 +39,7 @@ class Watch:
         }
         self._moving = None
 
-    def changed(self) -> list[str]:
+    def find_changes(self) -> list[str]:
         """Return the files that have changed and come to rest, each change once."""
         now = {path: _state(path) for path in self._seen}
         if now == self._seen:

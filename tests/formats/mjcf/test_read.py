@@ -130,7 +130,7 @@ def test_shapes(robot):
     assert isinstance(upper.geometry, Capsule)
     assert upper.geometry.length == pytest.approx(length)
     ends = [make_pose(upper.origin).transform((0.0, 0.0, z)) for z in (length / 2, -length / 2)]
-    frame = make_pose(next(f.origin for f in robot.frames if f.name == "shoulder")).inverse()
+    frame = make_pose(next(f.origin for f in robot.frames if f.name == "shoulder")).invert()
     assert [frame.transform(end) for end in ends] == [
         pytest.approx((0.0, 0.0, 0.0)),
         pytest.approx((0.3, 0.1, 0.0)),
@@ -232,7 +232,7 @@ def test_several_bodies_hang_on_the_world(tmp_path):
         ("floating", "ball"),
     ]
     assert robot.joint["ball_joint"].place.line == 5
-    assert robot.link["world"].collisions[0].geometry.size == (2.0, 4.0)
+    assert robot.link["world"].collisions[0].geometry.get_size == (2.0, 4.0)
     assert compute_bounds_at(robot.link["world"].collisions[0].geometry, make_pose(None)) is None
     equal(path)
 

@@ -45,7 +45,7 @@ def plan_lumping(
     """
     plan = LumpingPlan({}, {}, {})
     for name in links:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is not None and joint.parent in plan.top and is_lumped(joint):
             plan.top[name] = plan.top[joint.parent]
             plan.pose[name] = plan.pose[joint.parent] @ joint_pose(joint)

@@ -64,7 +64,7 @@ def _decide(structure: Structure, base: Base, virtual_joint: str | None) -> tupl
         return False, "the root link is the world"
     if base != "auto":
         return base == "free", f"--base {base}"
-    if any(is_true(block.value("static")) for block in robot.extensions.get(None, ())):
+    if any(is_true(block.get_value("static")) for block in robot.extensions.get(None, ())):
         return False, "<gazebo> says static"
     if virtual_joint is not None:
         return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"

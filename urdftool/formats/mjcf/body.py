@@ -101,7 +101,7 @@ def fill_bodies(
 def _build_joints(
     structure: Structure, link: str, leaves: set[str], written: Written
 ) -> list[etree._Element]:
-    joint = structure.robot.tree.parent_joint(link)
+    joint = structure.robot.tree.get_parent_joint(link)
     if joint is None:
         return [etree.Element("freejoint", name=f"{link}_freejoint")] if structure.free else []
     if joint.name in structure.locked:

@@ -71,7 +71,7 @@ def _can_collide(structure: Structure, bodies: Bodies, one: str, other: str) -> 
     if tops[0] == tops[1]:
         return False
     for top, neighbour in (tops, tops[::-1]):
-        joint = structure.robot.tree.parent_joint(top)
+        joint = structure.robot.tree.get_parent_joint(top)
         if joint is None or structure.get_kind(joint) == "free":
             continue
         if structure.group[joint.parent] == neighbour and not structure.is_static(joint.parent):

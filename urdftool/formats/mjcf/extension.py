@@ -17,7 +17,7 @@ from ..written import Written
 
 def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: Written) -> None:
     """Copy ``<compiler>``, ``<option>`` and other known elements to the sections, by name."""
-    for extension in robot.element.all("mujoco"):
+    for extension in robot.element.list_children("mujoco"):
         for child in extension.children:
             if child.tag == "compiler":
                 _add_compiler(child, sections, written)
@@ -46,7 +46,7 @@ def _add_compiler(element: Element, sections: dict[str, etree._Element], written
             "mujoco",
             f"{name}={value!r} of <compiler> is not exported: it "
             + ("changes the robot" if changes else "controls how MuJoCo reads URDF"),
-            element.attribute_place(name),
+            element.locate_attribute(name),
             kind="mujoco",
             name=name,
             severity=Severity.WARNING if changes and value != "false" else Severity.INFO,

@@ -58,7 +58,7 @@ def link_friction(robot: Robot, link: str) -> dict[str, str]:
     sliding = None
     for block in robot.extensions.get(link, ()):
         for keyword in ("mu1", "mu"):
-            value = number(block.value(keyword))
+            value = number(block.get_value(keyword))
             sliding = value if value is not None and value >= 0 else sliding
     if sliding is None:
         return {}
@@ -71,7 +71,7 @@ def link_is_weightless(robot: Robot, link: str) -> bool:
     """Tell whether gravity is disabled for a link."""
     weightless = False
     for block in robot.extensions.get(link, ()):
-        off, gravity = block.value("turnGravityOff"), block.value("gravity")
+        off, gravity = block.get_value("turnGravityOff"), block.get_value("gravity")
         if off:
             weightless = is_true(off)
         if gravity:
@@ -86,9 +86,9 @@ def get_joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
     """
     found = None
     for block in robot.extensions.get(joint, ()):
-        stiffness = number(block.value("springStiffness"))
+        stiffness = number(block.get_value("springStiffness"))
         if stiffness:
-            found = stiffness, number(block.value("springReference")) or 0.0
+            found = stiffness, number(block.get_value("springReference")) or 0.0
     return found
 
 
@@ -140,7 +140,7 @@ def _report_keyword_losses(block: GazeboExtension, written: Written) -> None:
 
 
 def _add_unequal_friction(block: GazeboExtension, written: Written) -> None:
-    one, two = number(block.value("mu1")), number(block.value("mu2"))
+    one, two = number(block.get_value("mu1")), number(block.get_value("mu2"))
     if one is not None and two is not None and one != two:
         written.report_loss(
             "friction",

@@ -50,6 +50,6 @@ def get_gazebo_color(robot: Robot, link: str) -> tuple[float, float, float, floa
     """Return the color that ``<gazebo>`` sets for a link; None without a known color."""
     color = None
     for block in robot.extensions.get(link, ()):
-        text = block.value("material") or ""
+        text = block.get_value("material") or ""
         color = COLORS.get(text.rpartition("/")[2], color)
     return color

@@ -183,7 +183,7 @@ def _list_candidates(states: Mapping[str, Mapping[str, float]]) -> Iterator[str]
 
 def get_robot_origin(robot: Robot) -> Origin | None:
     """Return the ``<origin>`` of ``<robot>``, which some readers use as its pose in the world."""
-    element = robot.element.child("origin")
+    element = robot.element.find_child("origin")
     if element is None:
         return None
     zero: Vector = (0.0, 0.0, 0.0)

@@ -85,7 +85,7 @@ def get_massless_leaves(structure: Structure) -> set[str]:
     for top in reversed(structure.members):
         if weight[top] > ENOUGH or top in heavy:
             heavy.add(top)
-            joint = structure.robot.tree.parent_joint(top)
+            joint = structure.robot.tree.get_parent_joint(top)
             if joint is not None:
                 heavy.add(structure.group[joint.parent])
     return set(structure.members) - heavy - {structure.root.name}
@@ -212,8 +212,8 @@ def _get_part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInert
 
     Return zero if the joint does not rotate it, or moves other bodies too.
     """
-    joint = structure.robot.tree.parent_joint(top)
-    below = set(structure.robot.tree.descendants(top)) - group.keys()
+    joint = structure.robot.tree.get_parent_joint(top)
+    below = set(structure.robot.tree.list_descendants(top)) - group.keys()
     if joint is None or structure.get_kind(joint) != "hinge":
         return 0.0
     if any(structure.robot.link[name].mass > 0 for name in below):

@@ -48,7 +48,7 @@ def _get_positions(structure: Structure, home: Home) -> list[float]:
             values = [home.positions.get(joint.name, 0.0)]
         nested = joint.parent in torn
         if (kind == "free" and not structure.in_world) or nested:
-            torn.update((joint.child, *structure.robot.tree.descendants(joint.child)))
+            torn.update((joint.child, *structure.robot.tree.list_descendants(joint.child)))
             later += values
         else:
             first += values

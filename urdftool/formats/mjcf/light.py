@@ -23,7 +23,7 @@ def put_lights(robot: Robot, bodies: Bodies, written: Written) -> None:
     """Insert the lights of each link into its body."""
     names = UniqueNames()
     for block in robot.gazebo:
-        for light in block.element.all("light"):
+        for light in block.element.list_children("light"):
             if block.reference not in bodies:
                 written.report_loss(
                     "light", "a light that is not on a link is not exported", light.place
@@ -55,7 +55,7 @@ def _light(light: Element, names: UniqueNames) -> etree._Element:
             element.set(name, format_numbers_text(color[:3]))
     if (_get_text(light, "cast_shadows") or "").lower() in ("false", "0"):
         element.set("castshadow", "false")
-    spot = light.child("spot")
+    spot = light.find_child("spot")
     outer = number(_get_text(spot, "outer_angle")) if spot is not None else None
     if kind == "spot" and outer:
         element.set("cutoff", number_text(min(math.degrees(outer) / 2, 90.0)))
@@ -63,5 +63,5 @@ def _light(light: Element, names: UniqueNames) -> etree._Element:
 
 
 def _get_text(element: Element, tag: str) -> str | None:
-    child = element.child(tag)
+    child = element.find_child(tag)
     return child.text.strip() if child is not None else None

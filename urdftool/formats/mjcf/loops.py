@@ -56,7 +56,7 @@ class Loop:
 def list_loops(structure: Structure) -> Iterator[Loop]:
     """Yield the loop-closing joints that can be exported."""
     for block in structure.robot.gazebo:
-        for element in block.element.all("joint"):
+        for element in block.element.list_children("joint"):
             found = _read(structure, block, element)
             if isinstance(found, Loop):
                 yield found
@@ -66,7 +66,7 @@ def list_loop_equalities(structure: Structure, written: Written) -> Iterator[etr
     """Yield ``<connect>`` and ``<weld>`` for each loop-closing joint, and report losses."""
     names = UniqueNames()
     for block in structure.robot.gazebo:
-        for element in block.element.all("joint"):
+        for element in block.element.list_children("joint"):
             loop = _read(structure, block, element)
             if isinstance(loop, Loop):
                 _report_bounds_losses(loop, written)
@@ -105,7 +105,7 @@ def _read(structure: Structure, block: GazeboExtension, element: Element) -> Loo
 
 
 def _make_pose(structure: Structure, joint: Element, child: str) -> Pose | str:
-    element = joint.child("pose")
+    element = joint.find_child("pose")
     if element is None:
         return IDENTITY
     values = parse_numbers(element.text, 6) or (0.0,) * 6
@@ -117,7 +117,7 @@ def _make_pose(structure: Structure, joint: Element, child: str) -> Pose | str:
     if frame != "__model__" and frame not in structure.robot.link:
         return f"its pose is relative to '{frame}', which is not a link"
     start = IDENTITY if frame == "__model__" else structure.get_pose_at_zero(frame)
-    return structure.get_pose_at_zero(child).inverse() @ start @ pose
+    return structure.get_pose_at_zero(child).invert() @ start @ pose
 
 
 def _list_equalities(
@@ -146,14 +146,14 @@ def _list_equalities(
 
 def _get_axis(structure: Structure, loop: Loop) -> Vector:
     """Return the joint axis in the child's frame, of length 1."""
-    axis = loop.element.child("axis")
-    xyz = axis.child("xyz") if axis is not None else None
+    axis = loop.element.find_child("axis")
+    xyz = axis.find_child("xyz") if axis is not None else None
     x, y, z = parse_numbers(xyz.text if xyz is not None else "0 0 1", 3) or (0.0, 0.0, 1.0)
     length = compute_norm((x, y, z)) or 1.0
     direction = (x / length, y / length, z / length)
     old = axis is not None and _format_text(axis, "use_parent_model_frame").lower() in ("1", "true")
     if old or (xyz is not None and xyz.get("expressed_in") == "__model__"):
-        return rotate(structure.get_pose_at_zero(loop.child).inverse().rotation, direction)
+        return rotate(structure.get_pose_at_zero(loop.child).invert().rotation, direction)
     return rotate(loop.pose.rotation, direction)
 
 
@@ -162,7 +162,7 @@ def _is_planar(structure: Structure, loop: Loop, axis: Vector) -> bool:
     axis = rotate(structure.get_pose_at_zero(loop.child).rotation, axis)
     paths = [_to_root(structure, link) for link in (loop.child, loop.parent)]
     for link in set(paths[0]) ^ set(paths[1]):
-        joint = structure.robot.tree.parent_joint(link)
+        joint = structure.robot.tree.get_parent_joint(link)
         kind = structure.get_kind(joint) if joint is not None else "weld"
         if kind == "weld" or joint is None:
             continue
@@ -179,7 +179,7 @@ def _to_root(structure: Structure, link: str) -> list[str]:
     path = []
     while link in structure.robot.link:
         path.append(link)
-        joint = structure.robot.tree.parent_joint(link)
+        joint = structure.robot.tree.get_parent_joint(link)
         if joint is None:
             break
         link = joint.parent
@@ -187,10 +187,10 @@ def _to_root(structure: Structure, link: str) -> list[str]:
 
 
 def _report_bounds_losses(loop: Loop, written: Written) -> None:
-    axis = loop.element.child("axis")
+    axis = loop.element.find_child("axis")
     if axis is None or loop.kind == "weld":
         return
-    limit, dynamics = axis.child("limit"), axis.child("dynamics")
+    limit, dynamics = axis.find_child("limit"), axis.find_child("dynamics")
     bounds = (
         [number(_format_text(limit, end)) for end in ("lower", "upper")]
         if limit is not None
@@ -218,5 +218,5 @@ def _report_bounds_losses(loop: Loop, written: Written) -> None:
 
 
 def _format_text(element: Element, tag: str) -> str:
-    child = element.child(tag)
+    child = element.find_child(tag)
     return child.text.strip() if child is not None else ""

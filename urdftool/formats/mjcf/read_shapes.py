@@ -97,7 +97,7 @@ def _mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]
     subtracted ``refpos``, turned by the inverse of ``refquat``, and scaled.
     """
     mesh = context.rows("mesh")[row["dataid"]]
-    at = pose(row) @ pose(mesh).inverse()
+    at = pose(row) @ pose(mesh).invert()
     if not mesh["file"]:
         text = "meshes without a file are not read"
         context.losses.add("mesh", text, mesh["name"], context.written(mesh).place)
@@ -106,7 +106,7 @@ def _mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]
     w, *ijk = mesh["refquat"]
     turned = IDENTITY
     if any(ijk):
-        turned = Pose(rotation_from_quaternion((w, ijk[0], ijk[1], ijk[2]))).inverse()
+        turned = Pose(rotation_from_quaternion((w, ijk[0], ijk[1], ijk[2]))).invert()
         if not x == y == z:
             text = "meshes with refquat and unequal scales are not read"
             context.losses.add("mesh-scale", text, mesh["name"], context.written(mesh).place)

@@ -99,7 +99,7 @@ def _needs_world(context: Context, joints: dict[int, list[int]]) -> bool:
 def _inertial(context: Context, row: Row, shift: Pose) -> Inertial | None:
     if not row["mass"]:
         return None
-    written = context.element(row).child("inertial")
+    written = context.element(row).find_child("inertial")
     at = context.written(row) if written is None else Written(written.place)
     a, b, c = row["inertia"]
     tensor = Inertia(at, a, 0.0, 0.0, b, 0.0, c)
@@ -126,7 +126,7 @@ def _joints(
     if not own:
         written = context.written(body)
         fixed = unique(f"{name}_fixed", taken)
-        origin = get_origin_at(at @ context.shifts[index].inverse(), written)
+        origin = get_origin_at(at @ context.shifts[index].invert(), written)
         yield Joint(written, fixed, "fixed", parent, name, origin=origin)
         return
     before = ZERO
@@ -171,7 +171,7 @@ def _place(context: Context, row: Row) -> Written:
     if row["line"]:
         return context.written(row)
     body = context.element(context.rows("body")[row["bodyid"]])
-    element = body.child("freejoint")
+    element = body.find_child("freejoint")
     return Written((body if element is None else element).place)
 
 

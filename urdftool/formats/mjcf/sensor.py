@@ -51,7 +51,7 @@ def build_sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etre
                 continue
             body = bodies[link]
             if sensor.type in CAMERAS:
-                for camera in sensor.element.all("camera"):
+                for camera in sensor.element.list_children("camera"):
                     _add_camera(sensor, camera, body, cameras, written)
             elif sensor.type in AT_SITE:
                 site = _format_site(
@@ -85,7 +85,7 @@ def _link_of(robot: Robot, reference: str | None) -> str | None:
 
 def _read_pose(element: Element) -> Pose:
     """Read Gazebo's ``<pose>``: x y z [m] and roll pitch yaw [rad]."""
-    child = element.child("pose")
+    child = element.find_child("pose")
     values = parse_numbers(child.text, 6) if child is not None else None
     if values is None:
         return Pose()
@@ -132,7 +132,7 @@ def create_site_sensor(kind: str, name: str, site: str) -> etree._Element:
 def _add_camera(
     sensor: Sensor, camera: Element, body: etree._Element, cameras: UniqueNames, written: Written
 ) -> None:
-    image, fov = camera.child("image"), camera.child("horizontal_fov")
+    image, fov = camera.find_child("image"), camera.find_child("horizontal_fov")
     horizontal = (number(fov.text) if fov is not None else None) or 1.047
     width, height = (
         _get_whole(image, name, size) for name, size in (("width", 320), ("height", 240))
@@ -156,7 +156,7 @@ def _add_camera(
 
 
 def _get_whole(image: Element | None, name: str, default: int) -> int:
-    child = image.child(name) if image is not None else None
+    child = image.find_child(name) if image is not None else None
     value = number(child.text) if child is not None else None
     return int(value) if value is not None and value >= 1 else default
 
@@ -228,7 +228,7 @@ def _add_scanner(
 
 
 def _compute_value(scan: Element | None, tag: str, default: float) -> float:
-    child = scan.child(tag) if scan is not None else None
+    child = scan.find_child(tag) if scan is not None else None
     value = number(child.text) if child is not None else None
     return default if value is None else value
 

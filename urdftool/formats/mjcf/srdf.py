@@ -47,7 +47,7 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
             f"the root element is <{root.tag}>; an SRDF file starts with <robot>", at=root.place
         )
     disabled = []
-    for element in root.all("disable_collisions"):
+    for element in root.list_children("disable_collisions"):
         one, other = element.get("link1") or "", element.get("link2") or ""
         unknown = [name for name in (one, other) if name not in robot.link]
         if unknown:
@@ -60,16 +60,16 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
             )
         else:
             disabled.append((one, other))
-    virtual = root.child("virtual_joint")
+    virtual = root.find_child("virtual_joint")
     kind = virtual.get("type") if virtual is not None else None
     return Srdf(disabled, kind, path, _collect_states(root, robot, written))
 
 
 def _collect_states(root: Element, robot: Robot, written: Written) -> dict[str, dict[str, float]]:
     states: dict[str, dict[str, float]] = {}
-    for element in root.all("group_state"):
+    for element in root.list_children("group_state"):
         state = states.setdefault(element.get("name") or "", {})
-        for joint in element.all("joint"):
+        for joint in element.list_children("joint"):
             name, value = joint.get("name") or "", number(joint.get("value"))
             if name not in robot.joint or value is None:
                 why = "which does not exist" if name not in robot.joint else "without one number"

@@ -203,7 +203,7 @@ def _get_chain(structure: Structure, body: str) -> list[str]:
     chain: list[str] = []
     while body != structure.root.name:
         chain.insert(0, body)
-        joint = structure.robot.tree.parent_joint(body)
+        joint = structure.robot.tree.get_parent_joint(body)
         assert joint is not None
         body = structure.group[joint.parent]
     return chain

@@ -73,7 +73,7 @@ class Structure:
     def joints(self) -> list[Joint]:
         """Return the joints to parents, in the order of MuJoCo's bodies."""
         tree = self.robot.tree
-        return [joint for link in tree.order if (joint := tree.parent_joint(link)) is not None]
+        return [joint for link in tree.order if (joint := tree.get_parent_joint(link)) is not None]
 
     @cached_property
     def moving(self) -> list[Joint]:

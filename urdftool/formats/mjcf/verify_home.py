@@ -111,7 +111,7 @@ def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, ch
 
 def _get_origin(source: Source) -> tuple[Array, Array]:
     """Return position and rotation of the whole robot in the description."""
-    origin = source.robot.element.child("origin")
+    origin = source.robot.element.find_child("origin")
     place = (parse_numbers(origin.get("xyz"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
     angles = (parse_numbers(origin.get("rpy"), 3) if origin is not None else None) or (
         0.0,
@@ -213,14 +213,14 @@ def _state(source: Source) -> dict[str, float]:
     """Return the positions of the group state that the options name, else of the likeliest."""
     root = source.srdf
     states: dict[str, list[Element]] = {}
-    for element in root.all("group_state") if root is not None else ():
+    for element in root.list_children("group_state") if root is not None else ():
         states.setdefault(element.get("name") or "", []).append(element)
     by_fold = {name.casefold(): name for name in reversed(list(states))}
     likely = [by_fold[name] for name in STATES if name in by_fold] or list(states)
     chosen = source.options.state or (likely[0] if likely else "")
     found = {}
     for state in states.get(chosen, []):
-        for joint in state.all("joint"):
+        for joint in state.list_children("joint"):
             value = number(joint.get("value"))
             if value is not None:
                 found[joint.get("name") or ""] = value

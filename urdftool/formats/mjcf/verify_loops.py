@@ -21,7 +21,7 @@ HELD = {"revolute": "CONNECT", "continuous": "CONNECT", "ball": "CONNECT", "fixe
 def compare_loops(robot: Robot, compiled: Compiled, declared: DeclaredLosses, check: Check) -> None:
     """Compare each joint in a ``<gazebo>`` without reference with its equality constraint."""
     for block in robot.extensions.get(None, ()):
-        for joint in block.element.all("joint"):
+        for joint in block.element.list_children("joint"):
             held = _holds(joint, compiled)
             name = joint.get("name") or ""
             known = declared.has_for(LOOPS, block.reference or "", name)
@@ -31,7 +31,7 @@ def compare_loops(robot: Robot, compiled: Compiled, declared: DeclaredLosses, ch
 def list_loop_ends(robot: Robot, compiled: Compiled) -> Iterator[tuple[int, int]]:
     """Yield the bodies that each loop-closing joint connects."""
     for block in robot.extensions.get(None, ()):
-        for joint in block.element.all("joint"):
+        for joint in block.element.list_children("joint"):
             yield _get_body(joint, "child", compiled), _get_body(joint, "parent", compiled)
 
 
@@ -39,7 +39,7 @@ def _holds(joint: Element, compiled: Compiled) -> bool:
     model, kinds = compiled.model, compiled.mujoco.mjtEq
     kind = HELD.get(joint.get("type") or "")
     ends = [_get_body(joint, end, compiled) for end in ("child", "parent")]
-    pose = joint.child("pose")
+    pose = joint.find_child("pose")
     plain = pose is None or not pose.attributes
     for number in range(model.neq if kind else 0):
         if model.eq_type[number] != getattr(kinds, f"mjEQ_{kind}") or not model.eq_active0[number]:
@@ -54,7 +54,7 @@ def _holds(joint: Element, compiled: Compiled) -> bool:
 
 
 def _get_body(joint: Element, end: str, compiled: Compiled) -> int:
-    element = joint.child(end)
+    element = joint.find_child(end)
     name = element.text.strip().rpartition("::")[2] if element is not None else ""
     found = compiled.get_body(name)
     return 0 if found < 0 and name == "world" else found

@@ -120,7 +120,7 @@ def _compare_same_default(
 
 def _is_weightless(source: Source, joint: Joint) -> bool:
     """Tell whether none of the links that a joint moves has mass."""
-    below = [joint.child, *source.robot.tree.descendants(joint.child)]
+    below = [joint.child, *source.robot.tree.list_descendants(joint.child)]
     return sum(max(source.robot.link[name].mass, 0.0) for name in below) <= 1e-14
 
 
@@ -146,10 +146,10 @@ def _get_required_option(source: Source) -> str:
     if source.is_free or any(joint.type == "floating" for joint in source.robot.joints):
         values["cone"] = "elliptic"
     flags: dict[str, str] = {}
-    for extension in source.robot.element.all("mujoco"):
-        for option in extension.all("option"):
+    for extension in source.robot.element.list_children("mujoco"):
+        for option in extension.list_children("option"):
             values.update(option.attributes)
-            for flag in option.all("flag"):
+            for flag in option.list_children("flag"):
                 flags.update(flag.attributes)
     return f"<option {_format_text(values)}><flag {_format_text(flags)}/></option>"
 

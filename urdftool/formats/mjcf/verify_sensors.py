@@ -149,7 +149,7 @@ def list_sensors(robot: Robot) -> Iterator[tuple[Element, str]]:
         joint = robot.joint.get(name)
         link = name if name in robot.link else joint.child if joint is not None else ""
         if link in robot.link:
-            for element in block.element.all("sensor"):
+            for element in block.element.list_children("sensor"):
                 yield element, link
 
 
@@ -158,7 +158,7 @@ def _list_rays(element: Element, name: str, link: str, pose: Array) -> Iterator[
     scan = next((e for e in element.walk() if e.tag == "horizontal"), None)
 
     def read(tag: str) -> float:
-        child = scan.child(tag) if scan is not None else None
+        child = scan.find_child(tag) if scan is not None else None
         return (read_number(child.text) if child is not None else None) or 0.0
 
     count, low, high = int(read("samples")), read("min_angle"), read("max_angle")
@@ -226,7 +226,7 @@ def _add_cameras(
     for element, link in list_sensors(source.robot):
         if (element.get("type") or "").strip() not in PICTURES:
             continue
-        for camera in element.all("camera"):
+        for camera in element.list_children("camera"):
             name = element.get("name") or "camera"
             place = frames[link] @ read_pose(element) @ read_pose(camera)
             place[:3, :3] = place[:3, :3] @ LOOK
@@ -261,7 +261,7 @@ def _compare_camera(
     width, height = (
         _get_pixels(camera, tag, size) for tag, size in (("width", 320), ("height", 240))
     )
-    fov = camera.child("horizontal_fov")
+    fov = camera.find_child("horizontal_fov")
     across = (read_number(fov.text) if fov is not None else None) or 1.047
     half = math.tan(across / 2) * height / width
     up = 2 * math.degrees(math.atan(half))
@@ -273,8 +273,8 @@ def _compare_camera(
 
 
 def _get_pixels(camera: Element, tag: str, usual: int) -> int:
-    image = camera.child("image")
-    child = image.child(tag) if image is not None else None
+    image = camera.find_child("image")
+    child = image.find_child(tag) if image is not None else None
     value = read_number(child.text) if child is not None else None
     return int(value) if value is not None and value >= 1 else usual
 
@@ -293,7 +293,7 @@ def _add_lights(
     left = list(range(model.nlight))
     for block in source.robot.gazebo:
         link = block.element.get("reference") or ""
-        for light in block.element.all("light") if link in source.robot.link else ():
+        for light in block.element.list_children("light") if link in source.robot.link else ():
             name = light.get("name") or "light"
             place = frames[link] @ read_pose(light)
             named = [n for n in left if compiled.name("LIGHT", n).startswith(name)]
@@ -327,7 +327,7 @@ def _add_lights(
 
 
 def _collect_three(element: Element, tag: str) -> tuple[float, ...] | None:
-    child = element.child(tag)
+    child = element.find_child(tag)
     if child is None:
         return None
     four = parse_numbers(child.text, 4) or parse_numbers(child.text, 3)

@@ -67,7 +67,7 @@ class Source:
         """Yield the elements of a tag in ``<gazebo>`` blocks without reference."""
         for block in self.robot.gazebo:
             if not block.element.get("reference"):
-                yield from block.element.all(tag)
+                yield from block.element.list_children(tag)
 
     def moves(self, joint: Joint) -> bool:
         """Tell whether a joint can move in MuJoCo's model."""
@@ -83,7 +83,7 @@ class Source:
         """Return the topmost link of each link's rigid body."""
         found: dict[str, str] = {self.root: self.root}
         for name in self.robot.tree.order:
-            joint = self.robot.tree.parent_joint(name)
+            joint = self.robot.tree.get_parent_joint(name)
             if joint is not None:
                 found[name] = name if self.moves(joint) else found[joint.parent]
         return found
@@ -102,7 +102,7 @@ class Source:
         """Return pairs of links that must not collide: of closed loops, and disabled by an SRDF."""
         pairs = set()
         for joint in self.list_whole("joint"):
-            ends = [joint.child(end) for end in ("parent", "child")]
+            ends = [joint.find_child(end) for end in ("parent", "child")]
             pairs.add(frozenset(e.text.strip().rpartition("::")[2] for e in ends if e is not None))
         return pairs | self.disabled
 
@@ -111,7 +111,7 @@ class Source:
         """Return pairs of links that an SRDF disables."""
         return {
             frozenset((element.get("link1") or "", element.get("link2") or ""))
-            for element in (self.srdf.all("disable_collisions") if self.srdf else ())
+            for element in (self.srdf.list_children("disable_collisions") if self.srdf else ())
         }
 
     @cached_property
@@ -148,7 +148,7 @@ class Source:
         for element in self.list_whole("static"):
             if (element.get("value") or element.text).strip().lower() in ("true", "1", "yes"):
                 return False
-        virtual = self.srdf.child("virtual_joint") if self.srdf is not None else None
+        virtual = self.srdf.find_child("virtual_joint") if self.srdf is not None else None
         if virtual is not None:
             return virtual.get("type") in ("floating", "planar")
         return self.stands or any(self.drive_plugins)
@@ -172,7 +172,7 @@ def is_locked(joint: Joint) -> bool:
 
 def read_pose(element: Element) -> Array:
     """Read the ``<pose>`` of a Gazebo element as a 4 × 4 matrix [m]."""
-    child = element.child("pose")
+    child = element.find_child("pose")
     six = parse_numbers(child.text, 6) if child is not None else None
     pose = np.eye(4)
     if six is not None:

@@ -73,7 +73,7 @@ def add_body_sensors(model: Node, t: Translation) -> None:
     """Add the sensors for plugins of the model, its links and its joints."""
     known = {None, "", *t.robot.link, *t.robot.joint}
     for block in t.robot.gazebo:
-        for element in block.element.all("plugin") if block.reference in known else ():
+        for element in block.element.list_children("plugin") if block.reference in known else ():
             if is_body_sensor(t, element):
                 _add_sensor(model, t, element)
 
@@ -83,7 +83,7 @@ def _place(t: Translation, element: Element) -> Link | Joint | None:
     kind = BODY_SENSORS.get(get_library(element))
     if kind is None:
         return None
-    named = (child.text.strip() for tag in kind.names for child in element.all(tag))
+    named = (child.text.strip() for tag in kind.names for child in element.list_children(tag))
     name = next(named, "") or (element.parent.get("reference") or "" if element.parent else "")
     if kind.type == "force_torque":
         joint = t.robot.joint.get(name)
@@ -135,7 +135,7 @@ def _format_free_name(node: Node, element: Element) -> str:
 def _add_pose(made: Node, element: Element) -> None:
     six: list[float] = []
     for word in ("xyz", "rpy"):
-        found = element.child(f"{word}Offset") or element.child(f"{word}_offset")
+        found = element.find_child(f"{word}Offset") or element.find_child(f"{word}_offset")
         six += (parse_numbers(found.text, 3) if found is not None else None) or (0.0, 0.0, 0.0)
     if any(six):
         add(made, "pose", format_numbers_text(six))

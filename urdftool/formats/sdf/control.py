@@ -52,7 +52,7 @@ def _add_ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
         model, f"ros2_control {system.name}: {system.plugin or 'no plugin'}; joints {joints}"
     )
     right = HARDWARE[t.options.target]
-    at = system.element.child("hardware") or system.element
+    at = system.element.find_child("hardware") or system.element
     if system.plugin and system.plugin not in right and "azebo" in system.plugin:
         t.report_loss(
             "ros2-control",

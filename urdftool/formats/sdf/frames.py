@@ -16,7 +16,7 @@ MODEL_FRAME = "__model__"
 def add_frames(model: Node, t: Translation) -> None:
     """Add the frames of a model, parents first."""
     for name in t.plan.in_model:
-        joint = t.robot.tree.parent_joint(name)
+        joint = t.robot.tree.get_parent_joint(name)
         link = t.robot.link[name]
         if joint is not None and joint.name in t.plan.dissolved:
             _add_joint_frame(model, t, joint)
@@ -26,7 +26,7 @@ def add_frames(model: Node, t: Translation) -> None:
 
 def _add_joint_frame(model: Node, t: Translation, joint: Joint) -> None:
     owner, parent = t.plan.owner[joint.parent], t.names.link(joint.parent)
-    below = owner == joint.child or owner in t.robot.tree.descendants(joint.child)
+    below = owner == joint.child or owner in t.robot.tree.list_descendants(joint.child)
     held = t.names.link(owner) if below else parent
     frame = add(model, "frame", name=t.names.get_joint(joint.name), attached_to=held)
     set_origin(frame, joint.origin, parent if below else "", t.options.is_at_least("1.9"))
@@ -36,7 +36,7 @@ def _link_frame(model: Node, t: Translation, link: Link, joint: Joint | None) ->
     plan, names = t.plan, t.names
     frame = add(model, "frame", name=names.link(link.name))
     if joint is not None and joint.name in plan.dissolved:
-        if plan.owner[link.name] in t.robot.tree.descendants(link.name):
+        if plan.owner[link.name] in t.robot.tree.list_descendants(link.name):
             frame.set("attached_to", names.link(plan.owner[link.name]))
             add(frame, "pose", "0 0 0 0 0 0", relative_to=names.get_joint(joint.name))
         else:

@@ -17,21 +17,21 @@ def write_imu_noise(made: Node, sensor: Element) -> None:
         made: The exported sensor.
         sensor: The sensor in the source.
     """
-    imu = sensor.child("imu")
-    noise = imu.child("noise") if imu is not None else None
+    imu = sensor.find_child("imu")
+    noise = imu.find_child("noise") if imu is not None else None
     holder = made.find("imu")
     if noise is None or holder is None:
         return
-    kind = noise.child("type")
+    kind = noise.find_child("type")
     for old, new in KINDS.items():
-        said = noise.child(old)
+        said = noise.find_child(old)
         for axis in "xyz" if said is not None else "":
             node = get_or_create(holder, f"{new}/{axis}")
             if said is None or node.find("noise") is not None:
                 continue
             one = add(node, "noise", type=kind.text.strip() if kind is not None else "gaussian")
             for name in _NUMBERS:
-                value = said.child(name)
+                value = said.find_child(name)
                 if value is not None and number(value.text.strip()) is not None:
                     add(one, name, value.text.strip())
 

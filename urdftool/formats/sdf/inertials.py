@@ -91,7 +91,7 @@ def _add_weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTen
     if not any(tensor) or measure_consistency(tensor).excess > EXACT:
         tensor = make_diagonal_tensor(tiny, tiny, tiny)
     _add_tensor(node, tensor)
-    below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.descendants(link.name))
+    below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.list_descendants(link.name))
     t.report_loss(
         "mass",
         f"link '{link.name}' has no mass{'' if below else ', nor have the links below it'}; a "

@@ -17,7 +17,7 @@ from .xml import Node, add
 def link(model: Node, t: Translation, part: Link) -> None:
     """Add a link that stays a body."""
     node = add(model, "link", name=t.names.link(part.name))
-    place(node, t, t.robot.tree.parent_joint(part.name))
+    place(node, t, t.robot.tree.get_parent_joint(part.name))
     add_inertial(node, t, part)
     members = [t.robot.link[name] for name in t.plan.members[part.name]]
     names = choose_shape_names(members)

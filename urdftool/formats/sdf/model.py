@@ -63,13 +63,13 @@ def _collect_blocks(t: Translation) -> list[GazeboExtension]:
 def _set_whole(node: Node, t: Translation) -> None:
     """Set whether the model is static, and its pose."""
     for block in _collect_blocks(t):
-        for element in block.element.all("static"):
+        for element in block.element.list_children("static"):
             text = get_value(element)
             if is_flag(text):
                 for old in node.findall("static"):
                     node.remove(old)
                 add(node, "static", "true" if is_true(text) else "false")
-    origin = t.robot.element.child("origin")
+    origin = t.robot.element.find_child("origin")
     if origin is not None:
         xyz, rpy = (parse_numbers(origin.get(name), 3) or ZERO for name in ("xyz", "rpy"))
         set_origin(node, Origin(origin, xyz, rpy))  # type: ignore[arg-type]
@@ -132,7 +132,7 @@ def _explain_why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
 
 
 def _collect_ends(element: Element) -> list[tuple[str, str]]:
-    ends = (element.child(end) for end in ("parent", "child"))
+    ends = (element.find_child(end) for end in ("parent", "child"))
     return [(end.tag, end.text.strip()) for end in ends if end is not None]
 
 

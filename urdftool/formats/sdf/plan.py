@@ -108,7 +108,7 @@ def _senses_force(robot: Robot, joint: Joint) -> bool:
 
 def _is_preserved(robot: Robot, joint: Joint) -> bool:
     return any(
-        is_true(block.value(tag))
+        is_true(block.get_value(tag))
         for block in robot.extensions.get(joint.name, [])
         for tag in ("preserveFixedJoint", "disableFixedJointLumping")
     )
@@ -157,7 +157,7 @@ def _place(robot: Robot, plan: Plan, lump: bool) -> None:
     groups = _group(robot, plan)
     for top, members in groups.members.items():
         owner = next((n for n in members if robot.link[n].mass > 0), top) if not lump else top
-        back = IDENTITY if owner == top else groups.pose[owner].inverse()
+        back = IDENTITY if owner == top else groups.pose[owner].invert()
         for name in members:
             plan.owner[name] = owner
             plan.in_owner[name] = IDENTITY if name == owner else back @ groups.pose[name]

@@ -151,7 +151,7 @@ def _convert_control(node: Node, t: Translation, element: Element) -> None:
 
 def _convert_mimic(node: Node, t: Translation, element: Element) -> None:
     """Convert a mimic joint plugin, which is not needed if SDF has the ``<mimic>``."""
-    follower = element.child("mimicJoint")
+    follower = element.find_child("mimicJoint")
     name = follower.text.strip() if follower is not None else ""
     joint = t.robot.joint.get(name)
     if joint is not None and joint.mimic is not None and t.options.is_at_least("1.11"):

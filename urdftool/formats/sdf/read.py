@@ -103,7 +103,7 @@ def _fill(context: Context, top: Scope) -> None:
     roots = [name for name in context.poses if name not in children and name != WORLD]
     is_named = WORLD in context.poses  # a link of that name
     if not is_named:
-        context.poses[WORLD] = own_pose(top).inverse()
+        context.poses[WORLD] = own_pose(top).invert()
         context.shifts[WORLD] = IDENTITY
     set_shifts(context, tree)
     if (has_world or len(roots) > 1) and not is_named:

@@ -80,7 +80,7 @@ def find_joints(top: Scope) -> list[Found]:
 
 def _end(scope: Scope, top: Scope, prefix: str, item: Item, tag: str) -> str:
     """Return the name of the link at an end of a joint."""
-    element = item.element.child(tag)
+    element = item.element.find_child(tag)
     name = "" if element is None else element.text.strip()
     if element is None or not name:
         raise ModelError(f"joint '{item.name}' has no <{tag}>", at=item.element.place)
@@ -119,7 +119,7 @@ def set_shifts(context: Context, tree: list[Found]) -> None:
     """Put the frames of links at the joints about which they turn."""
     for joint in tree:
         if joint.type in _TURNING:
-            anchor = (context.poses[joint.child].inverse() @ joint.pose).translation
+            anchor = (context.poses[joint.child].invert() @ joint.pose).translation
             if math.dist(anchor, (0.0, 0.0, 0.0)) > 1e-12:
                 x, y, z = anchor
                 context.shifts[joint.child] = Pose(translation=(-x, -y, -z))
@@ -128,7 +128,7 @@ def set_shifts(context: Context, tree: list[Found]) -> None:
 def add_joint(context: Context, found: Found) -> None:
     """Add a joint of the tree to the robot."""
     written, robot = Written(found.element.place), context.robot
-    at = placed(context, found.parent).inverse() @ placed(context, found.child)
+    at = placed(context, found.parent).invert() @ placed(context, found.child)
     joint = Joint(
         written,
         found.name,
@@ -137,7 +137,7 @@ def add_joint(context: Context, found: Found) -> None:
         found.child,
         origin=get_origin_at(at, written),
     )
-    turn = Pose(context.poses[found.child].inverse().rotation)
+    turn = Pose(context.poses[found.child].invert().rotation)
     if found.type in ("universal", "revolute2"):
         middle = f"{found.child}~1"
         robot.links.append(Link(written, middle, is_virtual=True))
@@ -153,7 +153,7 @@ def add_joint(context: Context, found: Found) -> None:
         robot.joints.append(joint)
     if found.type == "gearbox":
         context.lose("gearbox", "ratios of gearboxes are not read", found.element)
-    for sensor in found.element.all("sensor"):
+    for sensor in found.element.list_children("sensor"):
         place, name = Written(sensor.place), sensor.get("name") or ""
         kind = sensor.get("type") or ""
         robot.mounted_sensors.append(MountedSensor(place, name, kind, joint=found.name))
@@ -161,7 +161,7 @@ def add_joint(context: Context, found: Found) -> None:
 
 def placed(context: Context, link: str) -> Pose:
     """Return the pose of the shifted frame of a link in the top model."""
-    return context.poses[link] @ context.shifts[link].inverse()
+    return context.poses[link] @ context.shifts[link].invert()
 
 
 def _type(found: Found) -> str:
@@ -179,7 +179,7 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
         tag: ``axis`` or ``axis2``.
         turn: Rotation of the top model's frame into that of the child link.
     """
-    element = found.element.child(tag)
+    element = found.element.find_child(tag)
     holder = found.element if element is None else element
     xyz = (0.0, 0.0, 1.0) if element is None else vector(element, "xyz", (0.0, 0.0, 1.0))
     frame = _axis_frame(context, found, element)
@@ -196,7 +196,7 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
     joint.dynamics = _dynamics(element)
     if found.type == "screw":
         joint.thread_pitch = _pitch(found)
-    mimic = None if element is None else element.child("mimic")
+    mimic = None if element is None else element.find_child("mimic")
     if mimic is not None:
         multiplier = number(mimic, "multiplier", 1.0)
         offset = number(mimic, "offset", 0.0) - multiplier * number(mimic, "reference", 0.0)
@@ -216,10 +216,10 @@ def _without_noise(axis: Vector) -> Vector:
 def _axis_frame(context: Context, found: Found, element: Element | None) -> Pose:
     """Return the pose of the frame in which an axis is written, in the top model."""
     name = found.element.get("name") or ""
-    top = found.pose @ found.scope.pose(name, found.element).inverse()  # of the model
+    top = found.pose @ found.scope.pose(name, found.element).invert()  # of the model
     if element is None:
         return found.pose
-    xyz = element.child("xyz")
+    xyz = element.find_child("xyz")
     named = None if xyz is None else xyz.get("expressed_in")
     if named:
         return top @ found.scope.pose(named, element)
@@ -232,7 +232,7 @@ def _axis_frame(context: Context, found: Found, element: Element | None) -> Pose
 
 def _limit(element: Element | None, kind: str, written: Written) -> Limit | None:
     """Return the limits; None if there are none."""
-    holder = None if element is None else element.child("limit")
+    holder = None if element is None else element.find_child("limit")
     if holder is None:
         return None
     lower, upper = number(holder, "lower", -math.inf), number(holder, "upper", math.inf)
@@ -253,14 +253,14 @@ def _is_unlimited(limit: Limit | None) -> bool:
 
 
 def _dynamics(element: Element | None) -> Dynamics | None:
-    holder = None if element is None else element.child("dynamics")
+    holder = None if element is None else element.find_child("dynamics")
     if holder is None:
         return None
     stiffness = number(holder, "spring_stiffness", 0.0) or None
     return Dynamics(
         Written(holder.place),
-        None if holder.child("damping") is None else number(holder, "damping", 0.0),
-        None if holder.child("friction") is None else number(holder, "friction", 0.0),
+        None if holder.find_child("damping") is None else number(holder, "damping", 0.0),
+        None if holder.find_child("friction") is None else number(holder, "friction", 0.0),
         None,
         stiffness,
         number(holder, "spring_reference", 0.0) if stiffness else None,
@@ -273,7 +273,7 @@ def _pitch(found: Found) -> float:
     ``thread_pitch`` is the left-handed angle for each meter; since 1.10 ``screw_thread_pitch`` is
     the right-handed distance for each turn.
     """
-    if found.element.child("screw_thread_pitch") is not None:
+    if found.element.find_child("screw_thread_pitch") is not None:
         return number(found.element, "screw_thread_pitch", 1.0)
     thread = number(found.element, "thread_pitch", 1.0)
     return -math.tau / thread if thread else 0.0
@@ -295,14 +295,14 @@ def add_closure(context: Context, found: Found) -> None:
     """Add a joint that closes a loop."""
     written = Written(found.element.place)
     ends = [
-        get_origin_at(placed(context, link).inverse() @ found.pose, written)
+        get_origin_at(placed(context, link).invert() @ found.pose, written)
         for link in (found.parent, found.child)
     ]
-    element = found.element.child("axis")
+    element = found.element.find_child("axis")
     axis: Vector | None = None
     if found.type not in ("fixed", "ball"):
         xyz = (0.0, 0.0, 1.0) if element is None else vector(element, "xyz", (0.0, 0.0, 1.0))
-        frame = found.pose.inverse() @ _axis_frame(context, found, element)
+        frame = found.pose.invert() @ _axis_frame(context, found, element)
         axis = rotate(frame.rotation, direction(found.element, xyz))
     kind = "weld" if found.type == "fixed" else found.type
     closure = Closure(written, found.name, kind, found.parent, found.child, ends[0], ends[1], axis)
@@ -319,7 +319,7 @@ def add_world(context: Context, robot: Robot, roots: list[str], is_static: bool)
             name += "_"
         taken.add(name)
         link = robot.link[root]
-        origin = get_origin_at(placed(context, WORLD).inverse() @ placed(context, root))
+        origin = get_origin_at(placed(context, WORLD).invert() @ placed(context, root))
         robot.joints.append(Joint(link.provenance, name, kind, WORLD, root, origin=origin))
 
 
@@ -340,5 +340,5 @@ def add_frames(context: Context, top: Scope) -> None:
                 continue
             pose = base @ scope.pose(item.name, item.element)
             written = Written(item.element.place)
-            origin = get_origin_at(placed(context, owner).inverse() @ pose, written)
+            origin = get_origin_at(placed(context, owner).invert() @ pose, written)
             robot.frames.append(Frame(written, prefix + item.name, owner, "frame", origin))

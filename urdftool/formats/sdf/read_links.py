@@ -91,13 +91,13 @@ def _pose(context: Context, scope: Scope, prefix: str, link: Element, part: Elem
     name = link.get("name") or ""
     pose, frame = pose_in(part)
     if frame and frame != name:
-        pose = scope.pose(name, part).inverse() @ scope.pose(frame, part) @ pose
+        pose = scope.pose(name, part).invert() @ scope.pose(frame, part) @ pose
     return context.shifts[prefix + name] @ pose
 
 
 def _inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Inertial | None:
     """Return the inertia: 1 kg and 1 kg·m² where none is written."""
-    element = link.child("inertial")
+    element = link.find_child("inertial")
     holder = link if element is None else element
     written = Written(holder.place)
     if element is None:
@@ -106,10 +106,10 @@ def _inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Ine
     if (element.get("auto") or "").lower() in ("true", "1"):
         context.lose("auto-inertia", "inertia from shapes (auto) is not computed", link)
         return None
-    if element.child("fluid_added_mass") is not None:
+    if element.find_child("fluid_added_mass") is not None:
         context.lose("added-mass", "added mass of a fluid is not read", link)
     origin = get_origin_at(_pose(context, scope, prefix, link, element), written)
-    tensor = element.child("inertia")
+    tensor = element.find_child("inertia")
     values = {name: number(tensor, name, value) for name, value in _TENSOR.items()}
     at = written if tensor is None else Written(tensor.place)
     return Inertial(written, origin, number(element, "mass", 1.0), Inertia(at, **values))
@@ -133,7 +133,7 @@ def _collision(
     geometry, turn = _geometry(context, element)
     if geometry is None:
         return []
-    surface = element.child("surface")
+    surface = element.find_child("surface")
     if surface is not None and surface.children:
         context.lose("surface", "friction and contact of collisions are not read", element)
     written = Written(element.place)
@@ -143,7 +143,7 @@ def _collision(
 
 def _geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]:
     """Return the shape of a visual or collision, and its pose in the frame of that."""
-    outer = holder.child("geometry")
+    outer = holder.find_child("geometry")
     shapes = [] if outer is None else [child for child in outer.children if ":" not in child.tag]
     if not shapes or shapes[0].tag == "empty":
         return None, IDENTITY
@@ -172,7 +172,7 @@ def _geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]
 
 def _plane(element: Element, written: Written) -> tuple[Plane, Pose]:
     normal = vector(element, "normal", (0.0, 0.0, 1.0))
-    size = element.child("size")
+    size = element.find_child("size")
     extent = None if size is None else numbers_of(size, 2)
     plane = Plane(written, None if extent is None else (extent[0], extent[1]))
     return plane, Pose(_rotation_to(normal, element))
@@ -192,7 +192,7 @@ def _rotation_to(normal: Vector, element: Element) -> tuple[Vector, Vector, Vect
 
 def _mesh(context: Context, element: Element, written: Written) -> Geometry:
     uri = text_of(element, "uri") or text_of(element, "filename")
-    if element.child("submesh") is not None:
+    if element.find_child("submesh") is not None:
         context.lose("submesh", "parts of mesh files (submesh) are not read", element)
         return UnknownShape(written, "submesh")
     if "://" not in uri and element.file.path != context.main:
@@ -201,19 +201,19 @@ def _mesh(context: Context, element: Element, written: Written) -> Geometry:
 
 
 def _material(context: Context, holder: Element) -> Material | None:
-    element = holder.child("material")
+    element = holder.find_child("material")
     if element is None:
         return None
-    diffuse = element.child("diffuse") or element.child("ambient")
+    diffuse = element.find_child("diffuse") or element.find_child("ambient")
     color = None
     if diffuse is not None:
         values = [*map(float, diffuse.text.split()), 1.0][:4]
         r, g, b, a = values if len(values) == 4 else numbers_of(diffuse, 4)
         color = r, g, b, a
-    script = element.child("script")
+    script = element.find_child("script")
     if script is not None:
         context.lose("material-script", "scripts of materials are not read", holder, _MATERIAL)
-    pbr = element.child("pbr")
+    pbr = element.find_child("pbr")
     maps = [] if pbr is None else [e.text.strip() for e in pbr.walk() if e.tag == "albedo_map"]
     if color is None and not maps:
         return None
@@ -226,10 +226,12 @@ def _add_sensor(
     written, kind = Written(element.place), element.get("type") or ""
     pose = _pose(context, scope, prefix, link, element)
     name, owner = element.get("name") or "", prefix + (link.get("name") or "")
-    camera = element.child("camera")
+    camera = element.find_child("camera")
     if kind in _CAMERAS and camera is not None:
         inner, _ = pose_in(camera)
-        width, height = (number(camera.child("image"), tag, 0.0) for tag in ("width", "height"))
+        width, height = (
+            number(camera.find_child("image"), tag, 0.0) for tag in ("width", "height")
+        )
         across = number(camera, "horizontal_fov", 1.047)
         vertical = None
         if width and height and across < math.pi:

@@ -66,7 +66,7 @@ class Models:
         Raises:
             ModelError: It has two worlds.
         """
-        worlds = list(root.all("world"))
+        worlds = list(root.list_children("world"))
         if len(worlds) > 1:
             raise ModelError("the file has two worlds; name a file of one", at=worlds[1].place)
         version = version_of(root)
@@ -182,10 +182,10 @@ class Models:
             raise SourceError(f"file '{path}' {error.message}", at=element.place) from None
         root = self.root(file)
         self._above.append(key)
-        models = list(root.all("model"))
+        models = list(root.list_children("model"))
         if len(models) != 1:
             text = f"file '{path}' has {len(models)} models; an included file has one"
-            if not models and (root.child("light") or root.child("actor")) is not None:
+            if not models and (root.find_child("light") or root.find_child("actor")) is not None:
                 text = "included lights and actors are not read"
                 self.losses.add("scenery", text, "", element.place, Severity.INFO)
                 self._above.pop()
@@ -194,12 +194,12 @@ class Models:
         model = self._model(models[0], version_of(root), parent)
         self._above.pop()
         model.name = text_of(element, "name") or model.name
-        if element.child("pose") is not None:
+        if element.find_child("pose") is not None:
             model.posed = element
             model.placement = ""
         model.placement = text_of(element, "placement_frame") or model.placement
         model.is_static = flag(element, "static", model.is_static)
-        for child in element.all("plugin"):
+        for child in element.list_children("plugin"):
             name = child.get("filename") or ""
             self.losses.add("plugin", "plugins are not read", name, child.place, Severity.INFO)
         return model
@@ -230,7 +230,9 @@ class Models:
         name = rest if separator else uri
         yield from (folder / name, folder.parent / name, folder.parent.parent / name)
         for variable in _PATHS:
-            for entry in filter(None, (self._workspace.variable(variable) or "").split(os.pathsep)):
+            for entry in filter(
+                None, (self._workspace.read_variable(variable) or "").split(os.pathsep)
+            ):
                 yield Path(entry) / name
         for path in self._packages.paths:
             yield Path(path) / name
@@ -241,7 +243,9 @@ class Models:
             if not self._workspace.is_file(folder / name):
                 continue
             root = parse(read_file(str(folder / name), self._workspace)).root
-            files = [(_config_version(child), child.text.strip()) for child in root.all("sdf")]
+            files = [
+                (_config_version(child), child.text.strip()) for child in root.list_children("sdf")
+            ]
             known = [(version, text) for version, text in files if version <= NEWEST]
             if known:
                 return folder / max(known)[1]

@@ -123,7 +123,7 @@ class Scope:
         if separator and first in self.models:
             return self._nested(self.models[first]) @ self.models[first].pose(rest, user)
         if name == WORLD and self.parent is None:
-            return own_pose(self).inverse()
+            return own_pose(self).invert()
         raise ModelError(f"frame '{name}' does not exist", at=user.place)
 
     def _placed(self, item: Item, default: str) -> Pose:
@@ -176,4 +176,4 @@ def own_pose(model: Scope) -> Pose:
     pose, _ = pose_in(model.posed)
     if not model.placement:
         return pose
-    return pose @ model.pose(model.placement, model.posed).inverse()
+    return pose @ model.pose(model.placement, model.posed).invert()

@@ -14,7 +14,7 @@ Version = tuple[int, int]
 
 def text_of(element: Element, tag: str, default: str = "") -> str:
     """Return the text of a child; the default if there is none."""
-    child = element.child(tag)
+    child = element.find_child(tag)
     return default if child is None else child.text.strip()
 
 
@@ -39,13 +39,13 @@ def numbers_of(element: Element, count: int) -> tuple[float, ...]:
 
 def number(element: Element | None, tag: str, default: float) -> float:
     """Return the number in a child; the default without it."""
-    child = None if element is None else element.child(tag)
+    child = None if element is None else element.find_child(tag)
     return default if child is None else numbers_of(child, 1)[0]
 
 
 def vector(element: Element, tag: str, default: Vector) -> Vector:
     """Return three numbers of a child; the default without it."""
-    child = element.child(tag)
+    child = element.find_child(tag)
     if child is None:
         return default
     x, y, z = numbers_of(child, 3)
@@ -54,13 +54,13 @@ def vector(element: Element, tag: str, default: Vector) -> Vector:
 
 def flag(element: Element, tag: str, default: bool = False) -> bool:
     """Return whether the text of a child is ``true`` or ``1``."""
-    child = element.child(tag)
+    child = element.find_child(tag)
     return default if child is None else child.text.strip().lower() in ("true", "1")
 
 
 def pose_in(element: Element) -> tuple[Pose, str]:
     """Return the ``<pose>`` of an element, and the frame that it names; empty if none."""
-    child = element.child("pose")
+    child = element.find_child("pose")
     if child is None:
         return IDENTITY, ""
     frame = child.get("relative_to") or child.get("frame") or ""
@@ -88,5 +88,5 @@ def version_of(root: Element) -> Version:
         major, minor = (int(word) for word in text.split(".")[:2])
     except ValueError:
         wrong = f"version '{text}' of <sdf> is not like 1.9" if text else "<sdf> has no version"
-        raise ModelError(wrong, at=root.attribute_place("version")) from None
+        raise ModelError(wrong, at=root.locate_attribute("version")) from None
     return major, minor

@@ -74,13 +74,13 @@ def _name_frame(
 
 def _get_topic(element: Element, settings: dict[str, str]) -> str:
     """Return the topic that a plugin publishes, from its parameters or a remapping."""
-    ros = element.child("ros")
+    ros = element.find_child("ros")
     namespace = settings.get("robotNamespace", "")
     topic = ""
     if ros is not None:
-        inner = ros.child("namespace")
+        inner = ros.find_child("namespace")
         namespace = inner.text.strip() if inner is not None else namespace
-        for remapping in ros.all("remapping"):
+        for remapping in ros.list_children("remapping"):
             _, arrow, new = remapping.text.strip().partition(":=")
             if arrow and not topic:
                 topic = new

@@ -101,7 +101,9 @@ def _name_once(
 
 
 def _add_plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
-    for written, source in zip(made.findall("plugin"), list(element.all("plugin")), strict=True):
+    for written, source in zip(
+        made.findall("plugin"), list(element.list_children("plugin")), strict=True
+    ):
         made.remove(written)
         if t.options.classic or not convert_sensor_plugin(made, t, part, source):
             add_plugin(made, t, source)

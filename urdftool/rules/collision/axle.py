@@ -127,12 +127,12 @@ def is_upright(robot: Robot, joint: Joint, along: Vector) -> bool:
     rotation = make_pose(joint.origin).rotation
     line = rotate(rotation, along)
     name, seen = joint.parent, {joint.child}
-    above = robot.tree.parent_joint(name)
+    above = robot.tree.get_parent_joint(name)
     while above is not None and name not in seen:
         seen.add(name)
         line = rotate(make_pose(above.origin).rotation, line)
         name = above.parent
-        above = robot.tree.parent_joint(name)
+        above = robot.tree.get_parent_joint(name)
     return abs(line[2]) > 0.9
 
 

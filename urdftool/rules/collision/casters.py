@@ -90,11 +90,11 @@ def find_casters(robot: Robot, axle: Axle) -> Iterator[Caster]:
     found = get_convex_bodies(robot)
     taken = set(axle.links)
     for name in robot.tree.order:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is None or name in taken:
             continue
         if CASTER.search(name) or CASTER.search(joint.name):
-            links = {name, *robot.tree.descendants(name)}
+            links = {name, *robot.tree.list_descendants(name)}
             taken |= links
             low = _find_lowest_point(found, links)
             if low is not None and _is_rigid(robot, name):
@@ -110,7 +110,7 @@ def find_casters(robot: Robot, axle: Axle) -> Iterator[Caster]:
         if link.name not in taken and not any(id(c) in shapes for c in link.collisions)
     ]
     for link, collision, low in balls:
-        joint = robot.tree.parent_joint(link.name)
+        joint = robot.tree.get_parent_joint(link.name)
         alone = joint is not None and len(link.collisions) == 1
         if all(low[2] <= other + 1e-6 for other in others):
             moved = joint if alone and joint is not None else collision
@@ -151,8 +151,8 @@ def _make_caster(
 
 def _is_rigid(robot: Robot, link: str) -> bool:
     """Tell whether no spring is between a link and the root; swivel joints are allowed."""
-    for name in (link, *robot.tree.ancestors(link)):
-        joint = robot.tree.parent_joint(name)
+    for name in (link, *robot.tree.list_ancestors(link)):
+        joint = robot.tree.get_parent_joint(name)
         if joint is not None and not joint.is_fixed and joint.type != "continuous":
             return False
     return True

@@ -48,13 +48,13 @@ class ConvexBodies:
 
     def _find_body_above(self, body: str) -> str:
         """Find the next body above that has collision geometry."""
-        joint, seen = self.robot.tree.parent_joint(body), {body}
+        joint, seen = self.robot.tree.get_parent_joint(body), {body}
         while joint is not None:
             body = self.body_of.get(joint.parent, joint.parent)
             if body in self.bodies or body in seen:
                 return body
             seen.add(body)
-            joint = self.robot.tree.parent_joint(body)
+            joint = self.robot.tree.get_parent_joint(body)
         return body
 
     def _get_pieces(self, link: Link) -> Iterator[Convex]:
@@ -107,7 +107,7 @@ class ConvexBodies:
             for joint in self.robot.joints:
                 if joint.mimic and joint.mimic.joint in names and joint.name not in names:
                     names.add(joint.name)
-                    below = (joint.child, *self.robot.tree.descendants(joint.child))
+                    below = (joint.child, *self.robot.tree.list_descendants(joint.child))
                     found.update(self.body_of.get(name, name) for name in below)
                     more = True
         return found
@@ -157,7 +157,7 @@ def _select_largest_tree(robot: Robot, poses: dict[str, Pose]) -> dict[str, Pose
     roots = robot.tree.roots
     if len(roots) < 2:
         return poses
-    trees = [{root.name, *robot.tree.descendants(root.name)} for root in roots]
+    trees = [{root.name, *robot.tree.list_descendants(root.name)} for root in roots]
     largest = max(trees, key=len)
     return {name: pose for name, pose in poses.items() if name in largest}
 

@@ -194,7 +194,7 @@ def join_attached_boxes(
         if box is None:
             return None
         if _covers(other, box) or _covers(box, other):
-            own = own.joined(box)
+            own = own.join(box)
     return own
 
 
@@ -228,11 +228,11 @@ def _get_joined_links(
     for member, pose in members:
         joints: list[tuple[Joint | None, str, Pose]] = [
             (joint, joint.child, make_pose(joint.origin))
-            for joint in robot.tree.child_joints(member.name)
+            for joint in robot.tree.get_child_joints(member.name)
         ]
-        above = robot.tree.parent_joint(member.name)
+        above = robot.tree.get_parent_joint(member.name)
         if above is not None:
-            joints.append((above, above.parent, make_pose(above.origin).inverse()))
+            joints.append((above, above.parent, make_pose(above.origin).invert()))
         for joint, name, step in joints:
             if joint is not None and not joint.is_fixed and name in robot.link:
                 for other, at in find_attached_links(robot, robot.link[name]):
@@ -266,7 +266,7 @@ def _find_misplaced(
 
 def _describe_repetition(robot: Robot, link: Link, shapes: list[Visual] | list[Collision]) -> str:
     """Describe which part of the shapes' origins repeats the joint's origin, as a clause."""
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     step = make_pose(joint.origin).translation if joint is not None else IDENTITY.translation
     level = compute_norm((*step[:2], 0.0))
     places = [shape.origin.xyz for shape in shapes if shape.origin is not None]

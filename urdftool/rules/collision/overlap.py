@@ -140,11 +140,13 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
     Two links that overlap at spawn are pushed apart, and the robot moves or diverges. More than
     ``together`` pairs are one finding.
     """
-    whole = any(_is_true(block.value("self_collide")) for block in robot.extensions.get(None, ()))
+    whole = any(
+        _is_true(block.get_value("self_collide")) for block in robot.extensions.get(None, ())
+    )
     enabled = {
         name
         for name, blocks in robot.extensions.items()
-        if any(_is_true(block.value("selfCollide")) for block in blocks)
+        if any(_is_true(block.get_value("selfCollide")) for block in blocks)
     }
     found = [
         (one, other, depth)
@@ -209,9 +211,9 @@ def link_inside_parent(
 
 def _is_across(known: ConvexBodies, joint: Joint) -> bool:
     """Tell whether a joint axis is at right angles to that of the moving joint before it."""
-    before = known.robot.tree.parent_joint(joint.parent)
+    before = known.robot.tree.get_parent_joint(joint.parent)
     while before is not None and before.is_fixed:
-        before = known.robot.tree.parent_joint(before.parent)
+        before = known.robot.tree.get_parent_joint(before.parent)
     if before is None or before.child not in known.poses:
         return False
     one, other = (
@@ -295,7 +297,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         if tries > TRIES or pairs > PAIRS:
             skipped.append(joint)
             continue
-        below = sum(1 for _ in robot.tree.descendants(joint.child)) + 1
+        below = sum(1 for _ in robot.tree.list_descendants(joint.child)) + 1
         pairs += below * max(len(known.bodies) - below, 1)
         met, count = _sweep(known, joint, taken, deeper)
         tries += count
@@ -322,7 +324,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
 def _select_case(known: ConvexBodies, one: Link, other: Link) -> str:
     """Select the case of MuJoCo: no contact of parent and child, unless the parent is world."""
     body, carrier = known.body_of[one.name], known.body_of[other.name]
-    is_root = known.robot.tree.parent_joint(carrier) is None
+    is_root = known.robot.tree.get_parent_joint(carrier) is None
     return "neighbors" if _find_carrier(known, body) == carrier and not is_root else "contact"
 
 
@@ -337,13 +339,13 @@ def _sweep(
 ) -> tuple[tuple[Link, Link, float] | None, int]:
     """Find the first two links that overlap as one joint moves, the position, and pairs tried."""
     robot, rest = known.robot, known.rest.get(joint.name, 0.0)
-    moving = {joint.child, *robot.tree.descendants(joint.child)}
+    moving = {joint.child, *robot.tree.list_descendants(joint.child)}
     bodies = {known.body_of.get(name, name) for name in moving}
     inside = [body for body in known.bodies if body in bodies]
     along = known.find_followers(joint)  # mimic joints move at the same time
     outside = [body for body in known.bodies if body not in bodies and body not in along]
     at = known.poses[joint.parent] @ make_pose(joint.origin)
-    back = (at @ compute_motion(joint, rest)).inverse()
+    back = (at @ compute_motion(joint, rest)).invert()
     apart = known.neighbors | taken
     carrier = known.body_of[joint.parent]
     partners = {
@@ -379,7 +381,7 @@ def _sweep(
 
 def _find_carrier(known: ConvexBodies, body: str) -> str:
     """Find the body that carries a body with a joint; empty for the root."""
-    joint = known.robot.tree.parent_joint(body)
+    joint = known.robot.tree.get_parent_joint(body)
     return "" if joint is None else known.body_of.get(joint.parent, "")
 
 

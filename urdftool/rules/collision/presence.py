@@ -174,7 +174,7 @@ def _find_only_body(robot: Robot) -> Iterator[tuple[Link, str]]:
     moving = [
         links
         for name, links in find_rigid_bodies(robot).items()
-        if (joint := robot.tree.parent_joint(name)) is not None
+        if (joint := robot.tree.get_parent_joint(name)) is not None
         and not joint.is_fixed
         and any(link.visuals for link in links)
     ]
@@ -212,8 +212,10 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
     for link in robot.links:
         if link.collisions or link.mass < lightest or _compute_visual_size(link) >= 0.01:
             continue
-        joint = robot.tree.parent_joint(link.name)
-        if joint is None or any(not below.is_fixed for below in robot.tree.child_joints(link.name)):
+        joint = robot.tree.get_parent_joint(link.name)
+        if joint is None or any(
+            not below.is_fixed for below in robot.tree.get_child_joints(link.name)
+        ):
             continue
         if any(_find_shapes_below(robot, link)):
             continue
@@ -270,7 +272,7 @@ def _is_rotating_inside(robot: Robot, link: Link) -> bool:
     """
     reach = get_extents(robot)
     members = reach.get_attached(link)
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     above = robot.link.get(joint.parent) if joint is not None else None
     if joint is None or above is None or joint.type not in ("revolute", "continuous"):
         return False
@@ -292,7 +294,7 @@ def _is_rotating_inside(robot: Robot, link: Link) -> bool:
 def _has_rail(robot: Robot, link: Link) -> bool:
     """Tell whether the rail of a prismatic joint goes through the visuals of a link."""
     reach = get_extents(robot)
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     rail = robot.link.get(joint.parent) if joint is not None else None
     if joint is None or rail is None or joint.type != "prismatic":
         return False
@@ -301,7 +303,7 @@ def _has_rail(robot: Robot, link: Link) -> bool:
         return False
     pose = make_pose(joint.origin)
     x, y, z = pose.translation
-    turned = seen.rotated(pose.rotation)
+    turned = seen.rotate(pose.rotation)
     low, high = turned.low, turned.high
     placed = Bounds((low[0] + x, low[1] + y, low[2] + z), (high[0] + x, high[1] + y, high[2] + z))
     crossed = [
@@ -350,6 +352,6 @@ def _compute_sizes(robot: Robot, links: list[Link]) -> dict[str, float]:
 
 def _find_shapes_below(robot: Robot, link: Link) -> Iterator[bool]:
     """Yield for each link below one whether it has geometry."""
-    for name in robot.tree.descendants(link.name):
+    for name in robot.tree.list_descendants(link.name):
         below = robot.link.get(name)
         yield below is not None and bool(below.collisions or below.visuals)

@@ -67,7 +67,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
                 "lengths must be positive",
-                at=element.attribute_place(name),
+                at=element.locate_attribute(name),
                 data={"attribute": name, "value": text, "collides": kind == "collision"},
                 alike=(name, element.tag, kind),
                 severity=ERROR if rejected else WARNING,

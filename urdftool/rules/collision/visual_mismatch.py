@@ -113,7 +113,7 @@ def _report_visual_meshes(
             "geometry"
             + (f"; so do {others}, with up to {most}" if others else "")
             + ". Use primitives or simpler meshes",
-            at=heavy[0][0].mesh.element.attribute_place("filename"),
+            at=heavy[0][0].mesh.element.locate_attribute("filename"),
             hint=_SIMPLER,
             severity=WARNING,
             effects=effects,
@@ -124,7 +124,7 @@ def _report_visual_meshes(
             plain[0].link,
             f"link '{plain[0].link.name}' uses its visual mesh as collision geometry{more}; "
             "primitives or simpler meshes are faster",
-            at=plain[0].mesh.element.attribute_place("filename"),
+            at=plain[0].mesh.element.locate_attribute("filename"),
             effects=effects,
         )
 
@@ -159,7 +159,7 @@ def collision_mesh_too_dense(
             yield Problem(
                 use.link,
                 f"collision mesh '{use.uri}' has {faces} triangles; simplify it to a few thousand",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri, "triangles": faces, "limit": mujoco if is_too_many else most},
                 hint=_SIMPLER,
                 severity=ERROR if is_too_many else None,
@@ -230,7 +230,7 @@ def _find_longer_axis(
 
 def _is_swept(robot: Robot, link: Link, collision_box: Bounds, around: Bounds) -> bool:
     """Tell whether a flat disc on a rotating joint is as wide as the visual is long."""
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     shapes = [collision.geometry for collision in link.collisions]
     if joint is None or joint.type not in ("continuous", "revolute") or len(shapes) != 1:
         return False
@@ -314,7 +314,7 @@ def _add_attached_collisions(
         if box is not None and box.meets(visual_box):
             low = tuple(map(max, box.low, visual_box.low))
             high = tuple(map(min, box.high, visual_box.high))
-            own = own.joined(Bounds(low, high))  # type: ignore[arg-type]
+            own = own.join(Bounds(low, high))  # type: ignore[arg-type]
     return own
 
 

@@ -132,7 +132,7 @@ def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal |
     if isinstance(problem.subject, Joint):
         return _write_axis(problem.subject, problem.data["write"])
     link = context.get_link(problem)
-    joint = context.robot.tree.parent_joint(link.name)
+    joint = context.robot.tree.get_parent_joint(link.name)
     if joint is None or joint.is_fixed or len(link.collisions) != 1:
         return None
     if problem.data["odd"] != "cylinder":

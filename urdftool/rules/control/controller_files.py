@@ -53,7 +53,7 @@ class Package:
         self.workspace = description.workspace
         own = None if description.path == "-" else description.packages.own
         self.folder = None if own is None else own[1]
-        self.own = {self.workspace.real_path(file.path) for file in description.files}
+        self.own = {self.workspace.resolve_links(file.path) for file in description.files}
 
     @cached_property
     def controller_files(self) -> list[ControllerFile]:
@@ -66,7 +66,7 @@ class Package:
         if self.folder is None:
             return []
         workspace = self.workspace
-        found = workspace.glob(self.folder / "launch", "**/*")[:_MOST_FILES]
+        found = workspace.list_matches(self.folder / "launch", "**/*")[:_MOST_FILES]
         files = [file_at(workspace, path) for path in found if workspace.is_file(path)]
         return [file for file in files if file is not None and len(file.data) < _MOST_BYTES]
 
@@ -83,7 +83,7 @@ class Package:
             if entries > _MOST_ENTRIES:
                 return None
             paths = [Path(root, name) for name in names if name.endswith((".urdf", ".xacro"))]
-            others = [path for path in paths if workspace.real_path(path) not in self.own]
+            others = [path for path in paths if workspace.resolve_links(path) not in self.own]
             found += [path for path in others if workspace.is_file(path)]
         if len(found) > _MOST_FILES:
             return None
@@ -126,10 +126,11 @@ def _find_controller_files(robot: Robot, package: Package) -> Iterator[Controlle
         return
     workspace = package.workspace
     named = {
-        workspace.real_path(path) for path in _find_named_by_plugins(robot, package.description)
+        workspace.resolve_links(path) for path in _find_named_by_plugins(robot, package.description)
     }
     beside = {
-        workspace.real_path(path) for path in _list_configuration_files(workspace, package.folder)
+        workspace.resolve_links(path)
+        for path in _list_configuration_files(workspace, package.folder)
     }
     for path in sorted(named | beside):
         file = file_at(workspace, path) if workspace.is_file(path) else None
@@ -156,7 +157,7 @@ def _find_named_by_plugins(robot: Robot, description: Description) -> Iterator[P
     for plugin in robot.plugins:
         if "ros2_control" not in plugin.filename:
             continue
-        for child in plugin.element.all("parameters"):
+        for child in plugin.element.list_children("parameters"):
             path = _FIND.sub(r"package://\1/", child.text.strip())
             if path.startswith(("/", "package://", "file://")):
                 try:
@@ -172,7 +173,7 @@ def _list_configuration_files(workspace: Workspace, package: Path | None) -> lis
         path
         for name in _FOLDERS
         for end in ("yaml", "yml")
-        for path in workspace.glob(package, f"{name}/*.{end}")
+        for path in workspace.list_matches(package, f"{name}/*.{end}")
     ]
     return [path for path in found[:_MOST_FILES] if workspace.is_file(path)]
 

@@ -133,7 +133,7 @@ def _suggest_joint(robot: Robot, controller: Controller, name: str) -> str:
     """Find the joint with a similar name that the controller does not contain."""
     named = {extract_joint(node) for node in controller.joints}
     if name in robot.link:  # a link name in place of its joint
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         return joint.name if joint is not None and joint.has_axis else ""
     free = [joint.name for joint in robot.moving_joints if joint.name not in named]
     words = sorted(_WORDS.findall(name.lower()))

@@ -45,7 +45,7 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' does not exist in "
                     "the robot" + suggest_name(joint.name, robot.joint),
-                    at=joint.element.attribute_place("name"),
+                    at=joint.element.locate_attribute("name"),
                     data={
                         "joint": joint.name,
                         "suggestion": nearest(joint.name, robot.joint),
@@ -82,7 +82,7 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; remove it",
-                    at=joint.element.attribute_place("name"),
+                    at=joint.element.locate_attribute("name"),
                     data={"joint": joint.name},
                 )
 
@@ -120,7 +120,7 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                     yield Problem(
                         control.element,
                         f"joint '{joint.name}' has mimic=\"true\" but no <mimic> in the URDF",
-                        at=at.attribute_place("mimic"),
+                        at=at.locate_attribute("mimic"),
                     )
             elif joint.command_interfaces:
                 yield Problem(
@@ -135,7 +135,7 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                     control.element,
                     f"joint '{joint.name}' mimics '{written.mimic.joint}', which is not in "
                     f"ros2_control '{control.name}'; add it",
-                    at=at.attribute_place("name"),
+                    at=at.locate_attribute("name"),
                     data={"joint": joint.name, "leader": written.mimic.joint},
                 )
 
@@ -148,7 +148,8 @@ def remove_commands(problem: Problem, context: FixContext) -> Proposal | None:
     if interface is None or interface.tag != "command_interface" or joint is None:
         return None
     return unsafe(
-        "remove its command interfaces", *map(remove_element, joint.all("command_interface"))
+        "remove its command interfaces",
+        *map(remove_element, joint.list_children("command_interface")),
     )
 
 
@@ -169,7 +170,7 @@ def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
-            for param in joint.element.all("param"):
+            for param in joint.element.list_children("param"):
                 if param.get("name") == "mimic":
                     written = robot.joint.get(joint.name)
                     message, repeats = _compare_with_mimic(
@@ -239,7 +240,7 @@ def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
     if param is None or part is None or joint is None:
         return None
     leader = param.text.strip()
-    factors = [p for p in part.all("param") if p.get("name") == "multiplier"]
+    factors = [p for p in part.list_children("param") if p.get("name") == "multiplier"]
     changes = [remove_element(param), *map(remove_element, factors)]
     if joint.mimic is None:
         if leader not in context.robot.joint or joint.is_fixed:
@@ -251,7 +252,7 @@ def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
             append_child(joint.element, f'<mimic joint="{escape_attribute(leader)}"{by}/>')
         )
         return unsafe("write <mimic> into the joint", *changes)
-    params = {p.get("name") or "": p.text.strip() for p in part.all("param")}
+    params = {p.get("name") or "": p.text.strip() for p in part.list_children("param")}
     if not is_same_mimic(params, joint.mimic):
         return None
     return unsafe("remove it: the joint has a <mimic>", *changes)

@@ -51,7 +51,7 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
                 control.element,
                 f"ros2_control '{control.name}' has the unknown type '{control.type}'; "
                 f"the types are {', '.join(_TYPES)}" + suggest_name(control.type, _TYPES),
-                at=control.element.attribute_place("type"),
+                at=control.element.locate_attribute("type"),
                 data={"type": control.type, "suggestion": nearest(control.type, _TYPES)},
             )
 
@@ -70,14 +70,14 @@ def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
     controller manager stops with an exception.
     """
     for control in robot.ros2_controls:
-        hardware = control.element.child("hardware")
+        hardware = control.element.find_child("hardware")
         if hardware is None:
             yield Problem(
                 control.element,
                 f"ros2_control '{control.name}' has no <hardware> with a <plugin>",
             )
         for child in control.element.children:
-            plugin = child.child("plugin")
+            plugin = child.find_child("plugin")
             if child.tag in ("hardware", "transmission") and (
                 plugin is None or not plugin.text.strip()
             ):
@@ -152,7 +152,7 @@ def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
 def move_up(problem: Problem, context: FixContext) -> Proposal | None:
     """Move it into the robot; unsafe if the robot has another ``<ros2_control>``."""
     element = problem.element
-    make = unsafe if context.robot.element.child("ros2_control") is not None else safe
+    make = unsafe if context.robot.element.find_child("ros2_control") is not None else safe
     top: Element = element
     while top.parent is not None and top.parent is not context.robot.element:
         top = top.parent
@@ -196,5 +196,5 @@ def ros2_control_bad_param(robot: Robot) -> Iterator[Problem]:
                         control.element,
                         f"size of interface '{element.get('name') or ''}' is '{size}'; "
                         "write a positive integer",
-                        at=element.attribute_place("size"),
+                        at=element.locate_attribute("size"),
                     )

@@ -100,7 +100,7 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
                         control.element,
                         f"joint '{joint.name}' has the nonstandard interface '{interface.name}'"
                         + suggest_name(interface.name, _STANDARD, 0.8),
-                        at=interface.element.attribute_place("name"),
+                        at=interface.element.locate_attribute("name"),
                         data={"suggestion": near},
                     )
 
@@ -170,7 +170,7 @@ def add_state(problem: Problem, context: FixContext) -> Proposal | None:
         if other.name == (joint.get("name") or "")
         for state in other.state_interfaces
     }
-    names = [command.get("name") or "" for command in joint.all("command_interface")]
+    names = [command.get("name") or "" for command in joint.list_children("command_interface")]
     missing = [name for name in names if name in ("position", "velocity") and name not in states]
     lines = tuple((f'<state_interface name="{name}"/>',) for name in dict.fromkeys(missing))
     return unsafe("add the state interface", Change("insert", joint, blocks=lines))
@@ -270,4 +270,4 @@ def _format_exceeded_limits(robot: Robot, name: str, value: float) -> str:
 
 
 def _find_param(element: Element, name: str) -> Element:
-    return next((p for p in element.all("param") if p.get("name") == name), element)
+    return next((p for p in element.list_children("param") if p.get("name") == name), element)

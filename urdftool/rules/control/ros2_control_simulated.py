@@ -57,12 +57,12 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
             if "gz" in targets
             else (_GZ, "gazebo_ros2_control/GazeboSystem")
         )
-        hardware = control.element.child("hardware")
+        hardware = control.element.find_child("hardware")
         if plugin.startswith(wrong) and hardware is not None:
             yield Problem(
                 control.element,
                 f"'{plugin}' is for a different version of Gazebo; write {right}",
-                at=hardware.child("plugin"),
+                at=hardware.find_child("plugin"),
                 data={"write": right},
             )
 
@@ -144,7 +144,7 @@ def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
     if own is None or described.expansion is None or not controls:
         return None
     runs = [v for prefix, v in _RUNS.items() if (controls[0].plugin or "").startswith(prefix)]
-    found = context.workspace.glob(own[1] / "config", "*.y*ml")
+    found = context.workspace.list_matches(own[1] / "config", "*.y*ml")
     files = [path for path in found if _has_controller_manager(context.workspace, path)]
     if len(files) != 1 or not runs:
         return None
@@ -188,7 +188,7 @@ def ros2_control_empty_parameters(robot: Robot, description: Description) -> Ite
     for plugin in robot.plugins:
         if not any(word in plugin.filename for word in _ANY_PLUGINS):
             continue
-        for child in plugin.element.all("parameters"):
+        for child in plugin.element.list_children("parameters"):
             text = child.text.strip()
             if "$(" in text or "${" in text:
                 continue
@@ -249,7 +249,7 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                             suggest_name(interface.name, _IMU)
                             or f"; the states are {', '.join(_IMU)}"
                         ),
-                        at=interface.element.attribute_place("name"),
+                        at=interface.element.locate_attribute("name"),
                         data={"suggestion": nearest(interface.name, _IMU)},
                     )
 
@@ -283,6 +283,6 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
                     control.element,
                     f"no <sensor> in a <gazebo> block has the name '{part.name}'"
                     + suggest_name(part.name, known),
-                    at=part.element.attribute_place("name"),
+                    at=part.element.locate_attribute("name"),
                     data={"sensor": part.name, "suggestion": nearest(part.name, known)},
                 )

@@ -62,7 +62,7 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                 transmission.element,
                 f"{describe_transmission(transmission)} drives joint '{joint.name}', "
                 "which is fixed; remove it",
-                at=joint.element.attribute_place("name"),
+                at=joint.element.locate_attribute("name"),
                 severity=None if len(keys) > 1 else WARNING,
                 effects=keys,
                 data={"joint": joint.name},
@@ -73,7 +73,7 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
 def remove_transmission(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the transmission, if it drives only this joint."""
     transmission = problem.element
-    if sum(1 for _ in transmission.all("joint")) != 1:
+    if sum(1 for _ in transmission.list_children("joint")) != 1:
         return None
     return unsafe("remove the transmission", remove_element(transmission))
 
@@ -147,15 +147,17 @@ def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
 def _find_loop_joints(robot: Robot) -> Iterator[str]:
     """Yield the joints of loops that a ``<joint>`` in a ``<gazebo>`` block closes."""
     for block in robot.gazebo:
-        for joint in () if block.reference else block.element.all("joint"):
+        for joint in () if block.reference else block.element.list_children("joint"):
             sides = []
-            for end in (joint.child("parent"), joint.child("child")):
+            for end in (joint.find_child("parent"), joint.find_child("child")):
                 name = end.text.strip() if end is not None else ""
                 if name not in robot.link and name != "world":
                     yield from robot.joint  # the joints of the loop are unknown
-                sides.append({name, *robot.tree.ancestors(name)} if name in robot.link else set())
+                sides.append(
+                    {name, *robot.tree.list_ancestors(name)} if name in robot.link else set()
+                )
             for name in sides[0] ^ sides[1]:
-                above = robot.tree.parent_joint(name)
+                above = robot.tree.get_parent_joint(name)
                 if above is not None:
                     yield above.name
 

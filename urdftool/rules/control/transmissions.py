@@ -51,7 +51,7 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     transmission.element,
                     f"{describe_transmission(transmission)} refers to joint '{joint.name}', "
                     f"which does not exist{suggest_name(joint.name, idle, 0.8)}",
-                    at=joint.element.attribute_place("name"),
+                    at=joint.element.locate_attribute("name"),
                     data={"joint": joint.name, "suggestion": nearest(joint.name, idle, 0.8)},
                 )
 
@@ -80,7 +80,7 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
         if not transmission.name:
             continue  # another rule reports that it is not read
         for joint in transmission.joints:
-            for child in joint.element.all("hardwareInterface"):
+            for child in joint.element.list_children("hardwareInterface"):
                 name = child.text.strip()
                 if name in JOINT_INTERFACES:
                     yield Problem(
@@ -178,11 +178,15 @@ def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
 def move_interface(problem: Problem, context: FixContext) -> Proposal | None:
     """Move the interface from the actuator into the joint."""
     transmission = problem.element
-    joints = [joint for joint in transmission.all("joint") if not joint.child("hardwareInterface")]
+    joints = [
+        joint
+        for joint in transmission.list_children("joint")
+        if not joint.find_child("hardwareInterface")
+    ]
     inside = [
         interface
-        for actuator in transmission.all("actuator")
-        for interface in actuator.all("hardwareInterface")
+        for actuator in transmission.list_children("actuator")
+        for interface in actuator.list_children("hardwareInterface")
     ]
     if len(joints) != 1 or not inside or not inside[0].text.strip():
         return None
@@ -211,7 +215,7 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
     """
     for transmission in robot.transmissions:
         for joint in transmission.joints:
-            for child in joint.element.all("hardwareInterface"):
+            for child in joint.element.list_children("hardwareInterface"):
                 name = child.text.strip()
                 if name in JOINT_INTERFACES or name in _KNOWN or is_unexpanded(name):
                     continue
@@ -251,7 +255,7 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
     if any(
         kind.text.strip() and kind.text.strip().rpartition("/")[2] != "DefaultRobotHWSim"
         for plugin in robot.plugins
-        for kind in plugin.element.all("robotSimType")
+        for kind in plugin.element.list_children("robotSimType")
     ):
         return
     found = [
@@ -267,7 +271,7 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
             f"joint '{joint.name}' in {describe_transmission(transmission)} has "
             f"{len(joint.hardware_interfaces)} interfaces; Gazebo takes the first"
             + (f"; the same applies to {others}" if others else ""),
-            at=list(joint.element.all("hardwareInterface"))[1],
+            at=list(joint.element.list_children("hardwareInterface"))[1],
         )
 
 
@@ -291,7 +295,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 transmission.element,
                 f"another transmission also has the name '{name}'; make it unique",
-                at=transmission.element.attribute_place("name"),
+                at=transmission.element.locate_attribute("name"),
                 data={"name": name},
             )
             continue
@@ -305,7 +309,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
                 transmission.element,
                 f"joint '{joint.name}' is already driven by transmission '{other}'; remove "
                 "one of them",
-                at=joint.element.attribute_place("name"),
+                at=joint.element.locate_attribute("name"),
                 data={"joint": joint.name, "other": other},
             )
 

@@ -31,15 +31,15 @@ def get_contact_role(robot: Robot, link: Link) -> str:
     """Get the role of a link in contact: ``wheel``, ``caster``, ``foot``, ``finger`` or empty."""
     if not link.collisions:
         return ""
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     if joint is None:
         return ""
     if _CASTER.search(link.name):
-        turned = any(below.type == "continuous" for below in robot.tree.child_joints(link.name))
+        turned = any(below.type == "continuous" for below in robot.tree.get_child_joints(link.name))
         return "" if turned else "caster"
     if _is_rolling(robot, link):
         return "wheel"
-    leaf = not any(not below.is_fixed for below in robot.tree.child_joints(link.name))
+    leaf = not any(not below.is_fixed for below in robot.tree.get_child_joints(link.name))
     if leaf and _FOOT.search(link.name) and _is_moving(robot, link):
         return "foot"
     if leaf and _FINGER.search(link.name) and _is_gripping(robot, link):
@@ -55,11 +55,11 @@ def _is_gripping(robot: Robot, link: Link) -> bool:
     """
     members = [one for one, _ in find_attached_links(robot, link)]
     for member in members:
-        joint = robot.tree.parent_joint(member.name)
+        joint = robot.tree.get_parent_joint(member.name)
         if joint is not None and not joint.is_fixed:
             if _GRIPPER_JOINT.search(joint.name) or _GRIPS.search(member.name):
                 return True
-        for below in robot.tree.child_joints(member.name):
+        for below in robot.tree.get_child_joints(member.name):
             if not below.is_fixed and _GRIPS.search(f"{below.name} {below.child}"):
                 return True
     return False
@@ -79,12 +79,14 @@ def _is_rolling(robot: Robot, link: Link) -> bool:
     """
     members = find_attached_links(robot, link)
     hub, pose = next(((one, at) for one, at in members if _is_moved(robot, one)), (link, IDENTITY))
-    joint = robot.tree.parent_joint(hub.name)
+    joint = robot.tree.get_parent_joint(hub.name)
     if joint is None or joint.type != "continuous" or _NOT_WHEEL.search(link.name):
         return False
-    if any(not below.is_fixed for one, _ in members for below in robot.tree.child_joints(one.name)):
+    if any(
+        not below.is_fixed for one, _ in members for below in robot.tree.get_child_joints(one.name)
+    ):
         return False
-    place = pose.inverse()
+    place = pose.invert()
     is_round = any(_is_round_about(collision, joint, place) for collision in link.collisions)
     if _WHEEL.search(link.name) and (hub is link or is_round or not hub.collisions):
         return True
@@ -93,7 +95,7 @@ def _is_rolling(robot: Robot, link: Link) -> bool:
 
 def _is_moved(robot: Robot, link: Link) -> bool:
     """Tell whether a link is the child of a joint that is not fixed."""
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     return joint is not None and not joint.is_fixed
 
 
@@ -120,8 +122,8 @@ def _is_round_about(collision: Collision, joint: Joint, place: Pose = IDENTITY) 
 def compute_axis_elevation(robot: Robot, link: Link, joint: Joint) -> float:
     """Compute the vertical component of a joint's unit axis, with all joints at 0."""
     pose = make_pose(joint.origin)
-    for name in robot.tree.ancestors(link.name):
-        above = robot.tree.parent_joint(name)
+    for name in robot.tree.list_ancestors(link.name):
+        above = robot.tree.get_parent_joint(name)
         pose = (make_pose(above.origin) if above is not None else IDENTITY) @ pose
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     return rotate(pose.rotation, axis)[2] / (compute_norm(axis) or 1.0)
@@ -129,17 +131,17 @@ def compute_axis_elevation(robot: Robot, link: Link, joint: Joint) -> float:
 
 def _is_moving(robot: Robot, link: Link) -> bool:
     """Tell whether a moving joint is between a link and the root."""
-    names = [link.name, *robot.tree.ancestors(link.name)]
-    joints = [robot.tree.parent_joint(name) for name in names]
+    names = [link.name, *robot.tree.list_ancestors(link.name)]
+    joints = [robot.tree.get_parent_joint(name) for name in names]
     return any(joint is not None and not joint.is_fixed for joint in joints)
 
 
 def has_friction(blocks: list[GazeboExtension]) -> bool:
     """Tell whether the blocks of a link set its friction."""
     for block in blocks:
-        if block.value("mu1") is not None or block.value("mu2") is not None:
+        if block.get_value("mu1") is not None or block.get_value("mu2") is not None:
             return True
-        for collision in block.element.all("collision"):
+        for collision in block.element.list_children("collision"):
             if any(element.tag in ("friction", "mu", "slip1") for element in collision.walk()):
                 return True
     return False

@@ -38,7 +38,7 @@ def _make_drive(robot: Robot, controller: Controller, poses: dict[str, Pose]) ->
         [
             (node, get_wheel(robot, poses, extract_joint(node)))
             for end in ("_names", "")
-            for node in controller.named(f"{side}_wheel{end}")
+            for node in controller.list_scalars(f"{side}_wheel{end}")
         ]
         for side in ("left", "right")
     ]
@@ -77,7 +77,7 @@ def _make_drive(robot: Robot, controller: Controller, poses: dict[str, Pose]) ->
 def _read_length(
     controller: Controller, name: str, *multipliers: str
 ) -> Iterator[ConfiguredLength]:
-    for node in controller.named(name):
+    for node in controller.list_scalars(name):
         value = _read_number(node)
         if value is not None:
             scaled = value * math.prod(_read_value(controller, word) or 1.0 for word in multipliers)
@@ -85,7 +85,7 @@ def _read_length(
 
 
 def _read_value(controller: Controller, name: str) -> float | None:
-    return next((_read_number(node) for node in controller.named(name)), None)
+    return next((_read_number(node) for node in controller.list_scalars(name)), None)
 
 
 def _read_number(node: Node) -> float | None:

@@ -101,7 +101,7 @@ def find_drives(robot: Robot) -> Iterator[Drive]:
 def _make_drive(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator[Drive]:
     elements = _find_children(plugin, _LEFT)
     rights = {
-        tag: [child.text.strip() for child in plugin.element.all(tag)]
+        tag: [child.text.strip() for child in plugin.element.list_children(tag)]
         for tag in {_mirror_tag(child.tag) for child in elements}
     }
     pairs = []

@@ -25,7 +25,7 @@ def find_kept_links(robot: Robot) -> set[str] | None:
     owner: dict[str, str] = {}
     for top, links in find_rigid_bodies(robot).items():
         owner.update((link.name, top) for link in links)
-        joint = robot.tree.parent_joint(top)
+        joint = robot.tree.get_parent_joint(top)
         held = joint is None or joint.parent == "world" or owner.get(joint.parent) in kept
         if held and top != "world" and compute_mass(links) > 0:
             kept.add(top)
@@ -60,4 +60,4 @@ def find_sdf_joints(robot: Robot) -> Iterator[Element]:
     """List the ``<joint>`` elements of SDF in ``<gazebo>`` blocks without a reference."""
     for block in robot.gazebo:
         if not block.reference:
-            yield from block.element.all("joint")
+            yield from block.element.list_children("joint")

@@ -29,7 +29,7 @@ _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 def is_kept(robot: Robot, joint: Joint) -> bool:
     """Tell whether a fixed joint remains a joint in Gazebo."""
     blocks = robot.extensions.get(joint.name, [])
-    return any(is_true(block.value(word)) for block in blocks for word in _KEEPERS)
+    return any(is_true(block.get_value(word)) for block in blocks for word in _KEEPERS)
 
 
 def is_preserving(element: Element) -> bool:
@@ -39,7 +39,7 @@ def is_preserving(element: Element) -> bool:
 
 def is_lumped(robot: Robot, link: str) -> bool:
     """Tell whether Gazebo lumps a link into its parent."""
-    joint = robot.tree.parent_joint(link)
+    joint = robot.tree.get_parent_joint(link)
     return (
         joint is not None
         and joint.is_fixed
@@ -54,7 +54,7 @@ def get_lumped_body(robot: Robot, link: str) -> str:
     seen = set()
     while is_lumped(robot, link) and link not in seen:
         seen.add(link)
-        joint = robot.tree.parent_joint(link)
+        joint = robot.tree.get_parent_joint(link)
         assert joint is not None
         link = joint.parent
     return link
@@ -115,7 +115,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             block.element,
             f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",
-            at=block.element.attribute_place("reference"),
+            at=block.element.locate_attribute("reference"),
             severity=WARNING if settles else None,
             alike=(what, is_massless),
             data={"joint": joint.name, "elements": list(dict.fromkeys(one.tag for one in lost))},
@@ -126,7 +126,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
 def preserve_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Write ``preserveFixedJoint``."""
     block = problem.element
-    if block.child("preserveFixedJoint") is not None:
+    if block.find_child("preserveFixedJoint") is not None:
         return None
     line = "<preserveFixedJoint>true</preserveFixedJoint>"
     return unsafe(f"write {line}", append_child(block, line))
@@ -151,11 +151,11 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
         if not is_lumped(robot, name):
             continue
         for word, what in (("turnGravityOff", "gravity is off"), ("selfCollide", "it collides")):
-            child = block.element.child(word)
+            child = block.element.find_child(word)
             body = get_lumped_body(robot, name)
-            if child is None or not is_true(block.value(word)):
+            if child is None or not is_true(block.get_value(word)):
                 continue
-            if any(is_true(other.value(word)) for other in robot.extensions.get(body, [])):
+            if any(is_true(other.get_value(word)) for other in robot.extensions.get(body, [])):
                 continue
             links = (robot.link[other] for other in robot.link if other != name)
             others = [other for other in links if get_lumped_body(robot, other.name) == body]
@@ -259,7 +259,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
                         link,
                         f"name of {what} '{shape.name}' does not begin with '{link.name}', so "
                         f"Gazebo applies no {lost} to it; write '{link.name}_{shape.name}'",
-                        at=shape.element.attribute_place("name"),
+                        at=shape.element.locate_attribute("name"),
                         alike=(what, *sorted(tags)),
                         data={"write": f"{link.name}_{shape.name}", "elements": sorted(tags)},
                     )
@@ -298,8 +298,8 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
     """
     for name, block in _iterate_link_blocks(robot):
         for sensor in block.sensors:
-            contact = sensor.element.child("contact")
-            collision = contact.child("collision") if contact is not None else None
+            contact = sensor.element.find_child("contact")
+            collision = contact.find_child("collision") if contact is not None else None
             if collision is None:
                 continue
             for link in robot.links:

@@ -40,8 +40,8 @@ def robot_level_static(robot: Robot) -> Iterator[Problem]:
     with a controller. To fix only the base, add a fixed joint to a link named ``world``.
     """
     for block in robot.gazebo:
-        child = block.element.child("static")
-        if not block.reference and child is not None and is_true(block.value("static")):
+        child = block.element.find_child("static")
+        if not block.reference and child is not None and is_true(block.get_value("static")):
             if robot.moving_joints:
                 yield Problem(
                     block.element,
@@ -68,14 +68,16 @@ def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
     off = [
         name
         for name in heavy
-        if any(is_true(block.value("turnGravityOff")) for block in robot.extensions.get(name, []))
+        if any(
+            is_true(block.get_value("turnGravityOff")) for block in robot.extensions.get(name, [])
+        )
     ]
     if heavy and len(heavy) == len(off):
         block = robot.extensions[off[0]][0]
         yield Problem(
             robot,
             f"gravity is off for all {len(heavy)} links with mass, so the robot floats",
-            at=block.element.child("turnGravityOff") or block,
+            at=block.element.find_child("turnGravityOff") or block,
         )
 
 
@@ -102,14 +104,14 @@ def reserved_name(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 part,
                 f"name '{name}' is reserved in SDF; remove the underscores",
-                at=part.element.attribute_place("name"),
+                at=part.element.locate_attribute("name"),
             )
-    if "world" in robot.link and robot.tree.parent_joint("world") is not None:
+    if "world" in robot.link and robot.tree.get_parent_joint("world") is not None:
         link = robot.link["world"]
         yield Problem(
             link,
             "link 'world' is not the root, but the name is reserved for the fixed world; rename it",
-            at=link.element.attribute_place("name"),
+            at=link.element.locate_attribute("name"),
         )
 
 
@@ -266,7 +268,7 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
         return
     if root.name == "base_footprint" or any(map(_is_wheel, (*robot.link, *robot.joint))):
         return
-    if any(is_true(block.value("static")) for block in robot.gazebo if not block.reference):
+    if any(is_true(block.get_value("static")) for block in robot.gazebo if not block.reference):
         return
     arms = [joint for joint in robot.joints if joint.type in ("revolute", "continuous")]
     roots = {name for name, body in robot.tree.bodies.items() if body == root.name}

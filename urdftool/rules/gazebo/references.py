@@ -59,7 +59,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
                 block.element,
                 f"reference '{name}' is an SDF link in a <gazebo> block, so Gazebo ignores this "
                 "block; write its settings in that link",
-                at=block.element.attribute_place("reference"),
+                at=block.element.locate_attribute("reference"),
                 data={"name": name},
             )
             continue
@@ -70,7 +70,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
             block.element,
             f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
             + suggest_name(name, known, _MIN_SIMILARITY),
-            at=block.element.attribute_place("reference"),
+            at=block.element.locate_attribute("reference"),
             data={"name": name, "suggestion": nearest(name, known, _MIN_SIMILARITY)},
         )
 
@@ -119,7 +119,7 @@ def _get_sdf_names(robot: Robot, *tags: str) -> Iterator[str]:
 def _check_loops(robot: Robot) -> Iterator[Problem]:
     of_sdf = {*_get_sdf_names(robot, "link", "frame")}
     for joint in find_sdf_joints(robot):
-        for end in (joint.child("parent"), joint.child("child")):
+        for end in (joint.find_child("parent"), joint.find_child("child")):
             name = end.text.strip() if end is not None else ""
             if end is None or not name or name in {"world", *of_sdf}:
                 continue
@@ -193,7 +193,7 @@ def _report_misplaced(
     if name in robot.joint and robot.joint[name].child:
         right = f"link '{robot.joint[name].child}'"
     elif name in robot.link:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         right = f"joint '{joint.name}'" if joint is not None else right
     verb = "has" if len(children) == 1 else "have"
     remedy, change = f"write it for {right}", "move"
@@ -220,7 +220,7 @@ def _is_repeated(robot: Robot, block: Element, children: list[Element]) -> bool:
     if name in robot.joint:
         other = robot.joint[name].child
     else:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         other = joint.name if joint is not None else ""
     blocks = robot.extensions.get(other, ()) if other else ()
     there = {child.tag for one in blocks for child in one.element.children}
@@ -236,7 +236,7 @@ def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
     block, name = problem.element, problem.element.get("reference") or ""
     robot = context.robot
     if name in robot.link:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is None or is_computed(joint.element):
             return None
         right, wrong = joint.name, JOINT_KEYWORDS

@@ -78,7 +78,7 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 sensor.element,
                 f"{name}{what}{near or '; write, for example, camera, imu or gpu_lidar'}",
-                at=sensor.element.attribute_place("type"),
+                at=sensor.element.locate_attribute("type"),
                 data={"suggestion": nearest(sensor.type, TYPES) if sensor.type else ""},
             )
 
@@ -112,7 +112,7 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
                 f"sensor '{sensor.name}' has type '{sensor.type}', which new Gazebo does not "
                 "support; "
                 "write gpu_lidar",
-                at=sensor.element.attribute_place("type"),
+                at=sensor.element.locate_attribute("type"),
             )
 
 
@@ -121,8 +121,8 @@ def write_gpu_lidar(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the GPU type, which Gazebo Classic does not support."""
     sensor = problem.element
     changes = [set_attribute(sensor, "type", "gpu_lidar")]
-    if sensor.child("lidar") is None:
-        changes += [rename_element(child, "lidar") for child in sensor.all("ray")]
+    if sensor.find_child("lidar") is None:
+        changes += [rename_element(child, "lidar") for child in sensor.list_children("ray")]
     return unsafe("write gpu_lidar", *changes)
 
 
@@ -149,7 +149,7 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
                     f"sensor '{sensor.name}' has '{plugin.filename}', which new Gazebo cannot "
                     "load; "
                     "write <topic>, and bridge it with ros_gz_bridge",
-                    at=plugin.element.attribute_place("filename"),
+                    at=plugin.element.locate_attribute("filename"),
                 )
 
 
@@ -157,12 +157,14 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
 def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
     """Replace the plugin by its topic."""
     sensor = problem.element
-    plugins = [p for p in sensor.all("plugin") if "libgazebo_ros_" in (p.get("filename") or "")]
+    plugins = [
+        p for p in sensor.list_children("plugin") if "libgazebo_ros_" in (p.get("filename") or "")
+    ]
     if len(plugins) != 1:
         return None
     plugin = plugins[0]
     tags = ("topicName", "topic_name", "imageTopicName", "topic")
-    texts = [child.text.strip() for tag in tags for child in plugin.all(tag)]
+    texts = [child.text.strip() for tag in tags for child in plugin.list_children(tag)]
     for argument in plugin.walk():
         if argument.tag == "remapping" and ":=" in argument.text:
             texts.append(argument.text.partition(":=")[2].strip())
@@ -170,7 +172,7 @@ def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
     if not topic or "$" in topic:
         return None
     changes: list[Change] = [remove_element(plugin)]
-    if sensor.child("topic") is None:
+    if sensor.find_child("topic") is None:
         changes.append(insert_after(plugin, f"<topic>{escape_attribute(topic)}</topic>"))
     return unsafe(f"write <topic>{topic}</topic>", *changes)
 
@@ -288,10 +290,10 @@ def _find_link_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:
 def get_pose_in_link(sensor: Sensor) -> Pose | None:
     """Read the pose of a sensor in its link; None if it is in a different form."""
     element = sensor.element
-    inner = [child.child("pose") for child in element.children if child.tag in _OPTICS]
+    inner = [child.find_child("pose") for child in element.children if child.tag in _OPTICS]
     if any(one is not None and any(parse_numbers(one.text, 6) or (1.0,)) for one in inner):
         return None  # the camera has a pose in its sensor
-    pose = element.child("pose")
+    pose = element.find_child("pose")
     if pose is None:
         return IDENTITY
     values = parse_numbers(pose.text, 6)
@@ -327,7 +329,7 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
                 sensor.element,
                 f"another sensor on body '{body}' has the name '{sensor.name}' (on {where}); "
                 "make it unique",
-                at=sensor.element.attribute_place("name"),
+                at=sensor.element.locate_attribute("name"),
                 data={"name": sensor.name, "body": body},
             )
 

@@ -40,8 +40,8 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
     sdformat reads it with a warning.
     """
     for block in robot.gazebo:
-        for child in block.element.all("cfmDamping"):
-            has_both = block.element.child("implicitSpringDamper") is not None
+        for child in block.element.list_children("cfmDamping"):
+            has_both = block.element.find_child("implicitSpringDamper") is not None
             remedy = (
                 ", and the block has implicitSpringDamper; remove it"
                 if has_both
@@ -59,7 +59,7 @@ def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Propo
     """Write ``implicitSpringDamper``, if the block does not have it."""
     element = find_element(problem)
     parent = element.parent if element is not None else None
-    if element is None or parent is None or parent.child("implicitSpringDamper") is not None:
+    if element is None or parent is None or parent.find_child("implicitSpringDamper") is not None:
         return None
     return safe("write <implicitSpringDamper>", rename_element(element, "implicitSpringDamper"))
 
@@ -146,7 +146,7 @@ def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
                     found.setdefault(name, []).append(element)
             elif element.tag == "visual":
                 for script in element.walk():
-                    uri = script.child("uri") if script.tag == "script" else None
+                    uri = script.find_child("uri") if script.tag == "script" else None
                     if uri is not None and "gazebo.material" not in uri.text:
                         found.setdefault(uri.text.strip(), []).append(script)
     for name, elements in found.items():
@@ -169,7 +169,7 @@ def remove_script(problem: Problem, context: FixContext) -> Proposal | None:
         link = context.robot.link.get(block.reference or "")
         for element in block.element.walk():
             if element.tag == "script":
-                uri = element.child("uri")
+                uri = element.find_child("uri")
                 named = uri is not None and uri.text.strip() == name
             else:
                 value = (element.get("value") or element.text).strip()
@@ -245,7 +245,7 @@ def engine_ignores_ode_friction(robot: Robot) -> Iterator[Problem]:
     found = [
         block
         for block in robot.gazebo
-        if any(block.element.child(word) for word in ("mu1", "mu2"))
+        if any(block.element.find_child(word) for word in ("mu1", "mu2"))
         and not any(element.tag == "bullet" for element in block.element.walk())
     ]
     if found:

@@ -160,7 +160,7 @@ def write_material(problem: Problem, context: FixContext) -> Proposal | None:
     if lines is None or not blocks:
         return None
     block = blocks[0].element
-    visual = block.child("visual")
+    visual = block.find_child("visual")
     if visual is not None:
         return safe("write its color", append_child(visual, *lines))
     inside = ("<visual>", *(f"\t{line}" for line in lines), "</visual>")
@@ -298,7 +298,7 @@ def _has_material(blocks: list[GazeboExtension]) -> bool:
     for block in blocks:
         for child in block.element.children:
             if child.tag == "material" or (
-                child.tag == "visual" and child.child("material") is not None
+                child.tag == "visual" and child.find_child("material") is not None
             ):
                 return True
     return False

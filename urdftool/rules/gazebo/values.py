@@ -65,7 +65,7 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
             number = _LEADING.match(text)
             if number is not None and number.end() == len(text):
                 continue
-            at = None if written is None else child.attribute_place("value")
+            at = None if written is None else child.locate_attribute("value")
             if number is None:
                 what = f"'{text}', which is not a number" if text else "empty"
                 message = f"{child.tag} is {what}, so Gazebo aborts; write a number"
@@ -117,7 +117,7 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     element,
                     f'{attribute}="{value}" of <{element.tag}> in <mujoco> is not {required}',
-                    at=element.attribute_place(attribute),
+                    at=element.locate_attribute(attribute),
                     data={"holder": "mujoco"},
                 )
 
@@ -172,14 +172,14 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
             continue
         if any(child.tag in ("mu", "Mu1", "Mu2") for b in blocks for child in b.element.children):
             continue  # one is misspelled
-        found = {word: block for block in blocks for word in _MU if block.element.child(word)}
+        found = {word: block for block in blocks for word in _MU if block.element.find_child(word)}
         if len(found) == 1:
             word, block = next(iter(found.items()))
             other = "mu2" if word == "mu1" else "mu1"
             yield Problem(
                 block.element,
                 f"link '{name}' has {word} but no {other}, which defaults to 1; write both",
-                at=block.element.child(word),
+                at=block.element.find_child(word),
                 alike=word,
                 data={"written": word, "missing": other},
             )
@@ -205,7 +205,7 @@ _HOLDS = re.compile(
 
 def _is_alike(block: GazeboExtension) -> bool:
     """Tell whether a block has equal friction in both directions."""
-    one, other = (number(block.value(word)) for word in _MU)
+    one, other = (number(block.get_value(word)) for word in _MU)
     return one is not None and one == other
 
 

@@ -82,7 +82,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     element, word = find_element(problem), problem.data.get("write", "")
     if element is None or not word.replace("_", "").isalnum():
         return None
-    if element.parent is None or element.parent.child(word) is not None:
+    if element.parent is None or element.parent.find_child(word) is not None:
         return None
     return unsafe(f"write <{word}>", rename_element(element, word))
 

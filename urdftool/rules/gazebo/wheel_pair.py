@@ -47,7 +47,7 @@ def find_driven_joints(robot: Robot) -> list[Joint]:
         link = robot.link.get(joint.child)
         if joint.type != "continuous" or link is None or not is_wheel(robot, link):
             continue
-        above = [joint.name, joint.child, *robot.tree.ancestors(joint.child)]
+        above = [joint.name, joint.child, *robot.tree.list_ancestors(joint.child)]
         if not any(CASTER.search(name) for name in above):
             found.append(joint)
     return found if len(found) == 2 else []

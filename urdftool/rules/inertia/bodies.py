@@ -28,12 +28,12 @@ def find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     kept = {
         block.reference
         for block in robot.gazebo
-        if block.reference and any((block.value(k) or "").lower() in _TRUE for k in _KEEPERS)
+        if block.reference and any((block.get_value(k) or "").lower() in _TRUE for k in _KEEPERS)
     }
     owner: dict[str, str] = {}
     found: dict[str, list[Link]] = {}
     for name in robot.tree.order:
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         lumped = joint is not None and joint.is_fixed and joint.name not in kept
         if joint is not None and lumped and joint.parent != "world":
             owner[name] = owner.get(joint.parent, name)
@@ -55,7 +55,7 @@ def find_massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
     for name in reversed(robot.tree.order):
         link = robot.link[name]
         mass, has_inertial = link.mass, link.inertial is not None
-        for joint in sorted(robot.tree.child_joints(name), key=lambda joint: joint.name):
+        for joint in sorted(robot.tree.get_child_joints(name), key=lambda joint: joint.name):
             added, counts = lumps.get(joint.child, (0.0, False))
             if counts and is_lumped(robot, joint.child):
                 has_inertial, mass = True, mass + added

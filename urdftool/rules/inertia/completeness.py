@@ -67,7 +67,7 @@ def report_every_incomplete_inertial(robot: Robot) -> Iterator[Problem]:
 
 
 def _select_effects(inertial: Inertial) -> set[str]:
-    mass, inertia = inertial.element.child("mass"), inertial.element.child("inertia")
+    mass, inertia = inertial.element.find_child("mass"), inertial.element.find_child("inertia")
     has_mass = mass is not None and "value" in mass.attributes
     has = "with" if has_mass else "without"
     keys = {"urdfdom, pinocchio", f"gz, gazebo-classic ({has} a mass)", "check_urdf", "mujoco"}
@@ -81,7 +81,7 @@ def _select_effects(inertial: Inertial) -> set[str]:
 def _find_missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
     element = inertial.element
     missing: list[str] = []
-    mass, inertia = element.child("mass"), element.child("inertia")
+    mass, inertia = element.find_child("mass"), element.find_child("inertia")
     if mass is None:
         missing.append("<mass>")
     elif not mass.attributes:
@@ -105,8 +105,8 @@ def _find_missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
 def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | None:
     """Write 0 for missing products of inertia."""
     inertial = context.get_link(problem).inertial
-    inertia = inertial.element.child("inertia") if inertial is not None else None
-    if inertial is None or inertia is None or inertial.element.child("mass") is None:
+    inertia = inertial.element.find_child("inertia") if inertial is not None else None
+    if inertial is None or inertia is None or inertial.element.find_child("mass") is None:
         return None
     missing = [name for name in SIX if name not in inertia.attributes]
     if not missing or not set(missing) <= {"ixy", "ixz", "iyz"}:

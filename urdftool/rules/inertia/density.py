@@ -54,13 +54,13 @@ def mass_out_of_line(
     if found is None:
         return
     link = found.link
-    mass = link.inertial.child_xml("mass") if link.inertial is not None else None
+    mass = link.inertial.find_child_xml("mass") if link.inertial is not None else None
     yield Problem(
         link,
         f"mass of link '{link.name}' ({link.mass:g} kg) is {found.denser:.2g} times too large by "
         f"the density of other links, and its inertia fits {found.fitting:.2g} kg; check the mass",
         data={"mass": link.mass, "fitting": found.fitting},
-        at=mass.attribute_place("value") if mass is not None else None,
+        at=mass.locate_attribute("value") if mass is not None else None,
     )
 
 

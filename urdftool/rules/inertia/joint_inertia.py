@@ -22,7 +22,7 @@ def compute_joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) ->
         The inertia [kg·m²]; for a prismatic joint the mass [kg]; 0 if nothing below the joint
         has one.
     """
-    carried = {joint.child, *robot.tree.descendants(joint.child)}
+    carried = {joint.child, *robot.tree.list_descendants(joint.child)}
     one = _compute_about_axis(robot, joint, poses, carried & set(poses))
     other = _compute_about_axis(robot, joint, poses, set(poses) - carried)
     if one <= 0:

@@ -59,9 +59,9 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         if link.name == "world" or link.inertial is None:
             continue
         links = body.get(link.name, [link])
-        joint = robot.tree.parent_joint(links[0].name)
-        mass = link.inertial.child_xml("mass")
-        at = mass.attribute_place("value") if mass is not None else None
+        joint = robot.tree.get_parent_joint(links[0].name)
+        mass = link.inertial.find_child_xml("mass")
+        at = mass.locate_attribute("value") if mass is not None else None
         if compute_mass(links) > 0:
             tensor = link.inertial.inertia
             if tensor is not None and any(tensor.six):
@@ -120,7 +120,7 @@ def report_every_zero_mass(robot: Robot) -> Iterator[Problem]:
             if not is_harmless:
                 what = " but its inertia is not; write its mass, or set the inertia to zero"
         else:
-            joints = [robot.tree.parent_joint(one.name) for one in members]
+            joints = [robot.tree.get_parent_joint(one.name) for one in members]
             is_harmless = all(joint is None or joint.is_fixed for joint in joints)
             if is_harmless:
                 what = "; PyBullet fixes it to the world, and Gazebo removes it"
@@ -355,7 +355,7 @@ def _is_marker(reach: LinkExtents, link: Link, mass: float, small: float) -> boo
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:
-    joint = robot.tree.parent_joint(link.name)
+    joint = robot.tree.get_parent_joint(link.name)
     return joint is not None and joint.is_fixed
 
 
@@ -409,6 +409,6 @@ def _get_masses(robot: Robot) -> Iterator[tuple[Link, float, Place]]:
     """Yield links with a readable mass, each with the mass [kg] and its location."""
     for link in robot.links:
         if link.inertial is not None and link.inertial.mass is not None:
-            mass = link.inertial.child_xml("mass")
+            mass = link.inertial.find_child_xml("mass")
             if mass is not None or link.inertial.xml is None:
-                yield link, link.inertial.mass, (mass or link.inertial).attribute_place("value")
+                yield link, link.inertial.mass, (mass or link.inertial).locate_attribute("value")

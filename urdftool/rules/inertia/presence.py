@@ -67,7 +67,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             found = find_rigid_bodies(robot).values()
             tops = {one.name: links[0] for links in found for one in links}
             heavy = {one.name for links in found if compute_mass(links) > 0 for one in links}
-        joint = robot.tree.parent_joint(tops.get(link.name, link).name)
+        joint = robot.tree.get_parent_joint(tops.get(link.name, link).name)
         moves = joint is not None and not joint.is_fixed
         held = is_fixed_to_world(robot, link)
         if in_gazebo and link.name not in heavy:
@@ -128,7 +128,7 @@ def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
         in_gazebo: Case of the effect in Gazebo; empty for the effect without a case.
     """
     body = [one for one, _ in find_attached_links(robot, link)]
-    tops = [robot.tree.parent_joint(one.name) for one in body]
+    tops = [robot.tree.get_parent_joint(one.name) for one in body]
     keys = {"pybullet", "pinocchio, KDL, drake"}
     keys |= {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
     if None in tops or is_fixed_to_world(robot, link):
@@ -209,7 +209,7 @@ def _report_moved_body(robot: Robot, joint: Joint, name: str, link: Link) -> Pro
         link,
         f"joint '{joint.name}' moves link '{name}', which has no mass"
         f"{_describe_descendants(robot, name)}; add a small <inertial>, or make the joint fixed",
-        data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
+        data={"joint": joint.name, "below": sum(1 for _ in robot.tree.list_descendants(name))},
     )
 
 
@@ -224,7 +224,7 @@ def add_small_inertial(problem: Problem, context: FixContext) -> Proposal | None
 def find_moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
     """List the rigid bodies on moving joints, each as joint, name of the topmost link and links."""
     for name, links in find_rigid_bodies(robot).items():
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is not None and not joint.is_fixed:
             yield joint, name, links
 
@@ -236,7 +236,7 @@ def has_bare_moved_body(robot: Robot) -> bool:
 
 
 def _describe_descendants(robot: Robot, name: str) -> str:
-    count = sum(1 for _ in robot.tree.descendants(name))
+    count = sum(1 for _ in robot.tree.list_descendants(name))
     if not count:
         return ""
     return f", and {count} links below it" if count > 1 else ", and one link below it"
@@ -265,7 +265,7 @@ def massless_root_body(robot: Robot) -> Iterator[Problem]:
     link remains. Only a root named ``world`` may have no mass.
     """
     for name, links in find_rigid_bodies(robot).items():
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if name == "world" or (joint is not None and joint.parent != "world"):
             continue
         if joint is not None and not joint.is_fixed:
@@ -293,7 +293,9 @@ def _report_root(root: Link) -> Problem:
 
 
 def _has_moving_joint(robot: Robot, links: list[Link]) -> bool:
-    return any(not joint.is_fixed for link in links for joint in robot.tree.child_joints(link.name))
+    return any(
+        not joint.is_fixed for link in links for joint in robot.tree.get_child_joints(link.name)
+    )
 
 
 def _is_broken(robot: Robot) -> bool:

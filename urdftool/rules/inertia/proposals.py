@@ -18,7 +18,7 @@ def find_proposal(link: Link, inertial: Inertial, six: SymmetricTensor) -> Propo
     if not upright:
         back = transpose(pose.rotation)
         com = rotate(back, com)
-        box = box.rotated(back) if box is not None else None
+        box = box.rotate(back) if box is not None else None
     return infer_intended_tensor(
         link.mass,
         com,

@@ -300,7 +300,7 @@ def _find_side_by_joints(
     for link in (pair.left, pair.right):
         offsets = [
             rotate(found.poses[link.name].rotation, joint.origin.xyz)[axis]
-            for joint in robot.tree.child_joints(link.name)
+            for joint in robot.tree.get_child_joints(link.name)
             if joint.origin is not None and not joint.is_fixed
         ]
         if len(offsets) != 1:

@@ -33,7 +33,7 @@ def compute_box(link: Link) -> Bounds | None:
         bounds = compute_bounds(shape)
         if bounds is None:
             return None
-        found = bounds if found is None else found.joined(bounds)
+        found = bounds if found is None else found.join(bounds)
     return found if found is not None and any(found.size) else None
 
 

@@ -223,7 +223,7 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
         if (is_part and link.mass < part * compute_mass(links)) or is_fixed_to_world(robot, link):
             continue
         amount = "almost zero" if any(six) else "zero"
-        joint = robot.tree.parent_joint(links[0].name)
+        joint = robot.tree.get_parent_joint(links[0].name)
         in_gazebo = "noise" if is_rejected_by_gazebo(robot, link) else "accepted"
         moves = not is_part and joint is not None and not joint.is_fixed
         rejected = is_rejected_by_mujoco(six) or (moves and not any(six))
@@ -452,4 +452,4 @@ def _find_component(inertial: Inertial, six: SymmetricTensor, moment: float) -> 
         return None
     if six[1] or six[2] or six[4]:
         return inertial.inertia.place
-    return inertial.inertia.attribute_place(SIX[six.index(moment)])
+    return inertial.inertia.locate_attribute(SIX[six.index(moment)])

@@ -93,7 +93,7 @@ def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
     """Tell whether Gazebo rejects the inertia of a link after lumping fixed joints."""
     whole = next((links for links in find_rigid_bodies(robot).values() if link in links), None)
     if whole is None:
-        joint = robot.tree.parent_joint(link.name)
+        joint = robot.tree.get_parent_joint(link.name)
         if joint is not None and joint.is_fixed:
             return False  # a broken tree does not determine the body
         whole = [link]

@@ -77,7 +77,7 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"{slip.name} of link '{link.name}' is off by a power of ten, which makes the "
                 f"inertia physically inconsistent; write {value:.12g}",
-                at=inertial.inertia.attribute_place(slip.name),
+                at=inertial.inertia.locate_attribute(slip.name),
                 data={"inertia": list(slip.tensor)},
                 effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             )
@@ -163,7 +163,7 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 link,
                 f"readers ignore {name} in the inertia of link '{link.name}'; {remedy}",
-                at=element.attribute_place(name),
+                at=element.locate_attribute(name),
                 effects=None if twin in element.attributes else (),
                 data={"twin": twin, "repeats": repeats},
             )

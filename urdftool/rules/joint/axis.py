@@ -41,7 +41,7 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
             yield Problem(
                 joint,
                 f"axis of joint '{joint.name}' is zero; write a direction such as 0 0 1",
-                at=joint.axis.element.attribute_place("xyz"),
+                at=joint.axis.element.locate_attribute("xyz"),
             )
 
 
@@ -70,7 +70,7 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
             yield Problem(
                 joint,
                 f"axis of joint '{joint.name}' has length {length:.6g}; write a unit vector",
-                at=joint.axis.element.attribute_place("xyz"),
+                at=joint.axis.element.locate_attribute("xyz"),
                 data={"length": length},
             )
 
@@ -152,7 +152,7 @@ def axis_nearly_canonical(
             joint,
             f"axis of joint '{joint.name}' is {middle / high:.1g} rad off a coordinate axis; "
             f"write {snapped} if that is intended",
-            at=joint.axis.element.attribute_place("xyz"),
+            at=joint.axis.element.locate_attribute("xyz"),
             data={"write": snapped, "angle": middle / high},
         )
 

@@ -165,7 +165,7 @@ def _measure_bodies(
             return None
         size = max(size, *box.size)
         if best > _TOUCHES:
-            back = poses[name].inverse()
+            back = poses[name].invert()
             best = min(
                 best,
                 _measure_distance(back.transform(place), rotate(back.rotation, way), box, best),

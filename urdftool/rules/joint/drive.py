@@ -59,7 +59,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 f"effort limit of joint '{joint.name}' is 0; "
                 f"write the maximum {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} "
                 "of its drive, if it has one",
-                at=limit.element.attribute_place("effort"),
+                at=limit.element.locate_attribute("effort"),
                 severity=INFO if passive else None,
                 alike=joint.type == "prismatic",
             )
@@ -86,7 +86,7 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"velocity limit of joint '{joint.name}' is 0, so it must not move; "
                 f"write its maximum [{_get_units(joint)[1]}]",
-                at=limit.element.attribute_place("velocity"),
+                at=limit.element.locate_attribute("velocity"),
                 alike=joint.type == "prismatic",
             )
 
@@ -126,7 +126,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     joint,
                     f"{name} limit of joint '{joint.name}' is {value:g}; write {-value:g}",
-                    at=joint.limit.element.attribute_place(name),
+                    at=joint.limit.element.locate_attribute(name),
                     data={name: value},
                 )
 
@@ -170,7 +170,7 @@ def implausible_velocity(
             one.joint,
             f"velocity limit of joint '{one.joint.name}'{more} is {one.what}; "
             "write the maximum of the drive",
-            at=one.limit.element.attribute_place("velocity"),
+            at=one.limit.element.locate_attribute("velocity"),
             alike=(one.is_slide, one.is_endless, bool(more)),
             data={"velocity": one.value},
         )
@@ -211,7 +211,7 @@ def implausible_effort(
             one.joint,
             f"effort limit of joint '{one.joint.name}'{more} is {one.what}; "
             "write the maximum of the drive",
-            at=one.limit.element.attribute_place("effort"),
+            at=one.limit.element.locate_attribute("effort"),
             alike=(one.is_slide, one.is_endless, bool(more)),
             data={"effort": one.value},
         )
@@ -293,7 +293,7 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     joint,
                     f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
-                    at=dynamics.element.attribute_place(name),
+                    at=dynamics.element.locate_attribute(name),
                     severity=INFO if joint.is_fixed else None,
                     data={name: value},
                 )
@@ -437,7 +437,7 @@ def _is_wheel_joint(robot: Robot, joint: Joint) -> bool:
 
 
 def _is_undamped(joint: Joint) -> bool:
-    if "dynamics" in find_misspelled_children(joint.element).values() or joint.element.child(
+    if "dynamics" in find_misspelled_children(joint.element).values() or joint.element.find_child(
         "joint_properties"
     ):
         return False

@@ -59,7 +59,7 @@ def fingers_move_together(robot: Robot) -> Iterator[Problem]:
     mimics the other.
     """
     for link in robot.links:
-        slides = [j for j in robot.tree.child_joints(link.name) if j.type == "prismatic"]
+        slides = [j for j in robot.tree.get_child_joints(link.name) if j.type == "prismatic"]
         if len(slides) != 2 or not all(map(_is_finger, slides)):
             continue
         one, other = slides

@@ -81,7 +81,7 @@ def _report_unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
     return Problem(
         joint,
         message,
-        at=joint.attribute_place("type"),
+        at=joint.locate_attribute("type"),
         severity=INFO if loads else None,
         data={"write": word} if word else None,
     )
@@ -128,14 +128,14 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
                 f"joint '{joint.name}' is {joint.type}: Gazebo rejects it, and "
                 "robot_state_publisher does not move it; use revolute and prismatic joints, or "
                 "leave the root free",
-                at=joint.attribute_place("type"),
+                at=joint.locate_attribute("type"),
                 effects=select_holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
             )
 
 
 def _has_one_damping(joint: Joint) -> bool:
     """Tell whether a joint is planar and has one damping value, as in URDF."""
-    dynamics = joint.element.child("dynamics")
+    dynamics = joint.element.find_child("dynamics")
     damping = dynamics.get("damping") if dynamics is not None else None
     return joint.type == "planar" and damping is not None and len(damping.split()) == 1
 

@@ -60,7 +60,7 @@ def report_unknown_leaders(robot: Robot) -> Iterator[Problem]:
             if mimic.joint.strip():
                 yield _report_unknown_leader(robot, joint, mimic)
             else:
-                place = mimic.element.attribute_place("joint")
+                place = mimic.element.locate_attribute("joint")
                 yield Problem(joint, _describe_missing_leader(joint), at=place)
 
 
@@ -73,7 +73,7 @@ def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
     return Problem(
         joint,
         f"joint '{joint.name}' mimics '{mimic.joint}', but the robot has no such joint{near}",
-        at=mimic.element.attribute_place("joint"),
+        at=mimic.element.locate_attribute("joint"),
         alike=bool(near),
         data={"suggestion": nearest(mimic.joint, robot.joint)},
     )
@@ -144,7 +144,7 @@ def _report_cycle(joint: Joint, circle: list[str]) -> Problem:
     else:
         names = " follows ".join(f"'{name}'" for name in (*circle, circle[0]))
         message = f"mimic joints follow each other: {names}; remove one <mimic>"
-    place = joint.mimic.element.attribute_place("joint")
+    place = joint.mimic.element.locate_attribute("joint")
     return Problem(joint, message, at=place, data={"joints": circle})
 
 
@@ -175,7 +175,7 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
             joint,
             f"joint '{joint.name}' mimics '{leader.name}', itself a mimic joint; "
             f"mimic '{first.name}' with multiplier {multiplier:g} and offset {offset:g}",
-            at=mimic.element.attribute_place("joint"),
+            at=mimic.element.locate_attribute("joint"),
             data={"joint": first.name, "multiplier": multiplier, "offset": offset},
         )
 
@@ -228,7 +228,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
                 f"mimic joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
                 f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}; "
                 f"reduce the limits of '{leader.name}'",
-                at=joint.limit.element.attribute_place(name),
+                at=joint.limit.element.locate_attribute(name),
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )
 
@@ -290,7 +290,7 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"joint '{joint.name}' follows '{leader.name}' with multiplier 0, so it never "
                     "moves; write its multiplier, or make it fixed",
-                    at=mimic.element.attribute_place("multiplier"),
+                    at=mimic.element.locate_attribute("multiplier"),
                     effects=(),
                 )
     for (kind, leading), found in alike.items():
@@ -327,7 +327,7 @@ def report_fixed_leaders(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"joint '{joint.name}' mimics '{leader.name}', which is fixed; <mimic> requires "
                 "joints with one axis",
-                at=mimic.element.attribute_place("joint"),
+                at=mimic.element.locate_attribute("joint"),
                 data={"type": leader.type, "joints": [joint.name]},
             )
 
@@ -359,7 +359,9 @@ def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     that an SDF ``<joint>`` in a ``<gazebo>`` block closes.
     """
     plugged = {
-        child.text.strip() for plugin in robot.plugins for child in plugin.element.all("mimicJoint")
+        child.text.strip()
+        for plugin in robot.plugins
+        for child in plugin.element.list_children("mimicJoint")
     } | _find_joints_above_loops(robot)
     free = [pair for pair in _iterate_mimic_joints(robot) if pair[0].name not in plugged]
     if free:
@@ -383,13 +385,13 @@ def _find_joints_above_loops(robot: Robot) -> set[str]:
     ends = {
         end.text.strip()
         for block in robot.gazebo
-        for joint in block.element.all("joint")
-        for end in (joint.child("parent"), joint.child("child"))
+        for joint in block.element.list_children("joint")
+        for end in (joint.find_child("parent"), joint.find_child("child"))
         if end is not None
     }
     found = set()
     for joint, _ in _iterate_mimic_joints(robot) if ends else ():
-        below = {joint.child, *robot.tree.descendants(joint.child)}
+        below = {joint.child, *robot.tree.list_descendants(joint.child)}
         if not below.isdisjoint(ends):
             found.add(joint.name)
     return found

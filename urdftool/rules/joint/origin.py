@@ -50,7 +50,7 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
             if around == "joint"
             else f"the <{around}> of {describe_owner(element)}"
         )
-        yield Problem(element, f"{whose} {what}", at=element.attribute_place("rpy"), data=data)
+        yield Problem(element, f"{whose} {what}", at=element.locate_attribute("rpy"), data=data)
 
 
 @rpy_in_degrees.fix(UNSAFE)

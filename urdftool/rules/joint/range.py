@@ -47,7 +47,7 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             yield Problem(
                 joint,
                 _describe_inverted_limit(joint, lower, upper),
-                at=limit.element.attribute_place("lower"),
+                at=limit.element.locate_attribute("lower"),
                 severity=INFO if meant else None,
                 data={"lower": lower, "upper": upper},
             )
@@ -143,7 +143,7 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; "
                 "make it fixed, or write its range",
-                at=limit.element.attribute_place("upper"),
+                at=limit.element.locate_attribute("upper"),
                 data={"position": lower},
             )
 
@@ -191,7 +191,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
             continue
         name = "upper" if abs(upper) > largest else "lower"
         value = upper if name == "upper" else lower
-        at = limit.element.attribute_place(name)
+        at = limit.element.locate_attribute(name)
         what = f"{name} limit {value:g} of joint '{joint.name}'"
         if abs(value) >= 1e3:
             yield Problem(
@@ -268,7 +268,7 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
                 joint,
                 f"{name} limit of joint '{joint.name}' is {value:g} m; "
                 f"if it is in millimeters, write {value / 1000:g}",
-                at=limit.element.attribute_place(name),
+                at=limit.element.locate_attribute(name),
                 data={"limit": value},
             )
     for joint in robot.joints:
@@ -281,7 +281,7 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
                 joint,
                 f"joint '{joint.name}' is {abs(far):g} m from its parent; "
                 f"if it is in millimeters, write {far / 1000:g}",
-                at=joint.origin.element.attribute_place("xyz"),
+                at=joint.origin.element.locate_attribute("xyz"),
                 data={"distance": abs(far)},
             )
 
@@ -347,7 +347,7 @@ def limit_rounded_outward(
                     joint,
                     f"{name} limit {value:g} of joint '{joint.name}' exceeds {turns * 90}° "
                     f"by {beyond:.1g} rad; write {inside:g}",
-                    at=limit.element.attribute_place(name),
+                    at=limit.element.locate_attribute(name),
                     alike=name,
                     data={"write": f"{inside:.9g}", "beyond": beyond},
                 )
@@ -412,7 +412,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
                 joint,
                 f"joint '{joint.name}' cannot be at 0, where simulators start it: "
                 f"its range is {lower:g} to {upper:g}",
-                at=limit.element.attribute_place(name),
+                at=limit.element.locate_attribute(name),
                 group="{count} joints cannot be at 0, where simulators start them: {names}",
                 data={"lower": lower, "upper": upper},
             )
@@ -423,7 +423,7 @@ def _is_frame_joint(robot: Robot, joint: Joint) -> bool:
     if not any(map(_is_body, robot.links)):
         return False  # the robot has only frames
     while joint.child in robot.link and not _is_body(robot.link[joint.child]):
-        above = robot.tree.parent_joint(joint.parent)
+        above = robot.tree.get_parent_joint(joint.parent)
         if above is None or above.type not in ("prismatic", "revolute", "continuous"):
             return True
         joint = above

@@ -89,7 +89,7 @@ _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
 
 def _is_massless_frame(robot: Robot, link: Link) -> bool:
     """Tell whether a link and its descendants have neither mass nor geometry."""
-    names = (link.name, *robot.tree.descendants(link.name))
+    names = (link.name, *robot.tree.list_descendants(link.name))
     return all(
         one.mass == 0 and not one.visuals and not one.collisions
         for one in (robot.link[name] for name in names if name in robot.link)
@@ -245,8 +245,8 @@ def _make_axis_pair(robot: Robot, found: Sides, pair: Pair) -> _AxisPair | None:
     right = found.get_axis(pair.right, pair.right_joint)
     if left is None or right is None:
         return None
-    below = robot.tree.descendants(pair.left.name)
-    ends = all(j.is_fixed for n in (pair.left.name, *below) for j in robot.tree.child_joints(n))
+    below = robot.tree.list_descendants(pair.left.name)
+    ends = all(j.is_fixed for n in (pair.left.name, *below) for j in robot.tree.get_child_joints(n))
     return _AxisPair(pair, left, right, pair.left_joint.type == "continuous" and ends)
 
 
@@ -282,7 +282,7 @@ def _find_limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
     by_link = {other.left.name: other for other in found.pairs if not other.left_joint.is_fixed}
     carrier: dict[str, str] = {}
     for link in by_link:
-        above = next((one for one in robot.tree.ancestors(link) if one in by_link), None)
+        above = next((one for one in robot.tree.list_ancestors(link) if one in by_link), None)
         if above is not None:
             carrier[link] = above
     counts = Counter(carrier.values())

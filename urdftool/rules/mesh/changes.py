@@ -101,16 +101,16 @@ def propose_compiler(context: FixContext) -> Proposal | None:
         None if there is a ``<mujoco>`` element, or the meshes are in several folders.
     """
     root: Element = context.robot.element
-    if root.child("mujoco") is not None:
+    if root.find_child("mujoco") is not None:
         return None
     folders = {
-        os.path.dirname(context.workspace.real_path(use.path))
+        os.path.dirname(context.workspace.resolve_links(use.path))
         for use in get_mesh_uses(context.robot, context.description)
         if use.path is not None and use.exists
     }
     if len(folders) != 1 or context.description.path == "-":
         return None
-    here = os.path.dirname(context.workspace.real_path(context.description.files[0].path))
+    here = os.path.dirname(context.workspace.resolve_links(context.description.files[0].path))
     folder = os.path.relpath(folders.pop(), here).replace(os.sep, "/")
     line = f'\t<compiler meshdir="{folder}" discardvisual="false" strippath="true"/>'
     return unsafe(

@@ -23,23 +23,23 @@ def is_dropped(use: MeshUse) -> bool:
 
 
 def _reads_inertial(link: Link) -> bool:
-    inertial = link.element.child("inertial")
+    inertial = link.element.find_child("inertial")
     if inertial is None:
         return True
-    mass, inertia = inertial.child("mass"), inertial.child("inertia")
+    mass, inertia = inertial.find_child("mass"), inertial.find_child("inertia")
     if mass is None or inertia is None or not {"value"} <= mass.attributes.keys():
         return False
     if not inertia.attributes.keys() >= set(_SIX):
         return False
-    return all(map(has_readable_numbers, (*inertial.all("origin"), mass, inertia)))
+    return all(map(has_readable_numbers, (*inertial.list_children("origin"), mass, inertia)))
 
 
 def _reads_shapes(link: Link, tag: str) -> bool:
-    return all(map(_reads_shape, link.element.all(tag)))
+    return all(map(_reads_shape, link.element.list_children(tag)))
 
 
 def _reads_shape(element: Element) -> bool:
-    geometry = element.child("geometry")
+    geometry = element.find_child("geometry")
     if geometry is None or not geometry.children or geometry.children[0].tag not in _SHAPES:
         return False
-    return all(map(has_readable_numbers, (*element.all("origin"), geometry.children[0])))
+    return all(map(has_readable_numbers, (*element.list_children("origin"), geometry.children[0])))

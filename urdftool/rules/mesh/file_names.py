@@ -42,7 +42,7 @@ def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' has {what} in its name; use letters, digits, _ and -",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri, "characters": odd},
             )
 
@@ -82,8 +82,8 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
     to the URDF: MuJoCo then removes the folders of the URIs and searches the files in ``meshdir``.
     Before 3.7, MuJoCo always removes the folders.
     """
-    for mujoco in robot.element.all("mujoco"):
-        compiler = mujoco.child("compiler")
+    for mujoco in robot.element.list_children("mujoco"):
+        compiler = mujoco.find_child("compiler")
         if compiler is not None and {"meshdir", "strippath"} & compiler.attributes.keys():
             return
     for use in get_mesh_uses(robot, description):
@@ -92,7 +92,7 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
                 use.link,
                 f"MuJoCo cannot open '{use.uri}'; "
                 'add <mujoco><compiler meshdir="…" strippath="true"/> to the robot',
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri},
             )
             return
@@ -135,7 +135,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
         yield Problem(
             use.link,
             f"MuJoCo names both meshes '{first[stem]}' and '{use.uri}' '{stem}'{more}; rename one",
-            at=use.mesh.element.attribute_place("filename"),
+            at=use.mesh.element.locate_attribute("filename"),
             data={"uris": [first[stem], use.uri], "name": stem},
         )
 

@@ -55,7 +55,7 @@ def missing_mesh_dependency(
         yield Problem(
             use.link,
             f"mesh '{use.uri}' refers to {quote(missing)}, but the file does not exist{others}",
-            at=use.mesh.element.attribute_place("filename"),
+            at=use.mesh.element.locate_attribute("filename"),
             severity=None if any(_has_shape(name) for one in named for name in one) else INFO,
             data={"uri": use.uri, "names": list(missing)},
         )

@@ -72,7 +72,7 @@ def mesh_not_found(
                 first.link,
                 f"folder '{shorten_path(folder)}' does not exist, but {len(paths)} meshes refer to "
                 f"it, first '{first.uri}'",
-                at=first.mesh.element.attribute_place("filename"),
+                at=first.mesh.element.locate_attribute("filename"),
                 data={"folder": str(folder), "count": len(paths)},
                 effects=_select_effects(keeps, [use for path in paths for use in missing[path]]),
             )
@@ -83,7 +83,7 @@ def mesh_not_found(
                 first.link,
                 f"mesh file of link '{first.link.name}' does not exist: '{first.uri}' refers to "
                 f"'{shorten_path(path)}'{_suggest_file(description.workspace, path)}",
-                at=first.mesh.element.attribute_place("filename"),
+                at=first.mesh.element.locate_attribute("filename"),
                 data={"uri": first.uri, "path": str(path)},
                 effects=_select_effects(keeps, missing[path]),
             )
@@ -104,7 +104,7 @@ def _select_effects(keeps: bool, uses: list[MeshUse]) -> list[str]:
 def _is_above(use: MeshUse) -> bool:
     """Tell whether PyBullet finds a file, as it searches all folders above the description."""
     path = use.uri.removeprefix("package://").removeprefix("file://")
-    folder = Path(use.workspace.real_path(use.mesh.element.file.path)).parent
+    folder = Path(use.workspace.resolve_links(use.mesh.element.file.path)).parent
     folders = (folder, *folder.parents[:-1])
     return any(use.workspace.is_file(above / path) for above in folders)
 
@@ -189,7 +189,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is '{shown}' on disk, so Linux does not find it; match the case",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri, "name": shown},
             )
 
@@ -256,7 +256,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {wrong}",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri},
             )
 
@@ -288,7 +288,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {_LFS}",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri},
                 group="{count} mesh files are git-lfs pointers instead of meshes, in the links "
                 "{names}; run 'git lfs pull'",
@@ -300,7 +300,7 @@ def describe_defect(use: MeshUse) -> str:
     if use.path is None:
         return ""
     try:
-        path = use.workspace.local(use.path)
+        path = use.workspace.materialize(use.path)
         if path.suffix.lower() != ".stl":
             with open(path, "rb") as file:
                 head = file.read(len(LFS_MARK))

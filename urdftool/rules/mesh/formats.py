@@ -79,7 +79,7 @@ def unsupported_mesh_format(
                     if ending == "stlb"
                     else f"convert it, for example to {READ_BY[who[0]][0]}"
                 ),
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 effects=_select_effects(ending, any(u.collides for u in same)),
                 data={"uri": use.uri, "format": ending, "readers": who},
             )
@@ -123,7 +123,7 @@ def read_stl_facts(workspace: Workspace, path: Path) -> StlHeader:
     Raises:
         OSError: The file cannot be read.
     """
-    return read_stl_header(workspace.local(path))
+    return read_stl_header(workspace.materialize(path))
 
 
 @rule(
@@ -150,7 +150,7 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is ASCII STL, which many readers reject; convert it",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 effects=[*["mujoco"] * (keeps or use.collides), *_OF_TEXT],
                 data={"uri": use.uri},
             )
@@ -193,7 +193,7 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
             found[0].link,
             f"binary STL mesh '{found[0].uri}'{more} begins with 'solid', as ASCII STL does; "
             "overwrite the 80 bytes of its header",
-            at=found[0].mesh.element.attribute_place("filename"),
+            at=found[0].mesh.element.locate_attribute("filename"),
             data={"uris": [use.uri for use in found]},
         )
 
@@ -251,7 +251,7 @@ def dae_unit_or_axis(
                 use.link,
                 f"mesh '{use.uri}'{more}: {what}, which readers apply differently; "
                 "export it in meters",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 effects=(
                     f"rviz, pybullet ({case})",
                     *(("moveit (collision)",) if use.uri in colliding else ()),
@@ -309,7 +309,7 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
             uses[0].link,
             f"collision mesh '{uses[0].uri}'{more} is COLLADA, which MuJoCo and Drake reject; "
             "convert it to OBJ",
-            at=uses[0].mesh.element.attribute_place("filename"),
+            at=uses[0].mesh.element.locate_attribute("filename"),
             data={"uris": list(dict.fromkeys(use.uri for use in uses))},
         )
 

@@ -40,7 +40,7 @@ def _read_convex_points(workspace: Workspace, path: Path, gltf_up: GltfUp) -> Co
 
     for buffer in find_buffers(workspace, path):
         workspace.record("file", buffer)
-    return read_convex_points(workspace.local(path), gltf_up)
+    return read_convex_points(workspace.materialize(path), gltf_up)
 
 
 def compute_mesh_box(use: MeshUse, pose: Pose = IDENTITY) -> Bounds | None:
@@ -97,7 +97,7 @@ class LinkExtents:
             other = self.get_shape_box(shape)
             if other is None:
                 return None
-            box = other if box is None else box.joined(other)
+            box = other if box is None else box.join(other)
         return box
 
     def get_link_box(self, link: Link) -> Bounds | None:
@@ -139,7 +139,7 @@ class LinkExtents:
             more = self.get_body_box(link, "all", [(other, at)])
             if more is None:
                 return None
-            box = box.joined(more)
+            box = box.join(more)
         return box
 
     def get_body_box(
@@ -164,7 +164,7 @@ class LinkExtents:
                 other = self._compute_box_at(shape, pose)
                 if other is None:
                     return None
-                box = other if box is None else box.joined(other)
+                box = other if box is None else box.join(other)
         return box if box is not None and any(box.size) else None
 
     def _compute_box_at(self, shape: Visual | Collision, pose: Pose) -> Bounds | None:
@@ -188,7 +188,7 @@ class LinkExtents:
         for other in boxes:
             if other is None or (box is not None and not box.meets(other)):
                 return None
-            box = other if box is None else box.joined(other)
+            box = other if box is None else box.join(other)
         return box if box is not None and any(box.size) else None
 
 

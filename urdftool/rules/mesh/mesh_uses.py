@@ -61,7 +61,7 @@ class MeshUse:
     @property
     def written(self) -> str:
         """The ``filename`` as written in the source, with its xacro expressions."""
-        place = self.mesh.element.attribute_place("filename")
+        place = self.mesh.element.locate_attribute("filename")
         data = place.file.data[place.start : place.end]
         return data.decode(place.file.encoding, "replace").partition("=")[2].strip(" \t\r\n\"'")
 
@@ -113,7 +113,7 @@ def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) 
             use.missing_package, use.searched = package, list(error.notes)
             lost[package] = use.searched
         return
-    use.size = use.workspace.size(use.path)
+    use.size = use.workspace.get_size(use.path)
 
 
 def find_actual_case(workspace: Workspace, path: Path) -> Path | None:

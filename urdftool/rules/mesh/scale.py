@@ -36,7 +36,7 @@ _SAMPLE = 300  # triangles, from the beginning, middle and end of a file
 def sample_extent(workspace: Workspace, path: Path) -> tuple[float, float, float] | None:
     """Compute the size of a sample of a binary STL file, a lower bound of its size."""
     try:
-        return _sample(workspace.local(path))
+        return _sample(workspace.materialize(path))
     except OSError:
         return None
 
@@ -78,7 +78,7 @@ def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
     if extent is not None and whole:
         from ...geometry.stl import stl_bounds
 
-        bounds = stl_bounds(use.workspace.local(use.path))
+        bounds = stl_bounds(use.workspace.materialize(use.path))
         if bounds is None:
             return None
         (a, b, c), (d, e, f) = bounds
@@ -135,7 +135,7 @@ def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
     return Problem(
         use.link,
         f"mesh '{use.uri}' is {length:.3g} m long, so it is probably in millimeters{right}",
-        at=use.mesh.element.attribute_place("filename"),
+        at=use.mesh.element.locate_attribute("filename"),
         data={
             "uri": use.uri,
             "length": length,
@@ -185,7 +185,7 @@ def mesh_scaled_twice(
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is only {length * 1000:.3g} mm long{right}",
-                at=use.mesh.element.attribute_place("scale"),
+                at=use.mesh.element.locate_attribute("scale"),
                 data={"uri": use.uri, "length": length, "limit": smallest, "scale": scale},
             )
 
@@ -230,7 +230,7 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
             found[0].link,
             f"mesh '{found[0].uri}'{more} has a negative scale, which turns its triangles inside "
             "out; use a mirrored copy of the file",
-            at=found[0].mesh.element.attribute_place("scale"),
+            at=found[0].mesh.element.locate_attribute("scale"),
             effects=(
                 "mujoco",
                 "gz (visual)" if visual else "gz (collision)",
@@ -293,7 +293,7 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
                 use.link,
                 f"mesh '{uri}' of link '{use.link.name}' has scale {_format_scale(scale)}, but "
                 f"{_format_scale(usual)} in other places; use one scale",
-                at=use.mesh.element.attribute_place("scale")
+                at=use.mesh.element.locate_attribute("scale")
                 if "scale" in use.mesh.element.attributes
                 else use.mesh.element,
             )
@@ -356,7 +356,7 @@ def mesh_scale_out_of_line(
                 use.link,
                 f"mesh '{use.uri}' of link '{use.link.name}' is scaled {factor:g} times as much as "
                 f"the other {scales.count(usual)} meshes; check its scale",
-                at=use.mesh.element.attribute_place("scale"),
+                at=use.mesh.element.locate_attribute("scale"),
                 data={"uri": use.uri, "factor": factor},
             )
 
@@ -385,7 +385,7 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"scale '{text}' of a mesh of link '{link.name}' has a factor 0, which makes it "
                 "flat; write nonzero factors",
-                at=mesh.element.attribute_place("scale"),
+                at=mesh.element.locate_attribute("scale"),
                 data={"scale": list(values)},
             )
 
@@ -410,7 +410,7 @@ def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Proble
                 use.link,
                 f"mesh '{use.uri}' has the non-uniform scale {use.mesh.element.get('scale')}; "
                 "scale the file itself",
-                at=use.mesh.element.attribute_place("scale"),
+                at=use.mesh.element.locate_attribute("scale"),
                 data={"uri": use.uri, "scale": list(use.mesh.scale)},
             )
 
@@ -440,6 +440,6 @@ def heavy_visual(
             yield Problem(
                 use.link,
                 f"visual mesh '{use.uri}' is {size / 1e6:.0f} MB large; simplify it",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri, "bytes": size},
             )

@@ -32,21 +32,21 @@ MOST_SLIVERS = 0.2
 def _read_surface(workspace: Workspace, path: Path) -> Surface | None:
     from ...geometry.surface import read_surface
 
-    return read_surface(workspace.local(path))
+    return read_surface(workspace.materialize(path))
 
 
 @memoize_by_workspace
 def _compute_change_by_closing(workspace: Workspace, path: Path) -> float | None:
     from ...geometry.surface import change_by_closing
 
-    return change_by_closing(str(workspace.local(path)))
+    return change_by_closing(str(workspace.materialize(path)))
 
 
 @memoize_by_workspace
 def _compute_hull_volume(workspace: Workspace, path: Path) -> float | None:
     from ...geometry.surface import hull_volume
 
-    return hull_volume(str(workspace.local(path)))
+    return hull_volume(str(workspace.materialize(path)))
 
 
 def _read_surfaces(
@@ -82,7 +82,7 @@ def _has_computed_mass(robot: Robot, link: Link) -> bool:
     """Tell whether MuJoCo computes a link's mass from its collisions: moving, no inertial."""
     if link.inertial is not None or is_fixed_to_world(robot, link):
         return False
-    return all(robot.tree.parent_joint(one.name) for one, _ in find_attached_links(robot, link))
+    return all(robot.tree.get_parent_joint(one.name) for one, _ in find_attached_links(robot, link))
 
 
 def _combine_findings(
@@ -95,7 +95,7 @@ def _combine_findings(
     others = ", ".join(f"'{other.link.name}'" for other, _ in rest)
     text = message(use).format(what) + (f"; so are those of {others}" if rest else "")
     uris = [use.uri for use, _ in found]
-    place = use.mesh.element.attribute_place("filename")
+    place = use.mesh.element.locate_attribute("filename")
     return [Problem(use.link, text, at=place, data={"uris": uris})]
 
 
@@ -159,7 +159,7 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 use.link,
                 f"collision mesh '{use.uri}' of link '{use.link.name}' is inside out; reverse its "
                 "triangles",
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
                 data={"uri": use.uri},
             )
 
@@ -270,7 +270,7 @@ def nonconvex_collision_mesh(
             use.link,
             f"collision mesh '{use.uri}' of link '{use.link.name}' is not convex: the volume of "
             f"its convex hull is {hull / abs(surface.volume):.2g} times as large",
-            at=use.mesh.element.attribute_place("filename"),
+            at=use.mesh.element.locate_attribute("filename"),
             data={"uri": use.uri, "ratio": hull / abs(surface.volume), "limit": ratio},
             hint="'urdftool collision' decomposes it into convex parts",
             group=""

@@ -63,7 +63,7 @@ def _report_absolute(use: MeshUse, others: int = 0, folder: str | None = None) -
         use.link,
         f"mesh '{use.uri}' is an absolute path{'' if use.exists else ' that does not exist here'}; "
         f"write package://PACKAGE/meshes/{name}{more}",
-        at=use.mesh.element.attribute_place("filename"),
+        at=use.mesh.element.locate_attribute("filename"),
         severity=None if use.exists else ERROR,
         data=data,
     )
@@ -107,7 +107,7 @@ def _get_package_uri(use: MeshUse, own: tuple[str, Path] | None) -> str | None:
     files = use.workspace
     if use.path is None or own is None or not files.is_file(use.path):
         return None
-    inside = os.path.relpath(files.real_path(use.path), files.real_path(own[1]))
+    inside = os.path.relpath(files.resolve_links(use.path), files.resolve_links(own[1]))
     inside = inside.replace(os.sep, "/")
     return None if inside.startswith("..") else f"package://{own[0]}/{inside}"
 
@@ -155,7 +155,7 @@ def _is_misspelled(element: Element) -> bool:
     """Tell whether the attribute has a misspelled name, which another rule reports."""
     if "filename" in find_misspelled_attributes(element).values():
         return True
-    return any(name in element.attributes or element.child(name) for name in _MISNAMED)
+    return any(name in element.attributes or element.find_child(name) for name in _MISNAMED)
 
 
 _MISNAMED = ("uri", "file", "url")
@@ -187,7 +187,7 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
             yield Problem(
                 use.link,
                 wrong.text,
-                at=element.attribute_place("filename"),
+                at=element.locate_attribute("filename"),
                 severity=WARNING if passes else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
             )
@@ -294,7 +294,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
         yield Problem(
             first.link,
             f"mesh '{first.uri}'{more}: {what}",
-            at=first.mesh.element.attribute_place("filename"),
+            at=first.mesh.element.locate_attribute("filename"),
             data={"scheme": scheme, "uris": list(dict.fromkeys(use.uri for use in uses))},
             severity=None if known else ERROR,
             effects=[
@@ -338,7 +338,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
         yield Problem(
             first.link,
             f"mesh '{first.uri}'{more} is a relative path; write {right}",
-            at=first.mesh.element.attribute_place("filename"),
+            at=first.mesh.element.locate_attribute("filename"),
             data={"uris": list(dict.fromkeys(use.uri for use in relative))},
         )
 

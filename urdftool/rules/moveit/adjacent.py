@@ -68,6 +68,6 @@ def disable_collision(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     above, below = map(escape_attribute, problem.data["links"])
     line = f'<disable_collisions link1="{above}" link2="{below}" reason="Adjacent"/>'
-    pairs = list(root.all("disable_collisions"))
+    pairs = list(root.list_children("disable_collisions"))
     change = insert_after(pairs[-1], line) if pairs else append_child(root, line)
     return unsafe("disable their collision", change)

@@ -58,7 +58,7 @@ def moveit_parameter_type(
             more = f"; the same applies to {join_some(names, 'numbers', 3)}" if names else ""
             yield Problem(
                 robot,
-                f"{node.key} of {of} is {node.said}, which YAML reads as "
+                f"{node.key} of {of} is {node.described}, which YAML reads as "
                 f"{'an integer' if node.kind == 'int' else 'text'}; "
                 f"write {format_double(node) or 'a number with a point'}{more}",
                 at=node.place,

@@ -39,11 +39,11 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
     path = Path(description.path)
     stem = path.name.split(".")[0]
     workspace = description.workspace
-    files = workspace.glob(path.parent, "*.srdf")
+    files = workspace.list_matches(path.parent, "*.srdf")
     named = [file for file in files if file.name.split(".")[0] == stem]
     if not named:
         # an SRDF with the name of a description belongs to that description
-        described = workspace.glob(path.parent, "*.urdf*")
+        described = workspace.list_matches(path.parent, "*.urdf*")
         others = {other.name.split(".")[0] for other in described}
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
@@ -103,7 +103,7 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
                     element,
                     f"<{element.tag}> refers to link '{name}', which the robot does not have"
                     + suggest_name(name, robot.link),
-                    at=element.attribute_place(attribute),
+                    at=element.locate_attribute(attribute),
                     severity=None if essential else WARNING,
                     data={"suggestion": nearest(name, robot.link)},
                 )
@@ -122,7 +122,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
     Its group does not contain the joint, and MoveIt cannot reach a named pose with it.
     """
     for document in get_srdf_documents(robot, description):
-        virtual = {joint.get("name") for joint in document.root.all("virtual_joint")}
+        virtual = {joint.get("name") for joint in document.root.list_children("virtual_joint")}
         for element, attribute, _ in find_references(document.root, "joint"):
             name = element.get(attribute)
             if name and name not in robot.joint and name not in virtual:
@@ -130,7 +130,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
                     element,
                     f"<{element.tag}> refers to joint '{name}', which the robot does not have"
                     + suggest_name(name, robot.joint),
-                    at=element.attribute_place(attribute),
+                    at=element.locate_attribute(attribute),
                     data={"suggestion": nearest(name, robot.joint)},
                 )
 
@@ -165,7 +165,7 @@ def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(
                 document.root,
                 f"SRDF is for robot '{name}', but the robot is '{robot.name}'; write the same name",
-                at=document.root.attribute_place("name"),
+                at=document.root.locate_attribute("name"),
             )
 
 
@@ -194,7 +194,7 @@ def chain_not_connected(robot: Robot, description: Description) -> Iterator[Prob
             base, tip = element.get("base_link"), element.get("tip_link")
             if element.tag != "chain" or base not in robot.link or tip not in robot.link:
                 continue
-            if base != tip and base not in set(robot.tree.ancestors(tip or "")):
+            if base != tip and base not in set(robot.tree.list_ancestors(tip or "")):
                 yield Problem(
                     element,
                     f"tip link '{tip}' is not a descendant of base link '{base}', so they are "
@@ -215,8 +215,8 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
     MoveIt cannot plan to this pose.
     """
     for document in get_srdf_documents(robot, description):
-        for state in document.root.all("group_state"):
-            for element in state.all("joint"):
+        for state in document.root.list_children("group_state"):
+            for element in state.list_children("joint"):
                 joint = robot.joint.get(element.get("name") or "")
                 value = number(element.get("value"))
                 if joint is None or value is None or not joint.is_limited or joint.limit is None:
@@ -228,7 +228,7 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
                         f"joint '{joint.name}' is {value:g} in pose "
                         f"'{state.get('name') or ''}', outside "
                         f"its limits {low:g} to {high:g}",
-                        at=element.attribute_place("value"),
+                        at=element.locate_attribute("value"),
                         data={"nearest": min(max(value, low), high)},
                     )
 
@@ -253,7 +253,7 @@ def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Pr
         if (
             root is not None
             and root.name != "world"
-            and document.root.child("virtual_joint") is None
+            and document.root.find_child("virtual_joint") is None
         ):
             yield Problem(
                 document.root,
@@ -289,8 +289,8 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
     The end effector must have its own group, and its parent link must be outside this group.
     """
     for document in get_srdf_documents(robot, description):
-        groups = {group.get("name"): group for group in document.root.all("group")}
-        for element in document.root.all("end_effector"):
+        groups = {group.get("name"): group for group in document.root.list_children("group")}
+        for element in document.root.list_children("end_effector"):
             name, parent = element.get("group"), element.get("parent_link")
             if name not in groups:
                 known = [group for group in groups if group]
@@ -298,15 +298,15 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
                     element,
                     f"end effector '{element.get('name') or ''}' has group '{name or ''}', which "
                     f"does not exist{suggest_name(name or '', known)}",
-                    at=element.attribute_place("group"),
+                    at=element.locate_attribute("group"),
                 )
-            elif any(link.get("name") == parent for link in groups[name].all("link")):
+            elif any(link.get("name") == parent for link in groups[name].list_children("link")):
                 yield Problem(
                     element,
                     f"end effector '{element.get('name') or ''}' has parent link '{parent}', "
                     "which is "
                     "in its own group",
-                    at=element.attribute_place("parent_link"),
+                    at=element.locate_attribute("parent_link"),
                 )
 
 

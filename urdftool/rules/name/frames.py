@@ -105,7 +105,7 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
         for sensor in block.sensors:
             if sensor.type not in _CAMERAS or block.reference is None:
                 continue
-            joints = robot.tree.child_joints(block.reference)
+            joints = robot.tree.get_child_joints(block.reference)
             frames = {joint.child for joint in joints if _is_at(joint, sensor)}
             optical = next((name for name in sorted(frames) if "_optical" in name), None)
             written = _get_frames(sensor)

@@ -165,7 +165,7 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
 
 def _is_in_tests(description: Description, folder: Path) -> bool:
     """Tell whether a description is in a folder ``test`` or ``tests`` of its package."""
-    real_path = description.workspace.real_path
+    real_path = description.workspace.resolve_links
     relative = Path(os.path.relpath(real_path(description.packages.file), real_path(folder)))
     return not {"test", "tests"}.isdisjoint(relative.parts[:-1])
 
@@ -185,7 +185,7 @@ def _find_used_packages(
         if name and name not in found and not is_in_own_package(use, description):
             found.add(name)
             if not _is_itself(name, own[1], description):
-                yield name, use.link, use.mesh.element.attribute_place("filename")
+                yield name, use.link, use.mesh.element.locate_attribute("filename")
     first = description.files[0]
     for match in _FIND.finditer(first.data):
         name = match[1].decode("ascii")
@@ -205,7 +205,7 @@ def _is_itself(name: str, folder: Path, description: Description) -> bool:
         found = description.packages.find(name)
     except PackageNotFound:
         return False
-    real_path = description.workspace.real_path
+    real_path = description.workspace.resolve_links
     return real_path(found) == real_path(folder)
 
 
@@ -251,7 +251,7 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     used: dict[str, Element] = {}
     for use in get_mesh_uses(robot, description):
         if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
-            real_path = description.workspace.real_path
+            real_path = description.workspace.resolve_links
             relative = os.path.relpath(real_path(use.path), real_path(own[1]))
             top = relative.replace(os.sep, "/").partition("/")[0]
             if top != ".." and "/" in relative:
@@ -263,7 +263,7 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
                 f"folder '{folder}' of package '{own[0]}' is used but not installed; "
                 f"write install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}) "
                 "into CMakeLists.txt",
-                at=element.attribute_place("filename"),
+                at=element.locate_attribute("filename"),
                 severity=severity,
                 data={"folder": folder},
             )
@@ -333,7 +333,7 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
                 f"package.xml of '{own[0]}' does not export the path of its meshes to Gazebo; "
                 "write "
                 '<export><gazebo_ros gazebo_model_path="${prefix}/.."/></export>',
-                at=use.mesh.element.attribute_place("filename"),
+                at=use.mesh.element.locate_attribute("filename"),
             )
             return
 
@@ -341,7 +341,7 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
 def _launch_sets_path(workspace: Workspace, package: Path) -> bool:
     """Tell whether a launch file or hook of the package sets the model path of Gazebo."""
     for folder in ("launch", "hooks", "env-hooks"):
-        for path in workspace.glob(package / folder, "*")[:50]:
+        for path in workspace.list_matches(package / folder, "*")[:50]:
             text = _read_text(workspace, path) if workspace.is_file(path) else ""
             if "RESOURCE_PATH" in text or "MODEL_PATH" in text:
                 return True
@@ -361,7 +361,7 @@ def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
     manifest = _parse_manifest(context)
     if manifest is None:
         return None
-    root, export = manifest.root, manifest.root.child("export")
+    root, export = manifest.root, manifest.root.find_child("export")
     if export is not None:
         change = append_child(export, _MODEL_PATH)
     else:
@@ -401,7 +401,7 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
             uses[0].link,
             f"package '{name}' does not have {files}, but this package does; "
             f"write package://{own[0]}/…",
-            at=uses[0].mesh.element.attribute_place("filename"),
+            at=uses[0].mesh.element.locate_attribute("filename"),
             data={"package": name, "write": own[0]},
         )
 

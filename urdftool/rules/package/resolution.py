@@ -42,13 +42,13 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     for name, uses in lost.items():
         count = len({use.uri for use in uses})
         meshes = f"{count} of its meshes were" if count > 1 else "its mesh was"
-        near = description.packages.folder_with(name, _get_inner_path(uses[0].uri))
+        near = description.packages.find_folder_with(name, _get_inner_path(uses[0].uri))
         remedy = f"pass --package {name}=DIR or --package-path DIR"
         yield Problem(
             uses[0].link,
             f"package '{name}' is not found, so {meshes} not checked; "
             + (suggest_folder(name, near) if near is not None else remedy),
-            at=uses[0].mesh.element.attribute_place("filename"),
+            at=uses[0].mesh.element.locate_attribute("filename"),
             hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),
         )
@@ -72,7 +72,7 @@ def _report_assumed_packages(robot: Robot, description: Description) -> Iterator
             f"package '{name}' is not found, so {meshes} read from the folder "
             f"'{shorten_path(folder)}', as PyBullet does; write "
             f"'{_make_uri(uses[0], description)}'",
-            at=uses[0].mesh.element.attribute_place("filename"),
+            at=uses[0].mesh.element.locate_attribute("filename"),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
         )
 

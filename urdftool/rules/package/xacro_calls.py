@@ -61,7 +61,10 @@ def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Prob
 
 def _find_callers(workspace: Workspace, package: Path) -> Iterator[Path]:
     """Yield the files of a package that may call xacro."""
-    found = [*workspace.glob(package / "launch", "**/*"), *workspace.glob(package, "README*")]
+    found = [
+        *workspace.list_matches(package / "launch", "**/*"),
+        *workspace.list_matches(package, "README*"),
+    ]
     found += [package / "CMakeLists.txt"]
     for path in sorted(found)[:_MOST_FILES]:
         if workspace.is_file(path):

@@ -85,7 +85,7 @@ VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
 
 def find_setting_elements(robot: Robot) -> Iterator[Element]:
     """Yield the elements in ``<mujoco>`` that hold settings of the model."""
-    for extension in robot.element.all("mujoco"):
+    for extension in robot.element.list_children("mujoco"):
         for part in extension.children:
             if part.tag == "compiler" or part.tag in SECTIONS:
                 yield from part.walk()

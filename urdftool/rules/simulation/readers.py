@@ -106,7 +106,7 @@ def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
     By default MuJoCo drops the visuals of a URDF and lumps fixed links. ``<mujoco><compiler
     discardvisual="false" …/>`` in the robot changes this, and sets the folder of the meshes.
     """
-    if any(mujoco.child("compiler") for mujoco in robot.element.all("mujoco")):
+    if any(mujoco.find_child("compiler") for mujoco in robot.element.list_children("mujoco")):
         return
     meshes = sum(1 for _, shape in robot.shapes if isinstance(shape.geometry, Mesh))
     if meshes:

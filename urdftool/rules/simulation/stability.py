@@ -33,7 +33,7 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
     below = _compute_masses_below(robot, mass)
     for joint in robot.moving_joints:
         above, under = robot.tree.bodies.get(joint.parent), robot.tree.bodies.get(joint.child)
-        if above is None or under is None or robot.tree.parent_joint(above) is None:
+        if above is None or under is None or robot.tree.get_parent_joint(above) is None:
             continue
         if not any(
             robot.link[name].visuals or robot.link[name].collisions for name in bodies[above]
@@ -57,7 +57,7 @@ def _compute_masses_below(robot: Robot, mass: dict[str, float]) -> dict[str, flo
     for name in reversed(robot.tree.order):
         if name not in mass:
             continue
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         above = robot.tree.bodies.get(joint.parent) if joint is not None else None
         if above is not None and above != name:
             total[above] += total[name]

@@ -99,7 +99,7 @@ def _report_second(part: Link | Joint, first: Link | Joint) -> Problem:
     return Problem(
         part,
         f"{kind} name '{part.name}' is used twice (first in line {first.place.line}); rename one",
-        at=part.element.attribute_place("name") if named else None,
+        at=part.element.locate_attribute("name") if named else None,
     )
 
 
@@ -184,7 +184,7 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
                 joint,
                 f"joint '{name}' has the name of a link, but both share one namespace in SDF; "
                 f"rename it to '{name}_joint'",
-                at=joint.element.attribute_place("name"),
+                at=joint.element.locate_attribute("name"),
                 severity=WARNING if in_gazebo and lumped and not stay else None,
                 effects=select_holding(_CLASH, case),
             )
@@ -203,7 +203,7 @@ def _report_sdf_clashes(robot: Robot, kept: set[str]) -> Iterator[Problem]:
             yield Problem(
                 element,
                 f"joint '{name}' in <gazebo> has the name of {names[name]}; write a unique name",
-                at=element.attribute_place("name"),
+                at=element.locate_attribute("name"),
                 effects=[
                     key for key in select_holding(_CLASH, "both stay") if key != _OTHERS_ACCEPT
                 ],
@@ -264,7 +264,7 @@ def _report_unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Probl
     return Problem(
         joint,
         f"parent '{name}' of joint '{joint.name}' is not a link{_describe_remedy(name, robot)}",
-        at=parent.attribute_place("link"),
+        at=parent.locate_attribute("link"),
         data={"suggestion": nearest(name, robot.link)},
         severity=INFO if is_world and is_for_another_reader(robot.element) else None,
         effects=select_holding(
@@ -349,14 +349,14 @@ def _report_unknown_child(robot: Robot, joint: Joint, child: Element, alone: boo
     return Problem(
         joint,
         f"child '{name}' of joint '{joint.name}' is not a link{right}",
-        at=child.attribute_place("link"),
+        at=child.locate_attribute("link"),
         data={"suggestion": nearest(name, robot.link), "orphan": meant},
     )
 
 
 def _find_orphans(robot: Robot, joint: Joint) -> list[str]:
     """List the links without a parent joint that are not above a joint."""
-    above = {joint.parent, *robot.tree.ancestors(joint.parent)}
+    above = {joint.parent, *robot.tree.list_ancestors(joint.parent)}
     return [link.name for link in robot.tree.roots if link.name not in above]
 
 
@@ -475,7 +475,7 @@ def joint_to_itself(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"parent and child of joint '{joint.name}' are both link '{joint.child}'; write "
                 "two different links",
-                at=joint.child_element.attribute_place("link"),
+                at=joint.child_element.locate_attribute("link"),
                 effects=select_holding(_TO_ITSELF, _select_case(joint, robot)),
             )
 

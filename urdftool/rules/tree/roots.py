@@ -74,10 +74,10 @@ def _find_drake_roots(robot: Robot) -> set[str]:
     """Find the roots that a ``<drake:joint>`` connects to another link."""
     roots = {link.name for link in robot.tree.roots}
     found = set()
-    for joint in robot.element.all("drake:joint"):
+    for joint in robot.element.list_children("drake:joint"):
         if joint.get("type") in _STANDARD:
             continue  # Drake rejects it
-        parent, child = joint.child("parent"), joint.child("child")
+        parent, child = joint.find_child("parent"), joint.find_child("child")
         if parent is not None and child is not None and parent.get("link") in robot.link:
             found.add(child.get("link") or "")
     return found & roots
@@ -95,7 +95,9 @@ def _report_drake_roots(links: list[Link]) -> Problem:
 
 def _find_main_root(robot: Robot) -> Link:
     """Find the root with the most descendants; requires at least one root."""
-    return max(robot.tree.roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
+    return max(
+        robot.tree.roots, key=lambda link: sum(1 for _ in robot.tree.list_descendants(link.name))
+    )
 
 
 @rule(
@@ -114,7 +116,7 @@ def no_root(robot: Robot) -> Iterator[Problem]:
     if any(joint.parent == joint.child or joint.parent not in robot.link for joint in robot.joints):
         return
     cycle = _find_cycle(robot, robot.links[0])
-    joint = robot.tree.parent_joint(cycle[0].name)
+    joint = robot.tree.get_parent_joint(cycle[0].name)
     yield Problem(
         robot if joint is None else joint,
         _describe_missing_root(cycle),
@@ -157,7 +159,7 @@ def detached_cycle(robot: Robot) -> Iterator[Problem]:
             continue
         cycle = _find_cycle(robot, link)
         if len(cycle) > 1:
-            seen.update((cycle[0].name, *robot.tree.descendants(cycle[0].name)))
+            seen.update((cycle[0].name, *robot.tree.list_descendants(cycle[0].name)))
             yield Problem(cycle[0], _describe_cycle(cycle))
 
 
@@ -185,7 +187,7 @@ def _find_cycles(robot: Robot) -> dict[str, list[Link]]:
         name = link.name
         while name in robot.link and name not in found and name not in above:
             above[name] = None
-            joint = robot.tree.parent_joint(name)
+            joint = robot.tree.get_parent_joint(name)
             if joint is None:
                 break
             name = joint.parent
@@ -207,7 +209,7 @@ def _find_cycle(robot: Robot, link: Link) -> list[Link]:
     name = link.name
     while name in robot.link and name not in above:
         above[name] = None
-        joint = robot.tree.parent_joint(name)
+        joint = robot.tree.get_parent_joint(name)
         if joint is None:
             return []
         name = joint.parent

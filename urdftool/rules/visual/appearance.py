@@ -90,12 +90,12 @@ def fully_transparent(robot: Robot) -> Iterator[Problem]:
             shown.append(material)
         else:
             if shown:
-                color = shown[0].element.child("color") or shown[0].element
+                color = shown[0].element.find_child("color") or shown[0].element
                 yield Problem(
                     link,
                     f"visual of link '{link.name}' is invisible (opacity 0); write 1 as the fourth "
                     "number of rgba",
-                    at=color.attribute_place("rgba"),
+                    at=color.locate_attribute("rgba"),
                 )
 
 
@@ -132,7 +132,7 @@ def empty_material_name(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     link,
                     f"a material of link '{link.name}' has an empty name; write a unique name",
-                    at=element.attribute_place("name"),
+                    at=element.locate_attribute("name"),
                 )
 
 
@@ -153,7 +153,7 @@ def name_by_color(problem: Problem, context: FixContext) -> Proposal | None:
             continue
         if material.color is None or any(not 0 <= part <= 1 for part in material.color):
             return None
-        if is_computed(material.element.child("color") or material.element, "rgba"):
+        if is_computed(material.element.find_child("color") or material.element, "rgba"):
             return None
         name = "rgba_" + "".join(f"{round(part * 255):02x}" for part in material.color)
         known = {m.name: m.color for m in context.robot.materials}
@@ -222,6 +222,6 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(
                 element,
                 f"texture '{uri}' does not exist: no file '{shorten_path(path)}'",
-                at=element.attribute_place("filename"),
+                at=element.locate_attribute("filename"),
                 data={"uri": uri},
             )

@@ -61,7 +61,7 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
                 first.element,
                 f"material '{name}' is not defined{times}"
                 + (suggest_name(name, defined) or "; add a <color>"),
-                at=first.element.attribute_place("name"),
+                at=first.element.locate_attribute("name"),
                 data={"material": name, "suggestion": nearest(name, defined)},
             )
 
@@ -147,7 +147,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 material.element,
                 f"material '{material.name}' is defined twice at the top level "
                 f"(first in line {other.place.line}{_describe_file(other, material)}); remove one",
-                at=material.element.attribute_place("name"),
+                at=material.element.locate_attribute("name"),
                 effects=(
                     "urdfdom, gz, gazebo-classic, pinocchio (top level)",
                     "drake",
@@ -171,7 +171,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"color of material '{material_.name}' differs from that in line "
                 f"{other.place.line}{_describe_file(other, material_)}; write a unique name",
-                at=material_.element.attribute_place("name"),
+                at=material_.element.locate_attribute("name"),
                 severity=WARNING,
                 effects=(f"urdfdom ({case})", "drake", f"pybullet ({case})"),
             )
@@ -226,7 +226,7 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
     to 255 as malformed and drops the material; other readers show a very bright color.
     """
     for material in _get_materials(robot):
-        color = material.element.child("color")
+        color = material.element.find_child("color")
         text = None if color is None else color.get("rgba")
         if color is None or text is None:
             continue
@@ -236,7 +236,7 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 material.element,
                 f"color '{text}'{of} {wrong}",
-                at=color.attribute_place("rgba"),
+                at=color.locate_attribute("rgba"),
                 data={"write": right},
             )
 

@@ -79,7 +79,7 @@ def call_suggested_macro(finding: Finding, context: FixContext) -> Proposal | No
     if not data.startswith(b"<" + old, place.start):
         return None
     spans = [Span(place.file, place.start + 1, place.start + 1 + len(old), new)]
-    end = place.file.tag_end(place.start)
+    end = place.file.find_tag_end(place.start)
     if data[end - 2 : end] != b"/>":
         close = data.find(b"</" + old, end)
         if close < 0 or data.find(b"<" + old, end, close) >= 0:
@@ -130,7 +130,7 @@ def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     root = re.search(rb"<robot\b", re.sub(rb"<!--.*?-->", _blank_out, file.data, flags=16))
     if root is None:
         return None
-    at = file.tag_end(root.start())
+    at = file.find_tag_end(root.start())
     if root.start() <= place.start < at:  # xacro expands the attributes before the children
         return None
     following = re.match(rb"\s*?(\r?\n[ \t]*)(?=\S)", file.data[at:])
@@ -236,7 +236,7 @@ def write_boolean(finding: Finding, context: FixContext) -> Proposal | None:
     """Write ``true`` for ``yes``, ``false`` for ``no``, and a comparison as an expression."""
     place = finding.location
     start = _find_tag_start(place.file, place.start)
-    span = place.file.attribute_spans(start).get("value")
+    span = place.file.locate_attributes(start).get("value")
     if span is None:
         return None
     text = place.file.data[span[0] : span[1]].decode(place.file.encoding, "replace")

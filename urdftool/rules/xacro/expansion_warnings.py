@@ -73,7 +73,7 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
 def _is_the_constant(name: str, place: Place) -> bool:
     """Tell whether a property defines pi, e or tau with its correct value, to four digits."""
     value = getattr(math, name, None)
-    span = place.file.attribute_spans(place.start).get("value")
+    span = place.file.locate_attributes(place.start).get("value")
     if not isinstance(value, float) or span is None:
         return False
     text = place.file.data[span[0] : span[1]].decode(place.file.encoding, "replace")
@@ -94,7 +94,7 @@ def _find_parameter(description: Description, name: str, call: Place) -> Place |
     macro = called[1].rpartition(".")[2] if called is not None else ""
     for element in get_definitions(description).macros.get(macro, []):
         if re.search(rf"(?<![\w*]){re.escape(name)}(?!\w)", element.get("params") or ""):
-            return element.attribute_place("params")
+            return element.locate_attribute("params")
     return None
 
 
@@ -152,7 +152,7 @@ def unknown_xacro_attribute(description: Description) -> Iterator[Problem]:
     for match, root, place in _match_warnings(description, _ATTRIBUTE):
         names = match[2].split(", ")
         at = place
-        spans = place.file.attribute_spans(place.start)
+        spans = place.file.locate_attributes(place.start)
         if names[0] in spans:
             at = Place(place.file, *spans[names[0]], place.calls)
         yield Problem(

@@ -115,7 +115,7 @@ def _find_expressions(element: Element) -> Iterator[tuple[Element, str, Place | 
     """Yield values with an expression: the element, the text, and the place of its attribute."""
     for name, text in element.attributes.items():
         if is_unexpanded(text):
-            yield element, text, element.attribute_place(name)
+            yield element, text, element.locate_attribute(name)
     text = element.text
     if text and is_unexpanded(text):
         yield element, " ".join(text.split()), None

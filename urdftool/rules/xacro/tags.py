@@ -44,7 +44,7 @@ def nonstandard_xmlns(document: Document) -> Iterator[Problem]:
         yield Problem(
             root,
             f"xacro namespace is '{name}'; write {XMLNS}",
-            at=root.attribute_place("xmlns:xacro"),
+            at=root.locate_attribute("xmlns:xacro"),
             group=f"{{count}} files have a xacro namespace other than {XMLNS}",
         )
 

@@ -37,7 +37,7 @@ def _find_matches(
         for name, value in element.attributes.items():
             match = pattern.search(value) if "$" in value else None
             if match is not None:
-                yield element, match, element.attribute_place(name)
+                yield element, match, element.locate_attribute(name)
         match = pattern.search(element.text) if "$" in element.text else None
         if match is not None and not element.children:
             yield element, match, element

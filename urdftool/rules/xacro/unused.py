@@ -71,7 +71,7 @@ def unused_arg(description: Description) -> Iterator[Problem]:
         yield Problem(
             element,
             f"argument '{name}' is never used; write $(arg {name}), or remove it",
-            at=element.attribute_place("name"),
+            at=element.locate_attribute("name"),
         )
 
 
@@ -108,7 +108,7 @@ def unused_property(description: Description) -> Iterator[Problem]:
             yield Problem(
                 element,
                 f"property '{name}' is never used; remove it",
-                at=element.attribute_place("name"),
+                at=element.locate_attribute("name"),
             )
 
 
@@ -137,7 +137,7 @@ def unused_macro(description: Description) -> Iterator[Problem]:
             yield Problem(
                 element,
                 f"macro '{name}' is never called; remove it",
-                at=element.attribute_place("name"),
+                at=element.locate_attribute("name"),
             )
 
 
@@ -190,7 +190,7 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
                 element,
                 f"macro '{name}' has a second, different definition (first in {where}); "
                 "rename one of them",
-                at=element.attribute_place("name"),
+                at=element.locate_attribute("name"),
             )
 
 
@@ -233,7 +233,7 @@ def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
                         f"<{element.tag} name=\"{name}\"> in macro '{macro.get('name')}' does "
                         "not use "
                         f"'{parameters[0]}'; write ${{{parameters[0]}}}{name}",
-                        at=element.attribute_place("name"),
+                        at=element.locate_attribute("name"),
                         data={"write": f"${{{parameters[0]}}}{name}"},
                     )
 

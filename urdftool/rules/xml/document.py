@@ -149,7 +149,7 @@ def missing_name(description: Description) -> Iterator[Problem]:
         elements.insert(0, root)
     for element in elements:
         if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
-            at = element.attribute_place("name") if "name" in element.attributes else None
+            at = element.locate_attribute("name") if "name" in element.attributes else None
             severity = WARNING if element.tag == "transmission" else ERROR
             case = (f"a {element.tag}", *["a link or joint"] * (element.tag in ("link", "joint")))
             yield Problem(

@@ -49,13 +49,13 @@ def propose_urdf_spelling(element: Element, parent: Element) -> Proposal | None:
         return _convert_pose(element, parent, text)
     if inside == "joint" and tag == "joint_properties":
         known = {"damping", "friction"}
-        if parent.child("dynamics") is None and known & element.attributes.keys() <= known:
+        if parent.find_child("dynamics") is None and known & element.attributes.keys() <= known:
             extra = [remove_attribute(element, n) for n in element.attributes if n not in known]
             if known & element.attributes.keys():
                 return unsafe("write <dynamics>", *extra, rename_element(element, "dynamics"))
         return None
     if inside == "joint" and tag in ("damping", "friction") and not element.attributes:
-        if number(text) is not None and parent.child("dynamics") is None:
+        if number(text) is not None and parent.find_child("dynamics") is None:
             if sum(child.tag in ("damping", "friction") for child in parent.children) == 1:
                 return unsafe(
                     f'write <dynamics {tag}="{text}"/>',
@@ -77,7 +77,7 @@ def move_out_of_geometry(element: Element, geometry: Element) -> Proposal | None
     shape = geometry.parent
     if shape is None or element.tag not in VOCABULARY[shape.tag].children:
         return None
-    if shape.child(element.tag) is not None:
+    if shape.find_child(element.tag) is not None:
         return None
     if not (is_written_inside(element, geometry) and is_written_inside(geometry, shape)):
         return None
@@ -94,7 +94,10 @@ def _convert_pose(element: Element, parent: Element, text: str) -> Proposal | No
         return None
     if not any(values):
         return safe("remove it: it is the identity", remove_element(element))
-    if parent.tag not in ("visual", "collision", "inertial") or parent.child("origin") is not None:
+    if (
+        parent.tag not in ("visual", "collision", "inertial")
+        or parent.find_child("origin") is not None
+    ):
         return None
     words = text.split()
     line = f'<origin xyz="{" ".join(words[:3])}" rpy="{" ".join(words[3:])}"/>'

@@ -41,7 +41,7 @@ def immense_number(robot: Robot, *, largest: float = 1e30) -> Iterator[Problem]:
                         f'{name}="{text}" of <{element.tag}> in {part.element.tag} '
                         f"'{part.element.get('name') or ''}' is above {largest:g}; write a "
                         "plausible number",
-                        at=element.attribute_place(name),
+                        at=element.locate_attribute(name),
                     )
 
 

@@ -89,7 +89,7 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     element,
                     _describe_arity(element, name, len(words), count),
-                    at=element.attribute_place(name),
+                    at=element.locate_attribute(name),
                     effects=select_read_effects(
                         select_holding(_WRONG_ARITY, *_get_conditions(element), amount),
                         element,
@@ -208,7 +208,7 @@ def report_invalid_numbers(robot: Robot) -> Iterator[Problem]:
     """
     parts = (*robot.links, *robot.joints, *robot.materials)
     walked = [(part.element, element) for part in parts for element in part.element.walk()]
-    origin = robot.element.child("origin")
+    origin = robot.element.find_child("origin")
     for holder, element in walked if origin is None else [*walked, (robot.element, origin)]:
         kind = VOCABULARY.get(element.tag)
         for name, count in kind.numbers.items() if kind is not None else ():
@@ -217,7 +217,7 @@ def report_invalid_numbers(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     holder,
                     _describe_invalid_attribute(element, name, text, count),
-                    at=element.attribute_place(name),
+                    at=element.locate_attribute(name),
                     data={"part": holder.tag, "element": element.tag, "attribute": name},
                 )
 
@@ -301,7 +301,7 @@ def _report_invalid_number(element: Element, name: str, fault: str, word: str) -
     return Problem(
         element,
         _describe_number(element, name, fault),
-        at=element.attribute_place(name),
+        at=element.locate_attribute(name),
         effects=select_read_effects(select_holding(_NOT_A_NUMBER, *conditions), element, name),
     )
 
@@ -405,7 +405,7 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
         return
     for tag, vectors in _VECTORS.items():
         for element in get_census(robot).known[tag] if vectors else ():
-            spans = element.file.attribute_spans(element.start)
+            spans = element.file.locate_attributes(element.start)
             for name, count in vectors:
                 if name not in spans:
                     continue
@@ -417,7 +417,7 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
                         element,
                         f"{name} of <{tag}> in {describe_owner(element)} has a tab or line break "
                         "between its numbers; write single spaces",
-                        at=element.attribute_place(name),
+                        at=element.locate_attribute(name),
                         effects=select_read_effects(
                             select_holding(_TABBED_VECTOR, *_get_conditions(element), amount),
                             element,

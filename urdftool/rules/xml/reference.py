@@ -51,7 +51,7 @@ def _report_padded(element: Element, attribute: str, text: str) -> Problem:
         element,
         f"{attribute} of <{element.tag}> is '{text}', with a space at its start or end; "
         f"write '{text.strip()}'",
-        at=element.attribute_place(attribute),
+        at=element.locate_attribute(attribute),
     )
 
 

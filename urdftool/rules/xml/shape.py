@@ -73,7 +73,7 @@ def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
     parent = element.parent
     if parent is None:
         return None
-    one = parent.child(element.tag)
+    one = parent.find_child(element.tag)
     if one is None or one is element:
         return None
     if are_equal_elements(one, element) or element.tag == "material":
@@ -121,8 +121,8 @@ def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     changes: list[Change] = []
     for other in list_shapes(geometry)[1:]:
-        inside = [line for c in part.all("origin") for line in get_written_lines(c)]
-        material = [line for c in part.all("material") for line in get_written_lines(c)]
+        inside = [line for c in part.list_children("origin") for line in get_written_lines(c)]
+        material = [line for c in part.list_children("material") for line in get_written_lines(c)]
         lines = (
             f"<{part.tag}>",
             *(f"\t{line}" for line in inside),
@@ -155,7 +155,7 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
     for link, shape in robot.shapes:
         if shape.geometry is not None:
             continue
-        element = shape.element.child("geometry")
+        element = shape.element.find_child("geometry")
         if element is None and "geometry" in find_misspelled_children(shape.element).values():
             continue
         at = element if element is not None else shape
@@ -171,7 +171,7 @@ def report_empty_geometries(robot: Robot) -> Iterator[Problem]:
 
 
 def _describe_missing_shape(link: Link, shape: Visual | Collision) -> str:
-    kind, element = shape.element.tag, shape.element.child("geometry")
+    kind, element = shape.element.tag, shape.element.find_child("geometry")
     what = "no <geometry>" if element is None else "an empty <geometry>"
     return f"{kind} of link '{link.name}' has {what}; write a shape, or remove the {kind}"
 
@@ -184,15 +184,19 @@ def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
         element = element.parent
     if element is None or find_misspelled_children(element):
         return None
-    geometry = element.child("geometry")
+    geometry = element.find_child("geometry")
     if geometry is not None and geometry.children:
         return None
     link = element.parent
     other = "collision" if element.tag == "visual" else "visual"
-    shapes = [g for c in link.all(other) for g in c.all("geometry")] if link is not None else []
+    shapes = (
+        [g for c in link.list_children(other) for g in c.list_children("geometry")]
+        if link is not None
+        else []
+    )
     if len(shapes) == 1 and len(shapes[0].children) == 1:
         lines = tuple(get_written_lines(shapes[0]))
-        origin = element.child("origin")
+        origin = element.find_child("origin")
         if geometry is not None:
             change = replace_element(geometry, lines)
         elif origin is not None:

@@ -57,7 +57,7 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
     yield Problem(
         robot,
         f"URDF version '{version}' {what}; {remedy}",
-        at=robot.element.attribute_place("version"),
+        at=robot.element.locate_attribute("version"),
         data={"uses_newer": uses_newer},
     )
 
@@ -116,7 +116,7 @@ def _report_newer_features(robot: Robot, version: float) -> Iterator[Problem]:
                 yield Problem(
                     element,
                     f"readers of URDF 1.0 ignore quat_xyzw in {describe_owner(element)}; write rpy",
-                    at=element.attribute_place("quat_xyzw"),
+                    at=element.locate_attribute("quat_xyzw"),
                     effects=select_holding(_FEATURE_EFFECTS, "a quaternion"),
                 )
     if version < 1.2:
@@ -127,7 +127,7 @@ def _report_newer_features(robot: Robot, version: float) -> Iterator[Problem]:
                         element,
                         f"readers of URDF {version} ignore {name} of {describe_owner(element)}, "
                         "which requires 1.2",
-                        at=element.attribute_place(name),
+                        at=element.locate_attribute(name),
                         severity=INFO,
                         effects=select_holding(_FEATURE_EFFECTS, "a later limit"),
                     )
@@ -175,7 +175,7 @@ def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 element,
                 f"<origin> of {describe_owner(element)} has both rpy and quat_xyzw; write only rpy",
-                at=element.attribute_place("quat_xyzw"),
+                at=element.locate_attribute("quat_xyzw"),
             )
 
 

@@ -236,7 +236,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
     if word is None:
         return None
-    if parent.child(word) is not None and word not in VOCABULARY[parent.tag].many:
+    if parent.find_child(word) is not None and word not in VOCABULARY[parent.tag].many:
         return None
     return unsafe(f"write <{word}>", rename_element(element, word))
 
@@ -281,7 +281,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             first,
             f"{_describe(first)}{_format_count(elements)} has the unknown {words} {which}; "
             f"URDF readers ignore {them}",
-            at=first.attribute_place(names[0]),
+            at=first.locate_attribute(names[0]),
             severity=severity,
             effects=select_holding(_ATTRIBUTE_EFFECTS),
             alike=(first.tag, len(names) > 1, len(elements) > 1),
@@ -330,7 +330,7 @@ def _suggest_attribute(element: Element, name: str) -> str | None:
 def _report_misspelled_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
     for name in _iterate_unknown_attributes(element, known):
         what = f"{_describe(element)} has the unknown attribute '{name}'"
-        at = element.attribute_place(name)
+        at = element.locate_attribute(name)
         kind = (element.tag, name)
         if kind in _ATTRIBUTE_REMEDIES:
             effects = select_holding(_ATTRIBUTE_EFFECTS)
@@ -410,13 +410,13 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
                 lower = name.lower()
                 if name != lower and lower in known and lower not in element.attributes:
                     what = f"{_describe(element)} has the unknown attribute '{name}'; write {lower}"
-                    yield Problem(element, what, at=element.attribute_place(name))
+                    yield Problem(element, what, at=element.locate_attribute(name))
     for joint in robot.joints:
         if joint.type != joint.type.lower() and joint.type.lower() in _TYPES:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' has type '{joint.type}'; write {joint.type.lower()}",
-                at=joint.element.attribute_place("type"),
+                at=joint.element.locate_attribute("type"),
             )
 
 
@@ -459,7 +459,7 @@ def write_lower_case(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     parent, lower = element.parent, element.tag.lower()
     if parent is None or (
-        parent.child(lower) is not None and lower not in VOCABULARY[parent.tag].many
+        parent.find_child(lower) is not None and lower not in VOCABULARY[parent.tag].many
     ):
         return None
     make = safe if parent.tag == "joint" and lower in ("parent", "child") else unsafe

@@ -170,7 +170,7 @@ def _is_of_sdf(element: Element) -> bool:
 
 def is_for_another_reader(root: Element) -> bool:
     """Tell whether a robot has elements of Drake or MuJoCo, which other readers ignore."""
-    if "xmlns:drake" in root.attributes or root.child("mujoco") is not None:
+    if "xmlns:drake" in root.attributes or root.find_child("mujoco") is not None:
         return True
     shapes = DIALECTS["geometry"]
     return any(

@@ -64,7 +64,7 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
 def _open_loops(robot: Robot) -> Iterator[Fault]:
     """Report joints of SDF in ``<gazebo>`` that would close a loop of the URDF tree."""
     for block in robot.gazebo:
-        for element in () if block.reference else block.element.all("joint"):
+        for element in () if block.reference else block.element.list_children("joint"):
             yield Fault(
                 "loop-open",
                 Severity.INFO,

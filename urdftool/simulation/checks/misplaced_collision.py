@@ -48,7 +48,7 @@ def explain_misplaced_collision(
     around = _is_housing(box, shown_box, snapshot, link, other)
     if around and bodies[other].parent == own:
         return None
-    there = snapshot.link_pose(link).inverse() @ snapshot.get_pose(other)
+    there = snapshot.link_pose(link).invert() @ snapshot.get_pose(other)
     at = {name: there @ place for name, place in bodies[other].places.items()}
     touches = _build_collision_solids(robot, snapshot, own, link)
     theirs = _make_union(
@@ -184,7 +184,7 @@ def _is_housing(
     """
     bodies = snapshot.bodies.bodies
     own = snapshot.get_body(link)
-    place = bodies[own].places[link].inverse()
+    place = bodies[own].places[link].invert()
     centre, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
     if bodies[other].parent == own:  # the joint is the neighbour's
         joint = np.array((place @ bodies[other].origin).translation)

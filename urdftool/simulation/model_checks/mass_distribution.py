@@ -135,7 +135,7 @@ def _measure_extent_around(
     if has_shapes(robot, link.name) and not all_links:
         return measure_extent(robot, link.name)
     body = next(body for body in run.bodies.bodies if link.name in body.links)
-    back = body.places[link.name].inverse()
+    back = body.places[link.name].invert()
     found = []
     for name in body.links:
         extent = measure_extent(robot, name)

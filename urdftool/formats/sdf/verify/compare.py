@@ -70,7 +70,7 @@ class Pair:
             found = self.made.frames.get(self.link(name))
             if found is not None:
                 return found[0], found[1] @ inside
-            joint = self.robot.tree.parent_joint(name)
+            joint = self.robot.tree.get_parent_joint(name)
             if joint is None or not joint.is_fixed:
                 return None
             inside, name = get_pose(joint.origin) @ inside, joint.parent
@@ -157,7 +157,7 @@ def _check_tree(pair: Pair) -> Check:
             )
             (check.announced if excused else check.differing).append(f"{joint.name}: {text}")
     planar = {f"{name}{end}" for name in pair.excuses.motion for end in ("_x", "_y")}
-    closing = {e.get("name") for b in pair.robot.gazebo for e in b.element.all("joint")}
+    closing = {e.get("name") for b in pair.robot.gazebo for e in b.element.list_children("joint")}
     for name, other in made.items():
         if other.moves and name not in planar:
             said = name in closing or re.sub(r"_\d+$", "", name) in closing
@@ -185,7 +185,7 @@ def _get_tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple
 def _get_body(pair: Pair, link: str) -> str:
     """Return the body that holds a link; without frames, the nearest above over fixed joints."""
     while pair.link(link) not in pair.made.frames:
-        joint = pair.robot.tree.parent_joint(link)
+        joint = pair.robot.tree.get_parent_joint(link)
         if joint is None or not joint.is_fixed:
             return "nothing"
         link = joint.parent

@@ -60,7 +60,7 @@ class Excuses:
 def sort_excuses(losses: list[Finding], robot: Robot) -> Excuses:
     """Sort losses by the differences that they explain."""
     blocks = (block.element for block in robot.gazebo if not block.reference)
-    more = any(block.child(tag) for block in blocks for tag in ("link", "model", "include"))
+    more = any(block.find_child(tag) for block in blocks for tag in ("link", "model", "include"))
     made = Excuses(massy=more)
     declared: set[tuple[str, str]] = set()
     for loss in losses:
@@ -76,7 +76,7 @@ def sort_excuses(losses: list[Finding], robot: Robot) -> Excuses:
             made.motion.add(name)
             joint = robot.joint.get(name)
             if joint is not None:
-                below = {joint.child, *robot.tree.descendants(joint.child)}
+                below = {joint.child, *robot.tree.list_descendants(joint.child)}
                 made.frames |= below
                 made.shapes |= below
                 made.heavy |= {j.name for link in below for j in _get_parent_joints(robot, link)}
@@ -114,8 +114,8 @@ def _is_moved_by_parents(robot: Robot, name: str) -> bool:
 
 def _get_parent_joints(robot: Robot, link: str) -> list[Joint]:
     chain = []
-    for name in (link, *robot.tree.ancestors(link)):
-        joint = robot.tree.parent_joint(name)
+    for name in (link, *robot.tree.list_ancestors(link)):
+        joint = robot.tree.get_parent_joint(name)
         if joint is not None:
             chain.append(joint)
     return chain

@@ -64,7 +64,7 @@ def compare_base(pair: Pair) -> Check:
 def _place(pair: Pair) -> Array:
     """Return the pose of the model: from a block, else from the robot's origin."""
     pose = np.eye(4)
-    origin = pair.robot.element.child("origin")
+    origin = pair.robot.element.find_child("origin")
     if origin is not None:
         xyz, rpy = (
             parse_numbers(origin.get(name), 3) or (0.0, 0.0, 0.0) for name in ("xyz", "rpy")
@@ -93,7 +93,7 @@ def _compare_held(pair: Pair, check: Check) -> None:
     anchored = any(root.name == "world" for root in pair.robot.tree.roots)
     expected: dict[str, str] = {}
     for name in pair.robot.tree.order:
-        joint = pair.robot.tree.parent_joint(name)
+        joint = pair.robot.tree.get_parent_joint(name)
         stays = joint is None or not (joint.is_fixed or joint.name in pair.excuses.motion)
         if joint is not None and joint.parent == "world" and not anchored:
             stays = stays and name != "world"

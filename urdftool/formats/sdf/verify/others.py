@@ -117,7 +117,7 @@ def _compare_pose(
     if (
         link is None
         or owner not in pair.made.bodies
-        or (child is None and not element.child("pose"))
+        or (child is None and not element.find_child("pose"))
     ):
         return
     held = pair.place(name)
@@ -153,7 +153,7 @@ def _compare_loops(pair: Pair, check: Check) -> None:
         if made.get("type") != block.get("type"):
             check.compare(np.inf, f"joint '{name}' of a loop has another type")
         for end in ("parent", "child"):
-            child = block.child(end)
+            child = block.find_child(end)
             text = child.text.strip() if child is not None else ""
             held = pair.place(text.rpartition("::")[2])
             found = (made.findtext(end) or "").strip()

@@ -127,7 +127,7 @@ def _list_expected(pair: Pair) -> Iterator[Expected]:
             if element.tag == "plugin":
                 yield from _list_one(pair, element, owner)
             elif element.tag == "sensor":
-                for plugin in element.all("plugin"):
+                for plugin in element.list_children("plugin"):
                     if pair.options.classic or get_library(plugin) not in SENSOR_PLUGINS:
                         name = element.get("name") or f"{part.name}_sensor"
                         yield from _list_one(pair, plugin, name, inside=True)
@@ -162,7 +162,7 @@ def _list_one(
 
 def _set_moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
     """Set the offset of a plugin whose link was lumped into another, in Classic."""
-    child = element.child("bodyName")
+    child = element.find_child("bodyName")
     link = child.text.strip() if child is not None else ""
     held = pair.place(link)
     if not pair.options.classic or held is None or held[0] == pair.link(link):
@@ -181,7 +181,7 @@ def _offset(facts: Facts) -> Array:
 
 
 def _is_mimic(pair: Pair, element: Element) -> bool:
-    child = element.child("mimicJoint")
+    child = element.find_child("mimicJoint")
     joint = pair.robot.joint.get(child.text.strip()) if child is not None else None
     return joint is not None and joint.mimic is not None and pair.options.is_at_least("1.11")
 
@@ -226,8 +226,8 @@ def _get_system(pair: Pair, element: Element, owner: str, system: System) -> Exp
             said.append((new, repr((number(text) or 0.0) / 2)))
         elif text:
             said.append((new, text))
-    ros = element.child("ros")
-    maps = [e for tag in ("remapping", "argument") for e in (ros.all(tag) if ros else ())]
+    ros = element.find_child("ros")
+    maps = [e for tag in ("remapping", "argument") for e in (ros.list_children(tag) if ros else ())]
     for entry in maps:
         old, arrow, new_name = entry.text.strip().partition(":=")
         tag = system.remapped.get(old.strip()) if arrow else None

@@ -56,7 +56,7 @@ def get_sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
         return None
     joints = kind == "force_torque"
     tags = ("jointName", "joint_name") if joints else ("bodyName", "body_name")
-    named = [child.text.strip() for tag in tags for child in plugin.all(tag)]
+    named = [child.text.strip() for tag in tags for child in plugin.list_children(tag)]
     block = plugin.parent
     reference = (block.get("reference") if block is not None else None) or ""
     name = (named[0] if named else "") or reference
@@ -73,7 +73,7 @@ def list_sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
         name = block.element.get("reference")
         if name and name not in pair.robot.link and name not in pair.robot.joint:
             continue
-        for plugin in block.element.all("plugin"):
+        for plugin in block.element.list_children("plugin"):
             part = get_sensed_part(pair, plugin)
             if part is not None:
                 yield plugin, part
@@ -83,7 +83,7 @@ def offset_of(plugin: Element) -> Array:
     """Return the pose of a plugin's sensor in the frame of its link."""
     six: list[float] = []
     for word in ("xyz", "rpy"):
-        child = plugin.child(f"{word}Offset") or plugin.child(f"{word}_offset")
+        child = plugin.find_child(f"{word}Offset") or plugin.find_child(f"{word}_offset")
         three = parse_numbers(child.text, 3) if child is not None else None
         six += three or (0.0, 0.0, 0.0)
     return make_pose(rotate_by_angles(six[3:]), six[:3]) if any(six) else np.eye(4)
@@ -94,7 +94,7 @@ def get_noise(plugin: Element) -> Facts:
     facts: Facts = {}
     for table, word in ((NOISES, "stddev"), (OFFSETS, "mean")):
         for (name, tag), groups in table.items():
-            child = plugin.child(tag) if name == get_library(plugin) else None
+            child = plugin.find_child(tag) if name == get_library(plugin) else None
             one = number(child.text) if child is not None else None
             three = parse_numbers(child.text, 3) if child is not None else None
             values = three if one is None else (one, one, one)

@@ -180,11 +180,11 @@ def _list_expected(pair: Pair, part: Link | Joint, element: Element) -> Iterator
     facts["type"] = get_value(kinds.get(kind, kind))
     _translate_noise(element, facts)
     if not pair.options.classic:
-        for plugin in element.all("plugin"):
+        for plugin in element.list_children("plugin"):
             _take_over(pair, plugin, facts)
     name = element.get("name") or f"{part.name}_sensor"
     pose = get_pose_of_element(pair, part, element)
-    cameras = list(element.all("camera"))
+    cameras = list(element.list_children("camera"))
     if kind != "multicamera" or pair.options.classic:
         yield Expected(part, name, pose, facts)
         return
@@ -199,7 +199,7 @@ def _list_expected(pair: Pair, part: Link | Joint, element: Element) -> Iterator
 
 def get_pose_of_element(pair: Pair, part: Link | Joint, element: Element) -> Array:
     """Return the pose of an element of a block in the frame of its link."""
-    child = element.child("pose")
+    child = element.find_child("pose")
     values = parse_numbers(child.text, 6) if child is not None else None
     pose = make_pose(rotate_by_angles(values[3:]), values[:3]) if values is not None else np.eye(4)
     frame = child.get("relative_to") if child is not None else None
@@ -211,22 +211,22 @@ def get_pose_of_element(pair: Pair, part: Link | Joint, element: Element) -> Arr
 
 def _translate_noise(element: Element, facts: Facts) -> None:
     """Convert IMU noise from the format before SDF 1.5, axis by axis."""
-    imu = element.child("imu")
-    noise = imu.child("noise") if imu is not None else None
+    imu = element.find_child("imu")
+    noise = imu.find_child("noise") if imu is not None else None
     if noise is None:
         return
     for path in [path for path in facts if path.startswith("imu/noise")]:
         del facts[path]
-    kind = noise.child("type")
+    kind = noise.find_child("type")
     for old, new in (("rate", "angular_velocity"), ("accel", "linear_acceleration")):
-        holder = noise.child(old)
+        holder = noise.find_child(old)
         for axis in "xyz" if holder is not None else "":
             path = f"imu/{new}/{axis}/noise"
             if holder is None or any(known.startswith(path) for known in facts):
                 continue
             facts[f"{path}@type"] = get_value(kind.text if kind is not None else "gaussian")
             for word in ("mean", "stddev", "bias_mean", "bias_stddev"):
-                child = holder.child(word)
+                child = holder.find_child(word)
                 if child is not None and number(child.text) is not None:
                     facts[f"{path}/{word}"] = get_value(child.text)
 
@@ -256,13 +256,15 @@ def _take_over(pair: Pair, plugin: Element, facts: Facts) -> None:
 
 def get_topic(plugin: Element, said: dict[str, str]) -> str:
     """Return the topic that a plugin publishes; empty if it sets none."""
-    ros = plugin.child("ros")
+    ros = plugin.find_child("ros")
     space = said.get("robotNamespace", "")
     topic = ""
     if ros is not None:
-        inner = ros.child("namespace")
+        inner = ros.find_child("namespace")
         space = inner.text.strip() if inner is not None else space
-        maps = [e.text.strip().split(":=") for e in ros.all("remapping") if ":=" in e.text]
+        maps = [
+            e.text.strip().split(":=") for e in ros.list_children("remapping") if ":=" in e.text
+        ]
         topic = maps[0][1] if maps else ""
     if not topic:
         topic = said.get("topicName") or said.get("imageTopicName") or ""

@@ -200,7 +200,7 @@ def get_digest(path: Path) -> str:
 def _sets_appearance(robot: Robot, link: Link) -> bool:
     """Tell whether ``<gazebo>`` sets the appearance of a link."""
     blocks = (block.element for block in robot.extensions.get(link.name, []))
-    return any(element.child(tag) for element in blocks for tag in ("material", "visual"))
+    return any(element.find_child(tag) for element in blocks for tag in ("material", "visual"))
 
 
 def _get_looks(robot: Robot, own: Material) -> tuple[tuple[float, ...] | None, str | None]:
