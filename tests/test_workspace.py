@@ -43,12 +43,12 @@ def folder(write):
         (lambda w: w.is_file("a\0"), ("is", "a\0"), False),
         (lambda w: w.is_folder("d"), ("is", "d"), True),
         (lambda w: w.exists_or_is_link("l"), ("there", "l"), True),
-        (lambda w: os.path.relpath(w.real_path("l")), ("real", "l"), "a"),
+        (lambda w: os.path.relpath(w.resolve_links("l")), ("real", "l"), "a"),
         (lambda w: [e.name for e in w.list_folder("d")], ("list", "d"), ["b"]),
         (lambda w: list(w.walk("d")), ("list", "d"), [("d", [], ["b"])]),
         (lambda w: w.list_matches("d", "*"), ("list", "d"), [Path("d/b")]),
         (lambda w: w.match("./?/b"), ("list", "."), ["./d/b"]),
-        (lambda w: w.variable("NONE_SUCH"), ("env", "NONE_SUCH"), None),
+        (lambda w: w.read_variable("NONE_SUCH"), ("env", "NONE_SUCH"), None),
     ],
 )
 def test_what_is_asked_is_answered_and_recorded(action, question, result):

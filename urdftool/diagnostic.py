@@ -124,17 +124,17 @@ class Diagnostic:
         return self.fixes[0] if self.fixes else None
 
 
-def remark(code: str, message: str, **data: Any) -> Diagnostic:
+def make_remark(code: str, message: str, **data: Any) -> Diagnostic:
     """Make a diagnostic of severity info that concerns no location."""
     return Diagnostic(code, Severity.INFO, message, data=data)
 
 
-def warning(code: str, message: str, **data: Any) -> Diagnostic:
+def make_warning(code: str, message: str, **data: Any) -> Diagnostic:
     """Make a diagnostic of severity warning that concerns no location."""
     return Diagnostic(code, Severity.WARNING, message, data=data)
 
 
-def deprecated_name(old: str, new: str) -> property:
+def make_deprecated_name(old: str, new: str) -> property:
     """Make a property that returns another attribute, with a deprecation warning.
 
     Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from .diagnostic import Diagnostic, deprecated_name
+from .diagnostic import Diagnostic, make_deprecated_name
 from .source.location import Call, Place
 
 Scope = Literal["robot", "repository"]
@@ -91,8 +91,8 @@ class Finding(Diagnostic):
     owner: str = ""
     moot: bool = False
 
-    rule = deprecated_name("rule", "code")
-    place = deprecated_name("place", "location")
+    rule = make_deprecated_name("rule", "code")
+    place = make_deprecated_name("place", "location")
 
     @property
     def names(self) -> list[str]:

@@ -9,7 +9,7 @@ from functools import lru_cache
 _NUMBER = re.compile(r"([0-9]+)")
 
 
-def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
+def find_nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
     """Return the known name nearest to an unknown one; empty if none is near.
 
     Names that differ only in case, ``_`` and ``-`` are nearest. Names that differ only by a number
@@ -47,7 +47,7 @@ def _is_numbered_alike(name: str, other: str) -> bool:
 
 def suggest_name(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
     """Return ``; did you mean 'x'?`` with the nearest known name; empty if none is near."""
-    near = nearest(name, known, cutoff)
+    near = find_nearest(name, known, cutoff)
     return f"; did you mean '{near}'?" if near else ""
 
 

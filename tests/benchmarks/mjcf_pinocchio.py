@@ -80,7 +80,7 @@ def compare(path: Path, made: Export, compiled: Compiled) -> dict[str, float]:
     data = model.createData()
     worst = dict.fromkeys(COLUMNS, 0.0)
     names = [name for j, name in enumerate(model.names) if j and model.joints[j].nv == 1]
-    dofs = compiled.dofs(names)
+    dofs = compiled.get_dofs(names)
     columns = [model.joints[model.getJointId(name)].idx_v for name in names]
     if min(dofs, default=0) < 0:
         worst["limits"] = math.inf
@@ -171,7 +171,7 @@ def _limits(model, names, compiled):
     mj = compiled.model
     for name in names:
         joint = model.joints[model.getJointId(name)]
-        number = compiled.id("JOINT", name)
+        number = compiled.get_id("JOINT", name)
         if number < 0:
             return math.inf
         pairs = [
@@ -217,7 +217,7 @@ def _collision(geometry, model, data, q, root, compiled):
     for number, shape in enumerate(geometry.geometryObjects):
         link = model.frames[shape.parentFrame].name
         index = int(shape.name.rpartition("_")[2])
-        body = 0 if link == "world" else compiled.id("BODY", link)
+        body = 0 if link == "world" else compiled.get_id("BODY", link)
         geoms = [
             g for g in range(compiled.model.ngeom)
             if compiled.model.geom_bodyid[g] == body and compiled.model.geom_group[g] == 3
@@ -241,6 +241,6 @@ def _geom_box(compiled, geom, frame):
 
         @staticmethod
         def geom_frame(number):
-            return np.linalg.inv(frame) @ compiled.geom_frame(number)
+            return np.linalg.inv(frame) @ compiled.get_geom_frame(number)
 
     return verify_shapes._compute_geom_bounds(Turned, geom)

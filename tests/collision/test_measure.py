@@ -81,6 +81,6 @@ def test_other_code_finds_the_same():
     ]
     for pieces in ([low], legs):
         found = measure(ReferenceSurface(surface), pieces)
-        theirs = max(reach_and_excess(surface.corners, pieces, surface.get_size, points=40_000))
+        theirs = max(reach_and_excess(surface.corners, pieces, surface.size, points=40_000))
         assert found.error == pytest.approx(theirs, rel=0.1)
         assert theirs <= TOO_LOW * found.error

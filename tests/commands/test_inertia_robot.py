@@ -228,7 +228,9 @@ def test_a_mesh_is_read_once_and_mirrored_where_it_is(urdftool, write, monkeypat
     write("cube.stl", (FIXTURES / "meshes" / "cube.stl").read_bytes())
     reads = []
     original = bodies.integrate_mesh_body
-    monkeypatch.setattr(bodies, "mesh_body", lambda p, **up: reads.append(p) or original(p, **up))
+    monkeypatch.setattr(
+        bodies, "integrate_mesh_body", lambda p, **up: reads.append(p) or original(p, **up)
+    )
     meshes = [f'<mesh filename="cube.stl" scale="{s}"/>' for s in ("1 1 1", "1 -1 1", "0.1 1 2")]
     path = write(
         "r.urdf", robot(*(link(n, geometry=m) for n, m in zip("abc", meshes, strict=True)))

@@ -94,9 +94,9 @@ def test_a_picture_needs_neither_viser_nor_a_port(arm, tmp_path):
 def test_neither_trimesh_nor_scipy_is_imported_for_shapes(arm):
     code = (
         "import sys\nfrom urdftool.viewer import page\nfrom urdftool.model.load import load\n"
-        "from urdftool.drawing.shapes import robot_shapes\n"
+        "from urdftool.drawing.shapes import read_robot_shapes\n"
         "from urdftool.viewer.render_mesh import list_render_meshes\n"
-        "list(list_render_meshes(robot_shapes(load(sys.argv[1]))))\n"
+        "list(list_render_meshes(read_robot_shapes(load(sys.argv[1]))))\n"
         "print([n for n in ('trimesh', 'scipy', 'yourdfpy', 'viser') if n in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code, arm], capture_output=True, text=True)

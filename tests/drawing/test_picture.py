@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from urdftool.drawing.camera import Camera
-from urdftool.drawing.picture import draw, png
+from urdftool.drawing.picture import draw
+from urdftool.drawing.png_file import encode_png
 from urdftool.drawing.shapes import make_bare_shapes, read_robot_shapes
 from urdftool.geometry.tessellate import tessellate
 from urdftool.model.kinematics import link_poses
@@ -262,12 +263,13 @@ def test_the_same_bytes_in_another_process(tmp_path):
     robot = read(tmp_path, link("a", visual(rgba="0.2 0.5 0.9 1"), visual(xyz="0 0.3 0.6")))
     program = (
         "import sys, hashlib\n"
-        "from urdftool.drawing.picture import draw, png\n"
-        "from urdftool.drawing.shapes import robot_shapes\n"
+        "from urdftool.drawing.picture import draw\n"
+        "from urdftool.drawing.png_file import encode_png\n"
+        "from urdftool.drawing.shapes import read_robot_shapes\n"
         "from urdftool.model.kinematics import link_poses\n"
         "from urdftool.model.load import load\n"
         "r = load(sys.argv[1])\n"
-        "data = png(draw(robot_shapes(r), link_poses(r), size=(160, 120)))\n"
+        "data = encode_png(draw(read_robot_shapes(r), link_poses(r), size=(160, 120)))\n"
         "print(hashlib.sha256(data).hexdigest())\n"
     )
     path = str(tmp_path / "r.urdf")
@@ -279,7 +281,9 @@ def test_the_same_bytes_in_another_process(tmp_path):
     }
     assert len(sums) == 1
     image = draw(read_robot_shapes(robot), link_poses(robot), size=(160, 120))
-    assert png(image) == png(draw(read_robot_shapes(robot), link_poses(robot), size=(160, 120)))
+    assert encode_png(image) == encode_png(
+        draw(read_robot_shapes(robot), link_poses(robot), size=(160, 120))
+    )
 
 
 def test_a_png_is_read_as_it_was(tmp_path):
@@ -288,7 +292,7 @@ def test_a_png_is_read_as_it_was(tmp_path):
     from PIL import Image
 
     pixels = np.random.default_rng(1).integers(0, 256, (17, 23, 3), dtype=np.uint8)
-    assert (np.asarray(Image.open(BytesIO(png(pixels)))) == pixels).all()
+    assert (np.asarray(Image.open(BytesIO(encode_png(pixels)))) == pixels).all()
 
 
 @pytest.mark.slow

@@ -53,7 +53,7 @@ def test_defects_bear_the_names_that_lint_explains():
     named = set()
     for path in FORMATS.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.Call) and ast.unparse(node.func) == "defect":
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "make_defect":
                 rules = [n for n in ast.walk(node.args[0]) if isinstance(n, ast.Constant)]
                 named.update(n.value for n in rules if "-" in str(n.value))
     own = {"too-deep"}  # a bound of MuJoCo

@@ -7,7 +7,7 @@ from urdftool.geometry.load import load_mesh
 from urdftool.geometry.mesh import Mesh, Part
 from urdftool.geometry.tessellate import tessellate
 from urdftool.geometry.thin import SMALL_FILE, ThinMeshes, content_key, thin
-from urdftool.inertia.bodies import cached_mesh_body, integrate_mesh_body
+from urdftool.inertia.bodies import get_cached_mesh_body, integrate_mesh_body
 from urdftool.storage import DiskCache
 
 
@@ -95,14 +95,14 @@ def test_materials_belong_to_the_content(tmp_path):
 
 def test_mass_properties_are_kept_by_content(heavy, tmp_path, monkeypatch):
     cache = DiskCache(tmp_path / "cache")
-    first = cached_mesh_body(heavy, cache)
+    first = get_cached_mesh_body(heavy, cache)
     plain = integrate_mesh_body(heavy)
-    monkeypatch.setattr("urdftool.inertia.bodies.mesh_body", None)
-    second = cached_mesh_body(heavy, cache)
+    monkeypatch.setattr("urdftool.inertia.bodies.integrate_mesh_body", None)
+    second = get_cached_mesh_body(heavy, cache)
     for body in (first, second):
         assert (body.unit, body.notes, body.method) == (plain.unit, plain.notes, plain.method)
         assert (body.lower == plain.lower).all()
         assert body.as_dict() == plain.as_dict()
     heavy.write_bytes(heavy.read_bytes()[:-1] + b"\1")
     with pytest.raises(TypeError):
-        cached_mesh_body(heavy, cache)
+        get_cached_mesh_body(heavy, cache)

@@ -13,7 +13,7 @@ from urdftool.graph.faults import find_faults
 from urdftool.graph.formatting import escape_controls
 from urdftool.graph.graphviz import FORMATS, DrawError, draw
 from urdftool.graph.marks import mark_faults
-from urdftool.graph.ros import ros_figure
+from urdftool.graph.ros import make_ros_figure
 
 STARTS = {"pdf": b"%PDF", "svg": b"<?xml", "png": b"\x89PNG"}
 SMALL = tree("ab", [("the joint", "a", "b")])
@@ -36,19 +36,19 @@ def links(svg):
 
 
 @pytest.mark.parametrize("format", FORMATS)
-@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
+@pytest.mark.parametrize("style", [make_ros_figure, create_detailed_figure])
 def test_pictures_are_drawn(format, style, capfd):
     assert draw(to_dot(style(SMALL)), format).startswith(STARTS[format])
     assert capfd.readouterr() == ("", "")
 
 
-@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
+@pytest.mark.parametrize("style", [make_ros_figure, create_detailed_figure])
 def test_every_name_is_in_the_picture(style):
     shown = texts(draw(to_dot(style(SMALL)), "svg"))
     assert {"a", "b", "the joint"} <= set(shown)
 
 
-@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
+@pytest.mark.parametrize("style", [make_ros_figure, create_detailed_figure])
 def test_hostile_names_are_drawn_as_they_are(style):
     svg = draw(to_dot(style(robot(hostile_text(HOSTILE))), "."), "svg")
     shown = [text.replace("\xa0", " ") for text in texts(svg)]
@@ -75,7 +75,7 @@ def test_no_name_of_a_file_becomes_another_link():
     assert target == "javascript%3Aalert%281%29%22x.urdf#L1"
 
 
-@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
+@pytest.mark.parametrize("style", [make_ros_figure, create_detailed_figure])
 def test_empty_names_do_not_break_graphviz(style):
     model = robot('<robot><link/><joint/><link name="a"/><joint name="n"/><link/></robot>')
     figure = style(model)
@@ -89,7 +89,7 @@ def test_empty_names_do_not_break_graphviz(style):
 def test_what_takes_too_long_is_stopped(monkeypatch):
     monkeypatch.setattr(drawing, "MAX_SECONDS", 0.05)
     names = [f"l{i}" for i in range(3000)]
-    text = to_dot(ros_figure(tree(names, [(f"j{b}", "l0", b) for b in names[1:]])))
+    text = to_dot(make_ros_figure(tree(names, [(f"j{b}", "l0", b) for b in names[1:]])))
     begin = time.monotonic()
     with pytest.raises(DrawError, match=r"edges in 0.05 s; .*--fold-fixed"):
         draw(text, "svg")
@@ -115,7 +115,7 @@ def test_text_that_is_no_graph_is_an_error():
     [lambda i: i - 1, lambda i: 0, lambda i: (i - 1) // 2, lambda i: (i * 7919) % i],
     ids=["chain", "star", "binary", "scattered"],
 )
-@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
+@pytest.mark.parametrize("style", [make_ros_figure, create_detailed_figure])
 def test_two_thousand_links_are_drawn_or_refused_in_a_minute(parent, style):
     names = [f"link_{i}" for i in range(2000)]
     model = tree(names, [(f"joint_{i}", names[parent(i)], names[i]) for i in range(1, 2000)])

@@ -5,7 +5,7 @@ from urdftool.graph.detailed import create_detailed_figure
 from urdftool.graph.faults import find_faults
 from urdftool.graph.fold import fold_fixed
 from urdftool.graph.marks import mark_faults
-from urdftool.graph.ros import ros_figure
+from urdftool.graph.ros import make_ros_figure
 from urdftool.lint.validate import validate
 
 CASES = {
@@ -44,7 +44,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("style", [ros_figure, create_detailed_figure])
+@pytest.mark.parametrize("style", [make_ros_figure, create_detailed_figure])
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_wrong_stands_on_its_node(case, style):
     model, expected = CASES[case]

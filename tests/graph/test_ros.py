@@ -9,7 +9,7 @@ from tests.conftest import CORPUS, FIXTURES
 from tests.graph.robots import HOSTILE, hostile_text, robot, tree
 from urdftool.errors import XmlError
 from urdftool.graph.dot import to_dot
-from urdftool.graph.ros import ros_figure
+from urdftool.graph.ros import make_ros_figure
 from urdftool.model.load import load, make_robot
 from urdftool.source.description import read_description
 from urdftool.source.document import read_file
@@ -21,7 +21,7 @@ TOOL = shutil.which("urdf_to_graphviz")
 
 
 def dot(model):
-    return to_dot(ros_figure(model))
+    return to_dot(make_ros_figure(model))
 
 
 def theirs(path, folder):
@@ -88,7 +88,7 @@ def lax(path, arguments):
 
 
 def test_children_come_in_the_order_of_their_joints_bytes():
-    figure = ros_figure(tree("abcd", [("z", "a", "b"), ("é", "a", "c"), ("B", "a", "d")]))
+    figure = make_ros_figure(tree("abcd", [("z", "a", "b"), ("é", "a", "c"), ("B", "a", "d")]))
     assert [node.name for node in figure.list_nodes("link")] == ["a", "d", "b", "c"]
 
 

@@ -13,7 +13,7 @@ from urdftool.inertia.estimate import estimate_mass_properties
 from urdftool.inertia.inertia_error import InertiaError
 from urdftool.inertia.polyhedron import compute_solid_moments
 from urdftool.inertia.requirements import is_consistent
-from urdftool.inertia.solids import compute_box
+from urdftool.inertia.solids import box
 from urdftool.mechanics.spatial_inertia import combine
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
@@ -117,7 +117,7 @@ def test_split_into_touching_bodies():
     both = trimesh.util.concatenate([left, right])
     got = estimate_mass_properties(both.vertices, np.asarray(both.faces), density=1.0)
     assert got.method == "exact"
-    wanted = move(compute_box((2, 1, 1), density=1.0), xyz=(0.5, 0, 0))
+    wanted = move(box((2, 1, 1), density=1.0), xyz=(0.5, 0, 0))
     assert differences(got.properties, wanted).max() < 1e-12
 
 
@@ -143,10 +143,8 @@ def test_cavity_that_is_inside_out_with_its_body():
     mesh = load_mesh(FIXTURES / "cavity.stl")
     got = estimate_mass_properties(mesh.vertices, mesh.faces[:, ::-1], density=1.0)
     assert got.volume == pytest.approx(0.875, rel=1e-12)
-    hole = compute_box((0.5, 0.5, 0.5), density=1.0).inertia
-    np.testing.assert_allclose(
-        got.properties.inertia, compute_box((1, 1, 1), density=1.0).inertia - hole
-    )
+    hole = box((0.5, 0.5, 0.5), density=1.0).inertia
+    np.testing.assert_allclose(got.properties.inertia, box((1, 1, 1), density=1.0).inertia - hole)
 
 
 def test_bodies_that_overlap_by_half_are_united():
@@ -214,7 +212,7 @@ def test_random_triangles_never_give_an_impossible_tensor():
 def test_several_meshes_combine():
     parts = [estimate("cube.stl", mass=1.0).properties for _ in range(2)]
     whole = combine([parts[0], move(parts[1], xyz=(1, 0, 0))])
-    np.testing.assert_allclose(whole.inertia, compute_box((2, 1, 1), mass=2.0).inertia, atol=1e-12)
+    np.testing.assert_allclose(whole.inertia, box((2, 1, 1), mass=2.0).inertia, atol=1e-12)
 
 
 @pytest.mark.corpus

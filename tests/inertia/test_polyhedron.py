@@ -13,7 +13,7 @@ from urdftool.inertia.polyhedron import (
     compute_signed_volume,
     compute_solid_moments,
 )
-from urdftool.inertia.solids import compute_box
+from urdftool.inertia.solids import box
 from urdftool.mechanics.tensor import compute_inertia_from_second_moment, from_matrix, to_matrix
 from urdftool.model.pose import rotation_from_rpy
 
@@ -92,7 +92,7 @@ def test_equals_trimesh(name):
 def test_box_by_mass():
     mesh = trimesh.creation.box((1, 2, 3))
     body = compute_solid_moments(mesh.vertices, np.asarray(mesh.faces)).with_mass(5.0)
-    np.testing.assert_allclose(body.inertia, compute_box((1, 2, 3), mass=5.0).inertia, atol=1e-12)
+    np.testing.assert_allclose(body.inertia, box((1, 2, 3), mass=5.0).inertia, atol=1e-12)
 
 
 def test_shell_of_a_sphere():

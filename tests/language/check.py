@@ -57,8 +57,10 @@ def _python(file: Path) -> Iterator[Remark]:
         kinds = (tokenize.STRING, tokenize.COMMENT, getattr(tokenize, "FSTRING_MIDDLE", -1))
         if token.type in kinds:
             yield from _text(file, token.start[0], token.string)
-    for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef):
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    nested = {inner for outer in functions for inner in ast.walk(outer) if inner is not outer}
+    for node in functions:
+        if node not in nested:
             yield from _function(file, node)
 
 
@@ -91,13 +93,17 @@ def _function(file: Path, node: ast.FunctionDef) -> Iterator[Remark]:
     if any(re.search(where, path) and re.fullmatch(name, node.name) for where, name, _ in NAMES):
         return
     start = node.name.lstrip("_").split("_")[0]
-    if start not in VERBS | PREDICATES and start not in ("to", "from", "as"):
+    if start not in VERBS | PREDICATES and start not in ("to", "from", "as", "with", "without"):
+        if re.search(r"[a-z]_from_[a-z]", node.name):
+            return
         yield Remark(path, node.lineno, "name", node.name, "begin with a verb")
 
 
 NAMES: tuple[tuple[str, str, str], ...] = (
     (r"xacro_tree|xacro_hooks", r".*", "named by xml.dom, which xacro calls"),
     (r"rules/rule\.py", r"rule|full", "decorators, which name what they make of a function"),
+    (r"inertia/solids\.py", r"[a-z_]+", "named by the solid; public"),
+    (r"lint/cache\.py", r"persistent_(?:id|load)", "named by pickle"),
     (r"rules/fix\.py", r"safe|unsafe", "make a proposal that is safe or unsafe"),
     (r"(?:terminal|console)\.py", r"isatty|fileno|flush|writable|readable", "named by io"),
 )

@@ -39,7 +39,7 @@ def no_check(monkeypatch):
         def refuse(*_):
             raise AssertionError("a file was checked that was known")
 
-        monkeypatch.setattr(run, "_lint_once", refuse)
+        monkeypatch.setattr(run, "_check_variant", refuse)
 
     return stop
 
@@ -242,7 +242,7 @@ def test_other_code_settings_folders_and_arguments_are_other_questions(
     with monkeypatch.context() as patch:
         patch.chdir(tmp_path.parent)
         assert lint(os.path.relpath(tmp_path / path)).code == 3
-    monkeypatch.setattr(cache_module, "_code", lambda: "another version")
+    monkeypatch.setattr(cache_module, "_hash_code", lambda: "another version")
     assert lint(path).code == 3
 
 
@@ -336,7 +336,7 @@ def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, mo
 
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     with monkeypatch.context() as patch:
-        patch.setattr(run, "_lint_once", slow)
+        patch.setattr(run, "_check_variant", slow)
         found = {finding.code for finding in run.check_file(path, options).findings}
     assert "missing-name" not in found
     options.cache = Cache(DiskCache(tmp_path / "kept"))

@@ -36,7 +36,7 @@ def lints(monkeypatch):
         paths.append(str(path))
         return check_file(path, options)
 
-    monkeypatch.setattr(fix_run, "lint_file", counted)
+    monkeypatch.setattr(fix_run, "check_file", counted)
     return paths
 
 

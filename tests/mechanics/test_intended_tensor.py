@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.mechanics.bodies import move
-from urdftool.inertia.solids import compute_box, compute_cylinder
+from urdftool.inertia.solids import box, cylinder
 from urdftool.mechanics.tensor import (
     from_matrix,
     get_diagonal,
@@ -17,7 +17,7 @@ from urdftool.model.bounds import Bounds
 from urdftool.model.pose import rotation_from_rpy
 
 SIZE = (0.1, 0.2, 0.4)
-BODY = compute_box(SIZE, mass=2.0)
+BODY = box(SIZE, mass=2.0)
 AROUND = Bounds((-0.05, -0.1, -0.2), (0.05, 0.1, 0.2))
 TURNED = move(BODY, xyz=(0.02, 0.03, 0.05), rpy=(0.3, 0.2, 0.4))
 
@@ -95,7 +95,7 @@ def test_frame_of_the_inertial():
 
 
 def test_one_value_copied_to_all_axes():
-    body = compute_box((1, 1, 0.5), mass=1024)
+    body = box((1, 1, 0.5), mass=1024)
     found = asked(make_diagonal_tensor(170.667, 170.667, 170.667), body)
     assert found is not None
     assert found.kind == "copied"
@@ -116,7 +116,7 @@ def test_box_alone_is_enough_where_only_one_repair_is_possible():
 
 @pytest.mark.parametrize(
     "tensor",
-    [BODY.tensor, scaled(BODY.tensor, 1.2), compute_cylinder(0.09, 0.4, mass=2.0).tensor],
+    [BODY.tensor, scaled(BODY.tensor, 1.2), cylinder(0.09, 0.4, mass=2.0).tensor],
     ids=["right", "heavier outside", "another shape"],
 )
 def test_what_fits_is_left_alone(tensor):

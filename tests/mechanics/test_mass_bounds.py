@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.inertia.solids import compute_box
+from urdftool.inertia.solids import box
 from urdftool.mechanics.mass_bounds import check_com, check_spread, spread_ratio
 from urdftool.mechanics.spatial_inertia import SpatialInertia, combine
 from urdftool.model.bounds import Bounds
@@ -30,13 +30,13 @@ def test_two_lumps_in_opposite_corners_reach_it():
 
 
 def test_a_solid_box_has_a_third():
-    body = compute_box((1, 2, 3), mass=4)
+    body = box((1, 2, 3), mass=4)
     around = Bounds((-0.5, -1.0, -1.5), (0.5, 1.0, 1.5))
     assert ratio(body, around, rounding=0.0) == pytest.approx(1 / 3)
 
 
 def test_square_millimeters_and_a_center_outside():
-    body = compute_box((0.1, 0.1, 0.1), mass=1)
+    body = box((0.1, 0.1, 0.1), mass=1)
     around = Bounds((-0.05,) * 3, (0.05,) * 3)
     wrong = SpatialInertia(1.0, body.com, tuple(1e6 * value for value in body.tensor))
     assert ratio(wrong, around) > 30

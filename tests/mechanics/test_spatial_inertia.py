@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.inertia.solids import compute_box, compute_cylinder
+from urdftool.inertia.solids import box, cylinder
 from urdftool.mechanics.spatial_inertia import SpatialInertia, combine
 from urdftool.mechanics.tensor import compute_principal_moments, make_diagonal_tensor
 from urdftool.model.pose import Pose, rotation_from_rpy
@@ -18,15 +18,15 @@ angles = st.tuples(number, number, number)
 
 
 def test_two_half_boxes_are_a_box():
-    half = compute_box((0.5, 1.0, 2.0), mass=2.0)
+    half = box((0.5, 1.0, 2.0), mass=2.0)
     both = combine(half.transform(Pose(translation=(x, 0.0, 0.0))) for x in (-0.25, 0.25))
     assert both.mass == 4.0
     assert both.com == (0.0, 0.0, 0.0)
-    assert both.tensor == pytest.approx(compute_box((1.0, 1.0, 2.0), mass=4.0).tensor, abs=1e-14)
+    assert both.tensor == pytest.approx(box((1.0, 1.0, 2.0), mass=4.0).tensor, abs=1e-14)
 
 
 def test_a_body_of_no_mass_adds_nothing():
-    body = compute_box((1.0, 1.0, 1.0), mass=2.0)
+    body = box((1.0, 1.0, 1.0), mass=2.0)
     assert combine([body, SpatialInertia()]) == body
     assert combine([SpatialInertia(), SpatialInertia()]) == SpatialInertia()
 
@@ -38,7 +38,7 @@ def test_sums_beyond_the_range_of_floats_are_infinite():
 
 @given(positive, positive, positive, positive, angles, angles)
 def test_moving_keeps_the_principal_moments(mass, a, b, c, rpy, at):
-    body = compute_box((a, b, c), mass=mass)
+    body = box((a, b, c), mass=mass)
     moved = body.transform(Pose(rotation_from_rpy(rpy), at))
     # equal moments are good to half the digits
     wanted = compute_principal_moments(body.tensor)
@@ -57,9 +57,7 @@ def test_moments_of_a_rotated_rod():
 def test_moment_about_an_axis(point, axis, rpy):
     if math.hypot(*axis) < 0.01:
         return
-    body = compute_cylinder(0.1, 0.4, mass=2.0).transform(
-        Pose(rotation_from_rpy(rpy), (0.3, -0.2, 0.1))
-    )
+    body = cylinder(0.1, 0.4, mass=2.0).transform(Pose(rotation_from_rpy(rpy), (0.3, -0.2, 0.1)))
     unit = np.array(axis) / np.linalg.norm(axis)
     away = np.cross(np.subtract(body.com, point), unit)
     wanted = unit @ body.inertia @ unit + body.mass * away @ away
@@ -67,6 +65,6 @@ def test_moment_about_an_axis(point, axis, rpy):
 
 
 def test_another_mass_keeps_the_shape():
-    body = compute_box((1.0, 2.0, 3.0), density=1e-200)
+    body = box((1.0, 2.0, 3.0), density=1e-200)
     heavy = body.with_mass(2.0)
-    assert heavy.tensor == pytest.approx(compute_box((1.0, 2.0, 3.0), mass=2.0).tensor, rel=1e-12)
+    assert heavy.tensor == pytest.approx(box((1.0, 2.0, 3.0), mass=2.0).tensor, rel=1e-12)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.mechanics.bodies import move
 from urdftool.inertia import requirements
 from urdftool.inertia.inertia_error import InertiaError
-from urdftool.inertia.solids import compute_box, compute_cylinder
+from urdftool.inertia.solids import box, cylinder
 from urdftool.mechanics import tensor as t
 from urdftool.mechanics.spatial_inertia import SpatialInertia, combine
 from urdftool.model.pose import rotation_from_rpy
@@ -45,7 +45,7 @@ def gauss_box(size):
 @given(vectors, turns)
 def test_move_equals_numerical_integration(xyz, rpy):
     points, weights = gauss_box((1.0, 2.0, 0.5))
-    moved = move(compute_box((1.0, 2.0, 0.5), mass=1.0), xyz=xyz, rpy=rpy)
+    moved = move(box((1.0, 2.0, 0.5), mass=1.0), xyz=xyz, rpy=rpy)
     turned = points @ np.array(rotation_from_rpy(rpy)).T + np.array(xyz)
     np.testing.assert_allclose(moved.com, weights @ turned, atol=1e-12)
     np.testing.assert_allclose(moved.inertia, summed(turned, weights, moved.com), atol=1e-12)
@@ -75,7 +75,7 @@ def test_rpy_is_about_fixed_x_y_z(rpy):
 def test_combine_equals_numerical_integration(xyz1, rpy1, xyz2, rpy2, m1, m2):
     bodies, points, weights = [], [], []
     for size, mass, xyz, rpy in (((1, 2, 3), m1, xyz1, rpy1), ((3, 0.1, 1), m2, xyz2, rpy2)):
-        bodies.append(move(compute_box(size, mass=mass), xyz=xyz, rpy=rpy))
+        bodies.append(move(box(size, mass=mass), xyz=xyz, rpy=rpy))
         own, share = gauss_box(size)
         points.append(own @ np.array(rotation_from_rpy(rpy)).T + np.array(xyz))
         weights.append(share * mass)
@@ -88,11 +88,9 @@ def test_combine_equals_numerical_integration(xyz1, rpy1, xyz2, rpy2, m1, m2):
 
 
 def test_two_halves_make_the_whole():
-    half = compute_cylinder(0.1, 0.2, mass=1.0)
+    half = cylinder(0.1, 0.2, mass=1.0)
     both = combine([move(half, xyz=(0, 0, 0.1)), move(half, xyz=(0, 0, -0.1))])
-    np.testing.assert_allclose(
-        both.inertia, compute_cylinder(0.1, 0.4, mass=2.0).inertia, atol=1e-15
-    )
+    np.testing.assert_allclose(both.inertia, cylinder(0.1, 0.4, mass=2.0).inertia, atol=1e-15)
 
 
 def test_combine_nothing():
@@ -102,7 +100,7 @@ def test_combine_nothing():
 
 @given(turns)
 def test_principal_axes_are_found_again(rpy):
-    body = compute_box((1, 2, 3), mass=12.0)
+    body = box((1, 2, 3), mass=12.0)
     rotation = rotation_from_rpy(rpy)
     moments, axes = t.compute_principal_axes(t.rotate_tensor(body.tensor, rotation))
     np.testing.assert_allclose(moments, [5, 10, 13], rtol=1e-12)
@@ -115,7 +113,7 @@ def test_principal_axes_are_found_again(rpy):
 
 
 def test_second_moment_and_back():
-    body = compute_box((1, 2, 3), mass=12.0)
+    body = box((1, 2, 3), mass=12.0)
     assert t.compute_second_moment(body.tensor) == pytest.approx(
         t.make_diagonal_tensor(1, 4, 9), abs=1e-14
     )

@@ -3,7 +3,13 @@ from urdftool.lint.run import check
 from urdftool.model.load import load
 from urdftool.viewer import panels
 from urdftool.viewer.marks import find_highest_severity, format_counts, group_by_link
-from urdftool.viewer.properties import format_table, link_rows, list_joint_rows, safe, shorten_name
+from urdftool.viewer.properties import (
+    escape_html,
+    format_table,
+    link_rows,
+    list_joint_rows,
+    shorten_name,
+)
 
 from .robots import ARM, joint, limit, link, read, urdf
 
@@ -11,7 +17,7 @@ from .robots import ARM, joint, limit, link, read, urdf
 def test_nothing_that_a_file_says_is_markup():
     hostile = "<script>alert(1)</script>\"'&{x}"
     for text in (
-        safe(hostile),
+        escape_html(hostile),
         format_table([(hostile, hostile)]),
         panels.format_notices([hostile]),
     ):
@@ -63,7 +69,7 @@ def test_a_finding_is_on_the_links_it_is_about():
         assert "inertia-triangle-inequality" in rules[name]
     assert set(found) <= set(robot.link)
     text = panels.format_findings(findings, found)
-    assert all(safe(finding.message) in text for finding in findings)
+    assert all(escape_html(finding.message) in text for finding in findings)
 
 
 def test_counts():

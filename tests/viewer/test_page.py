@@ -99,7 +99,7 @@ def test_a_slider_moves_its_joint_within_the_limits(show):
     page, _ = show(ARM)
     handle = page.joints._handles["shoulder"]
     handle.value = 99.0
-    page.joints._slid(page.joints.sliders[0])
+    page.joints._handle_slider(page.joints.sliders[0])
     assert page.joints.positions["shoulder"] == 1.25
     assert (handle.min, handle.max) == (-1.5, 1.25)
     assert handle.label == "shoulder 72°"
@@ -170,7 +170,7 @@ def test_a_link_is_chosen(show):
     assert "shoulder" in page._one.content
     assert "−85.9°" in page._one.content
     page._chooser.value = "none"
-    page._chosen()
+    page._handle_choice()
     assert tuple(mesh.color) != (255, 196, 0)
     assert "Click a link" in page._one.content
 

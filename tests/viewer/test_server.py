@@ -119,7 +119,9 @@ def test_it_opens_no_tunnel(page, monkeypatch):
 
 
 def test_a_page_that_cannot_be_guarded_is_not_served(monkeypatch):
-    monkeypatch.setattr(server, "_answer", lambda host, title, answer, *request: answer(*request))
+    monkeypatch.setattr(
+        server, "_handle_request", lambda host, title, answer, *request: answer(*request)
+    )
     port = free_port()
     with pytest.raises(AddressError, match="cannot refuse requests"):
         server.start("127.0.0.1", port, lambda: "t")

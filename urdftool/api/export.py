@@ -168,7 +168,7 @@ def export_mjcf(
         force=force,
         mesh_dir="" if mesh_dir == "." else mesh_dir,
         file=name if mjcf.has_suffix(name) else "",
-        cutter=partial(cut_meshes, gltf_up=_gltf_up(robot)) if decompose else None,
+        cutter=partial(cut_meshes, gltf_up=_get_gltf_up(robot)) if decompose else None,
         keep_locked_joints=keep_locked_joints,
         pose=pose or {},
         state=state,
@@ -252,7 +252,7 @@ def measure_overlap(
     return measure_triangle_penetration(robot, link_poses(robot, positions), one, other)
 
 
-def _gltf_up(robot: Robot) -> GltfUp:
+def _get_gltf_up(robot: Robot) -> GltfUp:
     return "y" if robot.source is None else robot.source.gltf_up
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..drawing.camera import Camera
 from ..drawing.picture import draw, view_of
-from ..drawing.png_file import png
+from ..drawing.png_file import encode_png
 from ..drawing.shapes import Shapes, make_bare_shapes, read_robot_shapes
 from ..drawing.text import Words, draw_text
 from ..errors import UrdftoolError
@@ -101,7 +101,7 @@ def side_by_side(
         Words(left_label, (_MARGIN, _MARGIN), width, _LETTERS),
         Words(right_label, (SIZE[0] + 2 + _MARGIN, _MARGIN), width, _LETTERS),
     ]
-    return png(draw_text(image, labels))
+    return encode_png(draw_text(image, labels))
 
 
 def _label(pieces: Sequence[Piece], errors: Sequence[float]) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..diagnostic import Diagnostic, remark
+from ..diagnostic import Diagnostic, make_remark
 from ..errors import MeshError
 from ..geometry.load import FARTHEST, load_mesh
 from ..geometry.mesh import Faces, Points
@@ -73,7 +73,9 @@ def read_surface(
     """
     mesh = load_mesh(path, scale, gltf_up=gltf_up)
     prepared = prepare(
-        mesh.vertices, mesh.faces, notes=[remark(note.code, note.message) for note in mesh.notes]
+        mesh.vertices,
+        mesh.faces,
+        notes=[make_remark(note.code, note.message) for note in mesh.notes],
     )
     if prepared is None:
         raise MeshError("all faces of the mesh are degenerate; none has an area", path=path)
@@ -119,13 +121,13 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     closed = edges.cycle
     if dropped:
         message = f"{dropped} degenerate faces were dropped."
-        said.append(remark("degenerate-faces", message, count=dropped))
+        said.append(make_remark("degenerate-faces", message, count=dropped))
     if twice:
         message = f"{twice} faces written twice were dropped."
-        said.append(remark("repeated-faces", message, count=twice))
+        said.append(make_remark("repeated-faces", message, count=twice))
     if turned:
         message = f"{turned} faces were turned to agree with their neighbours."
-        said.append(remark("turned-faces", message, count=turned))
+        said.append(make_remark("turned-faces", message, count=turned))
     used = np.unique(kept)
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -135,10 +137,10 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     )
     if closed and prepared.volume < 0:
         kept = np.ascontiguousarray(kept[:, ::-1])
-        said.append(remark("inside-out", "The mesh is inside out; it was turned."))
+        said.append(make_remark("inside-out", "The mesh is inside out; it was turned."))
     if not closed:
         message = f"The mesh is open ({edges.open_count} edges have an odd number of faces)."
-        said.append(remark("open-mesh", message, edges=edges.open_count))
+        said.append(make_remark("open-mesh", message, edges=edges.open_count))
     return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(said))
 
 

@@ -61,7 +61,7 @@ def process_one(
     """
     robot = require(_read(console, path, arguments, values), "links")
     check_picture(values["picture"], robot)
-    options = _collision_options(ctx, console, path, values)
+    options = _make_collision_options(ctx, console, path, values)
     if values["check"]:
         from .collision_check import check
 
@@ -130,7 +130,7 @@ def process_fleet(
             if not robot.links:
                 console.print_note(f"{path}: skipped, the file has no links", level=1)
                 continue
-            options = _collision_options(ctx, console, path, values)
+            options = _make_collision_options(ctx, console, path, values)
             if values["check"]:
                 checks.append((robot, options))
                 continue
@@ -167,7 +167,7 @@ def _read(console: Console, path: str, arguments: dict[str, str], values: Values
     return add_implicit_world(console, robot)
 
 
-def _collision_options(
+def _make_collision_options(
     ctx: click.Context, console: Console, path: str, values: Values
 ) -> CollisionOptions:
     configuration = find_configuration(path, console.config)

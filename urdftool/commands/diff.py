@@ -110,11 +110,11 @@ def _split_sides(words: tuple[str, ...]) -> tuple[Side, Side]:
 def _read(
     console: Console, side: Side, package: dict[str, Path], package_path: tuple[str, ...]
 ) -> Robot:
-    from ..compare.revision import check_out, named
+    from ..compare.revision import check_out, parse_revision
     from .load_tolerant import load_tolerant
 
     path, arguments = side
-    revision = None if path == "-" else named(path)
+    revision = None if path == "-" else parse_revision(path)
     if revision is None:
         return load_tolerant(console, path, arguments, package, package_path)
     with check_out(revision) as checkout, _restore_error_paths(checkout):

@@ -88,7 +88,7 @@ def command(
     elif list_args:
         write_result(report.format_argument_list(expansion), output, inputs=inputs)
     elif check:
-        return _check(console, report.diff_with_committed(expansion, check), check)
+        return _check(console, report.make_diff_with_committed(expansion, check), check)
     elif not (source_map == "-" and output is None):
         write_result(expansion.text, output, inputs=inputs)
     if depfile and output:

@@ -115,7 +115,7 @@ def _make_figure(
     if not model.links and not model.joints:
         raise ModelError("the robot has no links; there is nothing to draw", at=model.place)
     if style == "ros":
-        from ..graph.ros import ros_figure as figure_of
+        from ..graph.ros import make_ros_figure as figure_of
     else:
         from ..graph.detailed import create_detailed_figure as figure_of
     figure = figure_of(model)

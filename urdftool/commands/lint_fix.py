@@ -86,7 +86,7 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
     the description is linted again, so that its original findings are reported.
     """
     from ..errors import OutputError
-    from ..lint.fix_run import concerns
+    from ..lint.fix_run import is_concerned
     from ..lint.run import check_file
     from ..output import rewrite
     from ..workspace import STDIN
@@ -104,7 +104,7 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
     done.drop(failed)
     options = replace(options, workspace=options.workspace.with_empty_memo())
     for number, report in enumerate(reports):
-        if concerns(report, failed) or concerns(done.reports[number], failed):
+        if is_concerned(report, failed) or is_concerned(done.reports[number], failed):
             done.reports[number] = check_file(report.path, options)
     return 2
 

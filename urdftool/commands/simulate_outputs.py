@@ -95,7 +95,7 @@ class Outputs:
         """
         if not self.is_requested:
             return
-        from ..drawing.png_file import png
+        from ..drawing.png_file import encode_png
         from ..simulation.animation import render_animation, render_final_state
         from ..simulation.plot import plot
 
@@ -103,7 +103,7 @@ class Outputs:
             write_picture(plot(robot.name or "the robot", runs), self.plot, robot)
             console.print_note(f"wrote {self.plot}")
         if self.picture and self.shapes is not None:
-            write_picture(png(render_final_state(runs[0], self.shapes)), self.picture, robot)
+            write_picture(encode_png(render_final_state(runs[0], self.shapes)), self.picture, robot)
             console.print_note(f"wrote {self.picture}")
         if self.video and self.shapes is not None:
             with Progress(console, "pictures") as progress:

@@ -175,7 +175,8 @@ def write_pictures(
             for a contact sheet.
         OutputError: A file cannot be written.
     """
-    from ..drawing.picture import SIZE, draw, png
+    from ..drawing.picture import SIZE, draw
+    from ..drawing.png_file import encode_png
     from ..drawing.shapes import read_robot_shapes
     from ..errors import ModelError
     from ..model.files import list_sources
@@ -186,7 +187,7 @@ def write_pictures(
     check_targets((picture, contact_sheet), inputs=sorted(list_sources(robot)))
     positions = dict(pose or {})
     check_positions(robot, positions)
-    pixels = _pixels(robot, size or SIZE, camera, is_sheet=picture is None)
+    pixels = _limit_pixels(robot, size or SIZE, camera, is_sheet=picture is None)
     with Progress(console, "meshes") as progress:
         shapes = read_robot_shapes(robot, show=show, progress=progress, pixels=pixels)
     for problem in shapes.problems:
@@ -209,14 +210,14 @@ def write_pictures(
     seen_from = None if camera is None else _make_camera(camera)
     if picture is not None:
         image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
-        write_picture(png(image), picture, robot)
+        write_picture(encode_png(image), picture, robot)
         console.print_note(f"wrote {picture}, {image.shape[1]} × {image.shape[0]} pixels")
     if contact_sheet is not None:
         _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
     return 1 if shapes.problems or nowhere else 0
 
 
-def _pixels(
+def _limit_pixels(
     robot: Robot, size: tuple[int, int], camera: tuple[float, ...] | None, *, is_sheet: bool
 ) -> int | None:
     """Return how many pixels the robot may cover; None for a camera at a given distance."""
@@ -249,7 +250,7 @@ def _write_sheet(
         list_shown_links,
         list_sweeps,
     )
-    from ..drawing.png_file import png
+    from ..drawing.png_file import encode_png
     from ..errors import ModelError
 
     sweeps = list_sweeps(robot, shown=list_shown_links(shapes))
@@ -269,6 +270,6 @@ def _write_sheet(
         image = draw_contact_sheet(
             robot, shapes, positions=positions, camera=camera, cell=cell, progress=progress
         )
-    write_picture(png(image), target, robot)
+    write_picture(encode_png(image), target, robot)
     count = f"{len(sweeps)} joint{'s' if len(sweeps) > 1 else ''}"
     console.print_note(f"wrote {target}, {count}, {image.shape[1]} × {image.shape[0]} pixels")

@@ -9,7 +9,7 @@ from .change import Change
 from .extensions import compare_extensions
 from .joints import compare_joints
 from .links import link_changes
-from .mechanisms import mechanism_changes
+from .mechanisms import compare_mechanisms
 from .renames import find_renames
 from .tolerance import TOLERANCE
 
@@ -49,7 +49,7 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
         if new is not None:
             yield from compare_joints(joint, new, tolerance, renamed)
     yield from compare_extensions(a, b, tolerance, renamed)
-    yield from mechanism_changes(a, b, tolerance, renamed)
+    yield from compare_mechanisms(a, b, tolerance, renamed)
 
 
 def _compare_presence(

@@ -16,7 +16,7 @@ from .tolerance import are_close, close, is_same_pose
 _REFERENCES = ("parent", "child", "link", "other", "joint")
 
 
-def mechanism_changes(
+def compare_mechanisms(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Change]:
     """Yield the differences of parts that URDF lacks; their order is ignored.
@@ -27,8 +27,8 @@ def mechanism_changes(
         tolerance: Tolerance as in ``closeness.TOLERANCE``.
         renamed: New names of links and joints by their old names.
     """
-    for kind, before, after in zip(_KINDS, _lists(a), _lists(b), strict=True):
-        one, two = _by_name(before, renamed), _by_name(after, {})
+    for kind, before, after in zip(_KINDS, _list_parts(a), _list_parts(b), strict=True):
+        one, two = _index_by_name(before, renamed), _index_by_name(after, {})
         for name in dict.fromkeys((*one, *two)):
             old, new = one.get(name), two.get(name)
             if old is None or new is None:
@@ -37,9 +37,11 @@ def mechanism_changes(
                 yield Change(kind, name, what, place=part[0].place if part else None)
                 continue
             for field, value in new[1].items():
-                if not _same(old[1][field], value, tolerance):
-                    what, before_it = field.replace("_", " "), _shown(old[1][field])
-                    yield Change(kind, name, what, before_it, _shown(value), place=new[0].place)
+                if not _is_same(old[1][field], value, tolerance):
+                    what, before_it = field.replace("_", " "), _convert_to_data(old[1][field])
+                    yield Change(
+                        kind, name, what, before_it, _convert_to_data(value), place=new[0].place
+                    )
 
 
 _KINDS = (
@@ -48,7 +50,7 @@ _KINDS = (
 )
 
 
-def _lists(robot: Robot) -> tuple[Iterable[Part], ...]:
+def _list_parts(robot: Robot) -> tuple[Iterable[Part], ...]:
     """Return the parts of each kind, without the frames of links, which the links have."""
     frames = [frame for frame in robot.frames if frame.kind != "body"]
     return (
@@ -57,7 +59,7 @@ def _lists(robot: Robot) -> tuple[Iterable[Part], ...]:
     )
 
 
-def _by_name(
+def _index_by_name(
     parts: Iterable[Part], renamed: Mapping[str, str]
 ) -> dict[str, tuple[Part, dict[str, Any]]]:
     """Return each part and its values by name; parts without a name by their number."""
@@ -79,11 +81,11 @@ def _by_name(
     return found
 
 
-def _same(a: Any, b: Any, tolerance: float) -> bool:
+def _is_same(a: Any, b: Any, tolerance: float) -> bool:
     if isinstance(a, Origin) or isinstance(b, Origin):
         return is_same_pose(make_pose(a), make_pose(b), tolerance)
     if isinstance(a, dict) and isinstance(b, dict):
-        return a.keys() == b.keys() and all(_same(a[key], b[key], tolerance) for key in a)
+        return a.keys() == b.keys() and all(_is_same(a[key], b[key], tolerance) for key in a)
     if isinstance(a, tuple) and isinstance(b, tuple):
         return len(a) == len(b) and are_close(a, b, tolerance)
     if isinstance(a, float) and isinstance(b, float):
@@ -91,7 +93,7 @@ def _same(a: Any, b: Any, tolerance: float) -> bool:
     return bool(a == b)
 
 
-def _shown(value: Any) -> Any:
+def _convert_to_data(value: Any) -> Any:
     """Return a value as data."""
     if isinstance(value, Origin):
         return describe_pose(make_pose(value))

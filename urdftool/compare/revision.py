@@ -118,7 +118,7 @@ class Checkout:
         return found
 
 
-def named(word: str) -> Named | None:
+def parse_revision(word: str) -> Named | None:
     """Return the revision and path in an argument; None if it is the path of a file."""
     revision, colon, path = word.partition(":")
     if not (colon and path) or os.path.exists(word) or (len(revision) == 1 and os.name == "nt"):

@@ -10,7 +10,7 @@ NEAREST = 1e-4
 """Distance of the clipping plane, relative to the farthest corner."""
 
 
-def nearest(corners: Floats) -> float:
+def compute_near_plane(corners: Floats) -> float:
     """Return the distance of the clipping plane for the triangles of a scene."""
     return max(float(-corners[..., 2].min(initial=0.0)) * NEAREST, 1e-300)
 

@@ -37,7 +37,7 @@ class Detail:
         """
         self.robot = robot
         self.meshes = ThinMeshes(DiskCache(cache_folder("meshes")))
-        self.cell = self._extent(shapes) / (pixels * _CELLS_PER_PIXEL)
+        self.cell = self._measure_extent(shapes) / (pixels * _CELLS_PER_PIXEL)
 
     def read(self, geometry: MeshGeometry) -> Mesh:
         """Read a mesh.
@@ -54,7 +54,7 @@ class Detail:
             return load_mesh(path, geometry.scale, gltf_up=source.gltf_up)
         return self.meshes.read(path, geometry.scale, source.gltf_up, self.cell)
 
-    def _extent(self, shapes: Iterable[tuple[int, Visual | Collision]]) -> float:
+    def _measure_extent(self, shapes: Iterable[tuple[int, Visual | Collision]]) -> float:
         """Return the diagonal [m] of the bounding box of the meshes; 0 if it is unknown."""
         source = self.robot.source
         if source is None:
@@ -79,12 +79,12 @@ class Detail:
                 ]
             )
             pose = poses.get(self.robot.links[row].name, IDENTITY)
-            corners.append(_moved(_moved(box, make_pose(shape.origin)), pose))
+            corners.append(_transform_points(_transform_points(box, make_pose(shape.origin)), pose))
         if not corners:
             return 0.0
         extent = float(np.linalg.norm(np.ptp(np.concatenate(corners), axis=0)))
         return extent if np.isfinite(extent) else 0.0
 
 
-def _moved(points: Points, pose: Pose) -> Points:
+def _transform_points(points: Points, pose: Pose) -> Points:
     return np.asarray(points @ np.array(pose.rotation).T + np.array(pose.translation))

@@ -13,16 +13,16 @@ import numpy.typing as npt
 
 from ..model.pose import Pose
 from .camera import Camera, View
-from .clip import nearest, project_triangles
+from .clip import compute_near_plane, project_triangles
 from .ground import Ground, make_background
-from .png_file import Image, png
+from .png_file import Image
 from .points import compute_bounds, shift_points
 from .raster import Floats, Indices, find_front, list_covered
 from .scene import OPAQUE, Scene
 from .shading import Colors, ShadowMap, place_lights, to_screen
 from .shapes import Shapes
 
-__all__ = ["SIZE", "draw", "png"]
+__all__ = ["SIZE", "draw"]
 
 SIZE = (1280, 960)
 """Default width and height of a picture in pixels."""
@@ -115,7 +115,7 @@ def _compute_samples(
     count = scene.size[0] * scene.size[1]
     light, opacity = np.zeros((count, 3), np.float32), np.zeros(count, np.float32)
     solid, clear = np.flatnonzero(opaque), np.flatnonzero(~opaque)
-    plane = nearest(scene.corners)
+    plane = compute_near_plane(scene.corners)
     flat, owner = project_triangles(scene.corners[solid], scene.view.reach, scene.size, plane)
     first, nearness = find_front(flat, scene.size)
     samples = np.flatnonzero(first >= 0)

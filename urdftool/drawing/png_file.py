@@ -13,7 +13,7 @@ Image = npt.NDArray[np.uint8]
 """Pixels: red, green and blue, shape (height, width, 3)."""
 
 
-def png(image: npt.NDArray[np.uint8], *, level: int = 6) -> bytes:
+def encode_png(image: npt.NDArray[np.uint8], *, level: int = 6) -> bytes:
     """Encode a picture as a PNG file.
 
     Args:

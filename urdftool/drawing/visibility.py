@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ..model.pose import Pose
 from .camera import Camera, View
-from .clip import nearest, project_triangles
+from .clip import compute_near_plane, project_triangles
 from .load_geometry import LARGEST
 from .picture import draw
 from .png_file import Image
@@ -123,7 +123,7 @@ def mask_hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, v
     hidden = np.zeros(view.size[0] * view.size[1], dtype=bool)
     if moved[rows].any():
         seen = view.transform(corners[rows])
-        flat, owner = project_triangles(seen, view.reach, view.size, nearest(seen))
+        flat, owner = project_triangles(seen, view.reach, view.size, compute_near_plane(seen))
         moves = moved[rows][owner]
         first, _ = find_front(flat, view.size)
         behind, _ = find_front(flat[moves], view.size)

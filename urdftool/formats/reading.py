@@ -48,7 +48,7 @@ class Losses:
         _, _, parts = self._found.setdefault(code, (severity, what, []))
         parts.append((name, place))
 
-    def findings(self) -> list[Finding]:
+    def make_findings(self) -> list[Finding]:
         """Return a finding for each kind, with the number of parts and the first names."""
         return [
             Finding(

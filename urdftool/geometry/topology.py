@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..diagnostic import Diagnostic, warning
+from ..diagnostic import Diagnostic, make_warning
 from .mesh import Faces, Points
 
 WELD_TOLERANCE = 1e-6
@@ -68,14 +68,14 @@ def unit_suspicion(extent: float) -> Diagnostic | None:
         extent: Longest edge of the scaled mesh's bounding box [m].
     """
     if extent > LARGE_EXTENT:
-        return warning(
+        return make_warning(
             "mesh-in-millimeters",
             f"The mesh is {extent:.4g} m long, so its unit is probably the millimetre; "
             'scale="0.001 0.001 0.001" would make it a link\'s size.',
             extent=extent,
         )
     if 0 < extent < SMALL_EXTENT:
-        return warning(
+        return make_warning(
             "mesh-scaled-twice",
             f"The mesh is {extent:.4g} m long, so it was probably scaled to metres twice; without "
             "its scale it would be a link's size.",

@@ -60,7 +60,7 @@ def group_by_message(faults: Iterable[Fault]) -> list[Fault]:
     return list(found.values())
 
 
-def _fault(
+def _make_fault(
     rule: str, part: Link | Joint, mark: str, problem: Problem, message: str, place: Place
 ) -> Fault:
     return Fault(
@@ -80,7 +80,7 @@ def _find_roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
         problem, roots = problems[0], robot.tree.roots
         for number, link in enumerate(roots, 1):
             mark = f"root {number} of {len(roots)}"
-            yield _fault("multiple-roots", link, mark, problem, problem.group, link.place)
+            yield _make_fault("multiple-roots", link, mark, problem, problem.group, link.place)
 
 
 def _find_loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
@@ -92,7 +92,7 @@ def _find_loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
             reported.update(names)
             for name in names:
                 link = robot.link[name]
-                yield _fault(
+                yield _make_fault(
                     "detached-cycle", link, "in a loop", problem, problem.message, link.place
                 )
     for link in robot.tree.detached:
@@ -112,7 +112,7 @@ def _find_parents(problems: list[Problem]) -> Iterator[Fault]:
         if isinstance(link, Link) and link.name not in reported:
             reported.add(link.name)
             mark = f"{problem.data['parents']} parents"
-            yield _fault("multiple-parents", link, mark, problem, problem.message, link.place)
+            yield _make_fault("multiple-parents", link, mark, problem, problem.message, link.place)
 
 
 def _find_duplicates(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
@@ -126,7 +126,7 @@ def _find_duplicates(robot: Robot, kind: str, problems: list[Problem]) -> Iterat
         mark = f"{len(same) + 1} with this name"
         for part in parts:
             place = same[0].element.place
-            yield _fault(f"duplicate-{kind}-name", part, mark, same[0], same[0].message, place)
+            yield _make_fault(f"duplicate-{kind}-name", part, mark, same[0], same[0].message, place)
 
 
 _END_MARKS = {
@@ -146,4 +146,4 @@ def _find_wrong_ends(rule: str, problem: Problem) -> Iterator[Fault]:
         mark = _END_MARKS[rule].format(end=problem.data.get("end"))
         element = joint.parent_element if mark.endswith("parent") else joint.child_element
     place = joint.place if element is None else element.place
-    yield _fault(rule, joint, mark, problem, problem.message, place)
+    yield _make_fault(rule, joint, mark, problem, problem.message, place)

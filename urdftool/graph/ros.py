@@ -15,7 +15,7 @@ from .links import find_ends
 from .traversal import sort_by_name, walk
 
 
-def ros_figure(robot: Robot) -> Figure:
+def make_ros_figure(robot: Robot) -> Figure:
     """Create the figure of a robot in the style of ROS."""
     figure = Figure(robot.name, "ros")
     found = walk(robot, sort_by_name)

@@ -122,7 +122,7 @@ class MeshBody:
         }
 
 
-def cached_mesh_body(
+def get_cached_mesh_body(
     path: Path, cache: DiskCache, *, surface: bool = False, gltf_up: GltfUp = "y"
 ) -> MeshBody:
     """Return :func:`mesh_body`, which is kept by the content of the file.
@@ -137,13 +137,13 @@ def cached_mesh_body(
     key = cache_key(_REVISION, ["body", surface, gltf_up], [content_key(path).encode()])
     data = cache.get(key)
     if data is not None:
-        return _unpacked(data, path)
+        return _unpack(data, path)
     body = integrate_mesh_body(path, surface=surface, gltf_up=gltf_up)
-    cache.put(key, _packed(body))
+    cache.put(key, _pack(body))
     return body
 
 
-def _packed(body: MeshBody) -> bytes:
+def _pack(body: MeshBody) -> bytes:
     table = {
         "unit": [body.unit.mass, list(body.unit.com), list(body.unit.tensor)],
         "box": [body.lower.tolist(), body.upper.tolist()],
@@ -153,7 +153,7 @@ def _packed(body: MeshBody) -> bytes:
     return json.dumps(table).encode()
 
 
-def _unpacked(data: bytes, path: Path) -> MeshBody:
+def _unpack(data: bytes, path: Path) -> MeshBody:
     table = json.loads(data)
     mass, com, tensor = table["unit"]
     lower, upper = (np.array(corner) for corner in table["box"])

@@ -68,13 +68,13 @@ def get_axis_angle(moments: Array, axes: Array, others: Array, other_axes: Array
     angles = [
         math.acos(min(1.0, abs(float(axes[:, i] @ other_axes[:, i]))))
         for i in range(3)
-        if _stands_out(moments, i) and _stands_out(others, i)
+        if _is_outlier(moments, i) and _is_outlier(others, i)
     ]
     # acos amplifies a rounding error of 1e-16 to an angle of 1e-8
     return max((angle if angle > 1e-7 else 0.0 for angle in angles), default=None)
 
 
-def _stands_out(moments: Array, index: int) -> bool:
+def _is_outlier(moments: Array, index: int) -> bool:
     size = float(np.abs(moments).max())
     gaps = [abs(float(moments[index] - moments[j])) for j in range(3) if j != index]
     return size > 0 and min(gaps) > ALIKE * size

@@ -157,7 +157,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     pose = make_pose(inertial.origin)
     com, six = pose.translation, rotate_tensor(tensor.six, pose.rotation)
 
-    def misfits(
+    def find_misfits(
         box: Bounds, has_mesh: bool, attached: Sequence[str] = ()
     ) -> list[tuple[str, Misfit]]:
         shapes, rough = name_shapes(attached), has_mesh or not link.collisions
@@ -170,7 +170,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
 
     if item.body is not None:
         box = _compute_shapes_box(get_shapes(link, item.body.source), IDENTITY, context)
-        if box is not None and not misfits(box, False):
+        if box is not None and not find_misfits(box, False):
             return
     kinds = [kind for kind in SOURCES if get_shapes(link, kind)]
     boxes = [_compute_shapes_box(get_shapes(link, kind), IDENTITY, context) for kind in kinds]
@@ -191,7 +191,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
         return
     shapes = [shape for kind in kinds for shape in get_shapes(link, kind)]
     has_mesh = any(isinstance(shape.geometry, Mesh) for shape in shapes)
-    if not misfits(whole, has_mesh):
+    if not find_misfits(whole, has_mesh):
         return
     attached: list[str] = []
     for other, at in find_attached_links(context.robot, link)[1:]:
@@ -202,7 +202,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
             if box is None:
                 return
             whole = whole.join(box)
-    for subject, misfit in misfits(whole, has_mesh, attached):
+    for subject, misfit in find_misfits(whole, has_mesh, attached):
         message = f"the {subject} {misfit.sentence}"
         if not misfit.certain:
             item.notes.append(f"{message}; the mesh may not contain the heavy parts")

@@ -10,7 +10,7 @@ from ..errors import UrdftoolError
 from ..parallel import Loss, count_cores, map_tasks
 from ..source.description import Description, GltfUp
 from ..storage import DiskCache, cache_folder
-from .bodies import MeshBody, cached_mesh_body
+from .bodies import MeshBody, get_cached_mesh_body
 
 WORTH_IT = 4_000_000
 """Total size of meshes [bytes] above which additional processes save time."""
@@ -74,7 +74,7 @@ def _make_worker_error(path: Path, _: Loss) -> UrdftoolError:
 
 def _make_body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
     try:
-        return cached_mesh_body(path, DiskCache(cache_folder("meshes")), gltf_up=gltf_up)
+        return get_cached_mesh_body(path, DiskCache(cache_folder("meshes")), gltf_up=gltf_up)
     except UrdftoolError as error:
         # the chain of causes cannot be sent between processes
         return UrdftoolError(error.message, path=error.path)

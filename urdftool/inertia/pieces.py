@@ -190,24 +190,24 @@ _PRIMITIVES: dict[
     type, tuple[Callable[[Any], SpatialInertia], Callable[[Any], tuple[float, float, float]]]
 ] = {
     Box: (
-        lambda g: solids.compute_box(g.size, density=1.0),
+        lambda g: solids.box(g.size, density=1.0),
         lambda g: (g.size[0] / 2, g.size[1] / 2, g.size[2] / 2),
     ),
     Cylinder: (
-        lambda g: solids.compute_cylinder(g.radius, g.length, density=1.0),
+        lambda g: solids.cylinder(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2),
     ),
     Sphere: (
-        lambda g: solids.compute_sphere(g.radius, density=1.0),
+        lambda g: solids.sphere(g.radius, density=1.0),
         lambda g: (g.radius, g.radius, g.radius),
     ),
     Capsule: (
-        lambda g: solids.compute_capsule(g.radius, g.length, density=1.0),
+        lambda g: solids.capsule(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2 + g.radius),
     ),
-    Ellipsoid: (lambda g: solids.compute_ellipsoid(g.radii, density=1.0), lambda g: g.radii),
+    Ellipsoid: (lambda g: solids.ellipsoid(g.radii, density=1.0), lambda g: g.radii),
     Cone: (
-        lambda g: solids.compute_cone(g.radius, g.length, density=1.0),
+        lambda g: solids.cone(g.radius, g.length, density=1.0),
         lambda g: (g.radius, g.radius, g.length / 2),
     ),
 }

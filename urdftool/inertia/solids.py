@@ -22,7 +22,7 @@ from ..model.elements import ZERO, Vector
 from .inertia_error import InertiaError
 
 
-def compute_box(
+def box(
     size: Sequence[float], *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Compute a solid box of edges ``size`` [m] along x, y, z: ixx = m (y² + z²) / 12."""
@@ -33,7 +33,7 @@ def compute_box(
     )
 
 
-def compute_cylinder(
+def cylinder(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Compute a solid cylinder of ``radius`` and ``length`` [m] along z: izz = m r² / 2."""
@@ -43,7 +43,7 @@ def compute_cylinder(
     return _make_body(m, across, across, m * r * r / 2)
 
 
-def compute_sphere(
+def sphere(
     radius: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Compute a solid sphere of ``radius`` [m]: i = 2 m r² / 5."""
@@ -53,7 +53,7 @@ def compute_sphere(
     return _make_body(m, moment, moment, moment)
 
 
-def compute_capsule(
+def capsule(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Compute a solid capsule along z: a cylinder between half spheres of ``radius`` [m].
@@ -72,7 +72,7 @@ def compute_capsule(
     return _make_body(m, across, across, m_cylinder * r * r / 2 + m_ends * 2 * r * r / 5)
 
 
-def compute_ellipsoid(
+def ellipsoid(
     radii: Sequence[float], *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Compute a solid ellipsoid of half axes ``radii`` [m] along x, y, z: ixx = m (b² + c²) / 5."""
@@ -81,7 +81,7 @@ def compute_ellipsoid(
     return _make_body(m, m * (b * b + c * c) / 5, m * (a * a + c * c) / 5, m * (a * a + b * b) / 5)
 
 
-def compute_cone(
+def cone(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
     """Compute a solid cone along z, tip at +length/2, base of ``radius`` [m] at −length/2.
@@ -96,7 +96,7 @@ def compute_cone(
     return _make_body(m, across, across, 3 * m * r * r / 10, com=(0.0, 0.0, -h / 4))
 
 
-def compute_hollow_box(
+def hollow_box(
     size: Sequence[float],
     thickness: float,
     *,
@@ -127,7 +127,7 @@ def compute_hollow_box(
     return _make_body(m, y + z, x + z, x + y)
 
 
-def compute_hollow_cylinder(
+def hollow_cylinder(
     radius: float,
     length: float,
     thickness: float,
@@ -163,7 +163,7 @@ def compute_hollow_cylinder(
     return _make_body(m, across, across, along)
 
 
-def compute_hollow_sphere(
+def hollow_sphere(
     radius: float,
     thickness: float,
     *,

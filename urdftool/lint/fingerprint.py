@@ -10,7 +10,7 @@ from ..finding import Finding
 Fact = tuple[object, ...]
 
 
-def fact_of(finding: Finding) -> Fact:
+def get_fact(finding: Finding) -> Fact:
     """Return what is equal for findings that report the same: rule, object and data.
 
     The message is not part of it. A location is compared by the caller.
@@ -18,7 +18,7 @@ def fact_of(finding: Finding) -> Fact:
     return finding.code, finding.kind, finding.name, finding.owner, freeze(finding.data)
 
 
-def word_at(finding: Finding) -> bytes:
+def get_word(finding: Finding) -> bytes:
     """Return the name of the element or attribute at the location; empty if there is none."""
     file, start, end, _ = finding.location
     match = _WORD.match(file.data, start, end)

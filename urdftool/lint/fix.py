@@ -16,7 +16,7 @@ from ..rules.rule import Problem
 from ..rules.table import FIXES
 from ..source.description import Description
 from ..source.document import Document
-from .fingerprint import fact_of
+from .fingerprint import get_fact
 from .fix_settle import Settler
 from .outcome import Options, Report
 
@@ -58,7 +58,7 @@ def add_fixes(
         if finding.code in FIXES:
             place = finding.location
             key: tuple[Any, ...] = (finding.code, place.path, place.start, place.end)
-            key = key if place.calls else (*key, *fact_of(finding))
+            key = key if place.calls else (*key, *get_fact(finding))
             groups.setdefault(key, []).append(finding)
     if not groups:
         return

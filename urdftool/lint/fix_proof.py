@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ..diagnostic import Severity
 from ..finding import Finding
-from .fingerprint import fact_of, word_at
+from .fingerprint import get_fact, get_word
 from .outcome import Report
 
 REVEALING = frozenset(
@@ -74,7 +74,7 @@ def get_key(finding: Finding) -> Key:
 
 def get_likeness(finding: Finding) -> Key:
     """Return what equal findings in different descriptions have in common."""
-    return *fact_of(finding), word_at(finding)
+    return *get_fact(finding), get_word(finding)
 
 
 def get_subject(finding: Finding) -> tuple[str, str]:

@@ -397,7 +397,7 @@ def _splice(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
     return b"".join([*parts, data[position:]])
 
 
-def concerns(report: Report, paths: Iterable[str]) -> bool:
+def is_concerned(report: Report, paths: Iterable[str]) -> bool:
     """Tell whether a description or one of its fixes uses any of the files."""
     return not _collect_paths(report).isdisjoint(paths)
 

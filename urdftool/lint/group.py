@@ -14,7 +14,7 @@ from typing import Any
 
 from ..diagnostic import FileRewrite, Fix, Replacement, Severity
 from ..finding import Cause, Finding, Group, Site
-from .fingerprint import fact_of
+from .fingerprint import get_fact
 from .merge import sort_findings
 from .outcome import Outcome
 
@@ -128,7 +128,7 @@ def _get_key(finding: Finding, robots: Mapping[Any, int]) -> Any:
 
 def _make_identity(finding: Finding) -> Any:
     place = finding.location
-    return place.path, place.start, place.end, fact_of(finding)
+    return place.path, place.start, place.end, get_fact(finding)
 
 
 def _find_repository(folder: str) -> str:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..finding import Finding
-from .fingerprint import fact_of
+from .fingerprint import get_fact
 from .outcome import Outcome, Report
 
 
@@ -19,7 +19,7 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
         place = finding.location
         key: tuple[Any, ...] = (finding.code, place.file.path, place.start, place.end)
         if not place.calls:
-            key += fact_of(finding)
+            key += get_fact(finding)
         first = merged.get(key)
         if first is None:
             merged[key] = finding

@@ -14,7 +14,7 @@ from ..diagnostic import Severity
 from ..errors import ConfigError
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.rule import TARGETS, Rule
-from ..suggestions import nearest as nearest_name
+from ..suggestions import find_nearest as nearest_name
 from ..suggestions import suggest_name
 from ..workspace import Memo
 

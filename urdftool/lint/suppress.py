@@ -48,7 +48,7 @@ class Suppression:
 
     def covers(self, finding: Finding) -> bool:
         """Tell whether the comment suppresses a finding, by its rule and place."""
-        if not self._names(finding.code):
+        if not self._is_named(finding.code):
             return False
         places = [(finding.location.file, finding.location.start)]
         places += [(call.file, call.start) for call in finding.location.calls]
@@ -56,7 +56,7 @@ class Suppression:
             file.path == self.place.file.path and self.start <= at < self.end for file, at in places
         )
 
-    def _names(self, rule: str) -> bool:
+    def _is_named(self, rule: str) -> bool:
         family = FAMILY_OF.get(rule)
         return any(
             name in (rule, family, "all", "*")
@@ -167,7 +167,7 @@ def suppress(
 def report_unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Finding]:
     """Yield a finding for each comment that suppresses nothing though a rule of it has run."""
     for suppression in suppressions:
-        if suppression.used or not any(suppression._names(rule) for rule in ran):
+        if suppression.used or not any(suppression._is_named(rule) for rule in ran):
             continue
         yield Finding(
             "unused-suppression",

@@ -32,14 +32,14 @@ class Requirement(NamedTuple):
     most: int | None = None
 
 
-def _where(**values: Iterable[object]) -> Mapping[str, frozenset[object]]:
+def _make_conditions(**values: Iterable[object]) -> Mapping[str, frozenset[object]]:
     return MappingProxyType({key: frozenset(allowed) for key, allowed in values.items()})
 
 
-_NAMED = _where(has_name=(True,))
-_DETACHED = _where(is_detached=(True,), has_root=(True,))
-_NO_BALL = _where(is_ball=(False,))
-_WRITTEN = _where(
+_NAMED = _make_conditions(has_name=(True,))
+_DETACHED = _make_conditions(is_detached=(True,), has_root=(True,))
+_NO_BALL = _make_conditions(is_ball=(False,))
+_WRITTEN = _make_conditions(
     part=("link", "joint", "material"),
     attribute=(
         *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
@@ -87,7 +87,7 @@ _PHYSICS = tuple(
 )
 """Rigid bodies can have the inertia that is written."""
 
-_NOT_IN_DRAKE = _where(is_in_drake=(False,))
+_NOT_IN_DRAKE = _make_conditions(is_in_drake=(False,))
 
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
     {
@@ -105,7 +105,7 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
         "export": STRUCTURE,
         "simulate": (
             Requirement("missing-collision"),
-            Requirement("non-positive-dimension", _where(collides=(True,))),
+            Requirement("non-positive-dimension", _make_conditions(collides=(True,))),
             Requirement("zero-mass"),
             Requirement("missing-inertial"),
             Requirement("massless-root-body"),
@@ -115,7 +115,7 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("placeholder-inertia"),
             Requirement("inertia-exceeds-geometry"),
             Requirement("radius-of-gyration"),
-            Requirement("implausible-density", _where(is_too_large=(True,))),
+            Requirement("implausible-density", _make_conditions(is_too_large=(True,))),
             Requirement("mass-out-of-line"),
             Requirement("mesh-in-millimetres"),
             Requirement("shape-in-millimetres"),
@@ -133,19 +133,19 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("empty-geometry"),
             Requirement("unsupported-shape"),
             Requirement("missing-limit"),
-            Requirement("incomplete-inertial", _where(lacks_element=(True,))),
-            Requirement("mimic-dof-mismatch", _where(type=("fixed",))),
-            Requirement("not-a-number", _where(part=("robot",))),
+            Requirement("incomplete-inertial", _make_conditions(lacks_element=(True,))),
+            Requirement("mimic-dof-mismatch", _make_conditions(type=("fixed",))),
+            Requirement("not-a-number", _make_conditions(part=("robot",))),
             Requirement("unknown-sensor-type"),
-            Requirement("plugin-without-filename", _where(has_filename=(False,))),
-            Requirement("bad-extension-number", _where(holder=("keyword", "element"))),
+            Requirement("plugin-without-filename", _make_conditions(has_filename=(False,))),
+            Requirement("bad-extension-number", _make_conditions(holder=("keyword", "element"))),
         ),
         "export:mjcf": (
             Requirement("empty-geometry"),
             Requirement("unsupported-shape", _NOT_IN_DRAKE),
-            Requirement("bad-extension-number", _where(kind=("number", "count"))),
-            Requirement("bad-extension-number", _where(is_loop=(True,))),
-            Requirement("bad-extension-number", _where(holder=("mujoco",))),
+            Requirement("bad-extension-number", _make_conditions(kind=("number", "count"))),
+            Requirement("bad-extension-number", _make_conditions(is_loop=(True,))),
+            Requirement("bad-extension-number", _make_conditions(holder=("mujoco",))),
         ),
     }
 )

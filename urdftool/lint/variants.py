@@ -11,7 +11,7 @@ from typing import Any
 from ..configuration import Configuration
 from ..errors import ConfigError
 from ..finding import Finding
-from .fingerprint import fact_of
+from .fingerprint import get_fact
 from .merge import sort_findings
 from .outcome import Report
 from .settings import suggest_word
@@ -115,7 +115,7 @@ def _merge(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Fin
         for finding in findings:
             group = groups.setdefault(_get_key(finding), [])
             open_ones = [pair for pair in group if name not in pair[1]]
-            same = [pair for pair in open_ones if fact_of(pair[0]) == fact_of(finding)]
+            same = [pair for pair in open_ones if get_fact(pair[0]) == get_fact(finding)]
             chosen = next(iter(same or open_ones), None)
             if chosen is None:
                 group.append((replace(finding), [name]))

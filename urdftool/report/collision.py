@@ -144,7 +144,7 @@ def format_table(rows: Sequence[Row]) -> str:
     return render_table(lines, left=(0, 1))
 
 
-def millimeters(length: float) -> str:
+def format_millimeters(length: float) -> str:
     """Format a length [m] in millimeters, with three digits or all digits before the point."""
     found = length * 1000
     return f"{found:.3g}" if found < 999.5 else f"{found:.0f}"
@@ -154,10 +154,11 @@ def format_remarks(rows: Iterable[Row]) -> Iterable[str]:
     """Yield a line with advice for each mesh whose error exceeds the limit."""
     for row in rows:
         if not row.within:
-            yield f"{_label(row)}: {_sizes(row)} exceeds {row.max_error:.1%}; {_format_advice(row)}"
+            exceeds = f"{_format_sizes(row)} exceeds {row.max_error:.1%}"
+            yield f"{_label(row)}: {exceeds}; {_format_advice(row)}"
 
 
-def _sizes(row: Row) -> str:
+def _format_sizes(row: Row) -> str:
     """Format what exceeds the limit."""
     measures = row.result.measures
     name = "reach" if measures["reach"] >= measures["excess"] else "excess"
@@ -231,7 +232,7 @@ def _collect_cells(row: Row) -> tuple[str, ...]:
         str(len(result.pieces)),
         f"{result.before['vertices']} → {measures['vertices']}",
         f"{result.before['triangles']} → {measures['triangles']}",
-        f"{millimeters(measures['hausdorff'])} mm {result.error:.2%}",
+        f"{format_millimeters(measures['hausdorff'])} mm {result.error:.2%}",
         f"{measures['reach']:.2%}",
         f"{measures['excess']:.2%}",
         f"{measures['volume_ratio']:.3f}",

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..collision.check import Checked
-from .collision import millimeters
+from .collision import format_millimeters
 from .tables import render_table
 
 
@@ -53,7 +53,7 @@ def format_table(found: Sequence[Checked], limit: float) -> str:
                 verdict,
                 str(m["pieces"]),
                 str(m["triangles"]),
-                f"{millimeters(m['hausdorff'])} mm {m['error']:.2%}",
+                f"{format_millimeters(m['hausdorff'])} mm {m['error']:.2%}",
                 f"{m['reach']:.2%}",
                 f"{m['excess']:.2%}",
                 f"{m['volume_ratio']:.3f}",

@@ -76,7 +76,7 @@ def _escape(path: str) -> str:
     return path
 
 
-def diff_with_committed(expansion: Expansion, committed: str) -> str:
+def make_diff_with_committed(expansion: Expansion, committed: str) -> str:
     """Return a unified diff from a committed URDF to the expansion; empty if they are equal.
 
     Comments and layout are ignored.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ..suggestions import find_nearest as find_nearest
 from ..suggestions import fold as fold
-from ..suggestions import nearest as nearest
 from ..suggestions import suggest_name as suggest_name
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..diagnostic import Diagnostic, Severity, deprecated_name
+from ..diagnostic import Diagnostic, Severity, make_deprecated_name
 
 FALLEN = frozenset(
     {
@@ -36,8 +36,8 @@ class Fault(Diagnostic):
     cause: str = ""
     rule: str = ""
 
-    kind = deprecated_name("kind", "code")
-    place = deprecated_name("place", "location")
+    kind = make_deprecated_name("kind", "code")
+    place = make_deprecated_name("place", "location")
 
     @property
     def fails(self) -> bool:

@@ -31,7 +31,7 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
             it does not have.
         UrdftoolError: A mesh is not found or cannot be read.
     """
-    refuse([*report_defects(robot), *_unsupported_joints(robot)], force=True, fatal=_FATAL)
+    refuse([*report_defects(robot), *_report_unsupported_joints(robot)], force=True, fatal=_FATAL)
     check_settings(robot, settings)
     return make_rigid_bodies(robot, settings)
 
@@ -49,7 +49,7 @@ def check_settings(robot: Robot, settings: Settings) -> None:
             raise ModelError(f"--payload: the robot has no link '{name}'{hint}")
 
 
-def _unsupported_joints(robot: Robot) -> Iterator[Finding]:
+def _report_unsupported_joints(robot: Robot) -> Iterator[Finding]:
     """Report joints that no engine here simulates; other readers take them, so it is not a rule.
 
     A root link without a shape that floats is how some files say that the base is free.

@@ -133,7 +133,7 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
             yield Shape(link.name, number, "mesh", (), pieces, faces, pose)
             continue
         if isinstance(geometry, Ellipsoid | Cone):
-            lengths = _lengths(geometry)
+            lengths = _get_lengths(geometry)
             points, triangles = tessellate(get_shape_name(geometry), lengths, _AROUND)
             yield Shape(link.name, number, "mesh", (), (points,), (triangles,), pose)
             continue
@@ -155,7 +155,7 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
         yield Shape(link.name, number, kind, tuple(size), pose=pose)
 
 
-def _lengths(geometry: Ellipsoid | Cone) -> tuple[float, ...]:
+def _get_lengths(geometry: Ellipsoid | Cone) -> tuple[float, ...]:
     if isinstance(geometry, Ellipsoid):
         return geometry.radii
     return geometry.radius, geometry.length
@@ -202,9 +202,9 @@ def compute_hull(points: Array) -> tuple[Array, Faces]:
     """Compute corners and triangles of the convex hull of points; of flat ones, the points."""
     found = convex_hull(points)
     if found is not None and found.num_vert() > MOST_VERTICES:
-        found = convex_hull(_thin_points(hull_surface(found)[0]))
+        found = convex_hull(_choose_extreme_points(hull_surface(found)[0]))
     if found is None:
-        points = _thin_points(points) if len(points) > MOST_VERTICES else points
+        points = _choose_extreme_points(points) if len(points) > MOST_VERTICES else points
         return points, _make_fan(len(points))
     return hull_surface(found)
 
@@ -215,7 +215,7 @@ def _make_fan(count: int) -> Faces:
     return fan
 
 
-def _thin_points(points: Array) -> Array:
+def _choose_extreme_points(points: Array) -> Array:
     """Choose the points that reach farthest along directions spread evenly over the sphere."""
     steps = np.arange(MOST_VERTICES) + 0.5
     z = 1 - 2 * steps / MOST_VERTICES

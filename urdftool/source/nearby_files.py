@@ -11,7 +11,7 @@ from .location import SourceFile
 from .packages import shorten_path
 
 
-def file_at(workspace: Workspace, path: str | Path) -> SourceFile | None:
+def read_optional_file(workspace: Workspace, path: str | Path) -> SourceFile | None:
     """Read a file; None if it cannot be read."""
     try:
         return SourceFile(shorten_path(path), workspace.read_bytes(path))
@@ -19,9 +19,9 @@ def file_at(workspace: Workspace, path: str | Path) -> SourceFile | None:
         return None
 
 
-def document_at(workspace: Workspace, path: str | Path) -> Document | None:
+def read_optional_document(workspace: Workspace, path: str | Path) -> Document | None:
     """Read an XML file; None if it cannot be read or is not well-formed."""
-    file = file_at(workspace, path)
+    file = read_optional_file(workspace, path)
     try:
         return None if file is None else parse(file)
     except SourceError:

@@ -90,7 +90,7 @@ def compute_remainder(a: Any, b: Any) -> Any:
     return a % b
 
 
-def kind(thing: Any, *more: Any) -> type:
+def get_type(thing: Any, *more: Any) -> type:
     """Return ``type(thing)`` of a value; types cannot be created.
 
     Raises:
@@ -162,7 +162,7 @@ PYTHON: Mapping[str, Any] = {
     "range": make_range,
     "round": round_number,
     "sum": sum_values,
-    "type": kind,
+    "type": get_type,
     "vars": refuse_vars,
 }
 """Replacements of Python's built-in functions, by name."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError, XacroError
-from ..suggestions import nearest
+from ..suggestions import find_nearest
 from .location import Place
 from .xacro_messages import Failure, explain_failure, find_unknown_parameter, list_causes
 
@@ -83,7 +83,7 @@ def _make_missing_error(
         above = reversed(Path(path).parents)
         missing = next((p for p in above if not workspace.exists(p)), None)
         reason = f"folder {missing} does not exist" if missing else reason
-    right = nearest(name, there, 0.75)
+    right = find_nearest(name, there, 0.75)
     hint = f"; did you mean '{right}'?" if right else ""
     return XacroError(
         f"{path}: {reason}{hint}{argument}",

@@ -6,7 +6,7 @@ import re
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..suggestions import nearest, suggest_name
+from ..suggestions import find_nearest, suggest_name
 from .packages import shorten_path
 from .xacro_tree import XacroElement
 
@@ -120,7 +120,7 @@ def _explain_names(failure: Failure) -> Explanation | None:
     """Explain undefined names."""
     text, result, failed_text = failure.text, failure.result, failure.failed_text
     if match := _UNKNOWN_MACRO.search(text):
-        near = nearest(match[1], sorted({*_TAGS, *(name for name, _ in _list_macros(result))}))
+        near = find_nearest(match[1], sorted({*_TAGS, *(name for name, _ in _list_macros(result))}))
         hint = f"; did you mean '{near}'?" if near else ""
         data = {"name": match[1], "suggestion": near}
         return Explanation("unknown-macro", f"unknown macro '{match[1]}'{hint}", data)
@@ -130,7 +130,10 @@ def _explain_names(failure: Failure) -> Explanation | None:
     if match := _NO_ARGUMENT.search(text):
         name = match[1]
         known = ", ".join(result.arguments) or "none"
-        given, near = nearest(name, sorted(result.given)), nearest(name, sorted(result.arguments))
+        given, near = (
+            find_nearest(name, sorted(result.given)),
+            find_nearest(name, sorted(result.arguments)),
+        )
         hint = f"; did you pass it as '{given}'?" if given else ""
         hint = hint or (f"; did you mean '{near}'?" if near else "")
         data = {"name": name, "suggestion": near, "given": given}

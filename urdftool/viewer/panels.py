@@ -9,7 +9,7 @@ from ..errors import UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
 from .marks import find_highest_severity, format_counts
-from .properties import format_table, link_rows, list_joint_rows, safe, shorten_name
+from .properties import escape_html, format_table, link_rows, list_joint_rows, shorten_name
 
 COLORS = {Severity.ERROR: "#e03131", Severity.WARNING: "#e8590c", Severity.INFO: "#1c7ed6"}
 
@@ -34,13 +34,13 @@ def format_error(error: UrdftoolError) -> str:
         f"from {call.file.path}:{call.line}:{call.column}: {call.what}" for call in error.calls
     ]
     lines += error.notes
-    text = "<br>".join(safe(line) for line in lines)
+    text = "<br>".join(escape_html(line) for line in lines)
     return _format_alert(f"{text}<br><i>The page shows the last valid version.</i>", "#e03131")
 
 
 def format_bug(error: BaseException) -> str:
     """Format an exception of the page itself."""
-    what = safe(f"{type(error).__name__}: {error}")
+    what = escape_html(f"{type(error).__name__}: {error}")
     return _format_alert(f"Bug in urdftool (not in the robot): {what}", "#e03131")
 
 
@@ -50,7 +50,7 @@ def format_notices(messages: Iterable[str]) -> str:
     if not lines:
         return ""
     rest = f"<br>… and {len(lines) - SAID} more" if len(lines) > SAID else ""
-    return _format_alert("<br>".join(safe(line) for line in lines[:SAID]) + rest, "#e8590c")
+    return _format_alert("<br>".join(escape_html(line) for line in lines[:SAID]) + rest, "#e8590c")
 
 
 def _format_alert(inner: str, color: str) -> str:
@@ -72,7 +72,7 @@ def format_summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
     ]
     if findings is not None:
         words.append(format_counts(findings) or "no lint findings")
-    return wrap_html(safe(" · ".join(words)))
+    return wrap_html(escape_html(" · ".join(words)))
 
 
 def _count(number: int, what: str) -> str:
@@ -81,10 +81,10 @@ def _count(number: int, what: str) -> str:
 
 def format_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
     """Format the properties of the selected link and its parent joint."""
-    text = f"<b style='overflow-wrap:anywhere'>{safe(name)}</b>{format_table(rows)}"
+    text = f"<b style='overflow-wrap:anywhere'>{escape_html(name)}</b>{format_table(rows)}"
     joint = robot.tree.get_parent_joint(name)
     if joint is not None:
-        text += f"<b style='overflow-wrap:anywhere'>{safe(joint.name)}</b>"
+        text += f"<b style='overflow-wrap:anywhere'>{escape_html(joint.name)}</b>"
         text += format_table(list_joint_rows(joint))
     return wrap_html(text)
 
@@ -98,7 +98,7 @@ def format_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
         for link in robot.links
     )
     joints = "".join(
-        _format_details(joint.name, safe(joint.type), list_joint_rows(joint))
+        _format_details(joint.name, escape_html(joint.type), list_joint_rows(joint))
         for joint in robot.joints
     )
     return wrap_html(
@@ -119,7 +119,7 @@ def _link_hint(mass: float, findings: list[Finding]) -> str:
 
 
 def _format_details(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
-    shown = safe(shorten_name(name) or "(no name)")
+    shown = escape_html(shorten_name(name) or "(no name)")
     return (
         f"<details><summary style='cursor:pointer;overflow-wrap:anywhere'>{shown} "
         f"<span style='opacity:.7'>{hint}</span></summary>{format_table(rows)}</details>"
@@ -139,7 +139,7 @@ def format_findings(findings: list[Finding] | None, found: Mapping[str, list[Fin
     ordered = sorted(findings, key=lambda finding: -finding.severity)
     items = "".join(_format_finding(finding, on.get(id(finding), [])) for finding in ordered[:MOST])
     more = f"<p>… and {len(findings) - MOST} more</p>" if len(findings) > MOST else ""
-    return wrap_html(f"<b>{safe(format_counts(findings))}</b>{items}{more}")
+    return wrap_html(f"<b>{escape_html(format_counts(findings))}</b>{items}{more}")
 
 
 def _format_finding(finding: Finding, links: list[str]) -> str:
@@ -150,7 +150,7 @@ def _format_finding(finding: Finding, links: list[str]) -> str:
     return (
         f"<div style='border-left:4px solid {color};padding-left:.6em;margin:.5em 0;"
         f"overflow-wrap:anywhere'><b style='color:{color}'>{finding.severity.label}</b> "
-        f"{safe(finding.message + times)}<br>"
-        f"<span style='opacity:.65'>{safe(str(finding.location))} "
-        f"[{safe(finding.code)}]{safe(where + more)}</span></div>"
+        f"{escape_html(finding.message + times)}<br>"
+        f"<span style='opacity:.65'>{escape_html(str(finding.location))} "
+        f"[{escape_html(finding.code)}]{escape_html(where + more)}</span></div>"
     )

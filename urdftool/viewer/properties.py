@@ -45,7 +45,7 @@ def shorten_name(name: str, longest: int = LONGEST) -> str:
     return f"{text[:half]}…{text[-half:]}"
 
 
-def safe(text: str) -> str:
+def escape_html(text: str) -> str:
     """Escape text for HTML."""
     return html.escape(shorten_name(text, 2000), quote=True)
 
@@ -54,7 +54,7 @@ def format_table(rows: Iterable[Row]) -> str:
     """Format rows of a label and a text as an HTML table."""
     cells = "".join(
         f"<tr><td style='opacity:.6;padding:0 .7em .1em 0;vertical-align:top;white-space:nowrap'>"
-        f"{safe(label)}</td><td style='overflow-wrap:anywhere'>{safe(text)}</td></tr>"
+        f"{escape_html(label)}</td><td style='overflow-wrap:anywhere'>{escape_html(text)}</td></tr>"
         for label, text in rows
     )
     return f"<table style='border-spacing:0;width:100%'>{cells}</table>"

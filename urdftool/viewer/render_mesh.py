@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from ..drawing.png_file import png
+from ..drawing.png_file import encode_png
 from .glb import encode_glb
 
 if TYPE_CHECKING:
@@ -87,7 +87,9 @@ def _look(
     if image >= 0:
         number = int(image)
         if number not in images:
-            images[number] = png(shapes.images[number][::-1], level=1)  # texels are bottom-up
+            images[number] = encode_png(
+                shapes.images[number][::-1], level=1
+            )  # texels are bottom-up
         clear = opacity < 1.0 or bool((shapes.images[number][..., 3] < 255).any())
         rgba = (red / 255, green / 255, blue / 255, opacity)
         packed = encode_glb(

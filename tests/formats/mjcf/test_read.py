@@ -232,7 +232,7 @@ def test_several_bodies_hang_on_the_world(tmp_path):
         ("floating", "ball"),
     ]
     assert robot.joint["ball_joint"].place.line == 5
-    assert robot.link["world"].collisions[0].geometry.get_size == (2.0, 4.0)
+    assert robot.link["world"].collisions[0].geometry.size == (2.0, 4.0)
     assert compute_bounds_at(robot.link["world"].collisions[0].geometry, make_pose(None)) is None
     equal(path)
 

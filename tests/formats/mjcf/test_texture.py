@@ -71,7 +71,7 @@ def test_another_format_is_converted_once(monkeypatch, tmp_path, mode, kind, col
     data = encoded(mode, kind)
     first = get_png(data)
     assert first[25] == color  # as many channels as there were
-    monkeypatch.setattr(texture, "_png_bytes", None)
+    monkeypatch.setattr(texture, "_convert_png_bytes", None)
     assert get_png(data) == first
 
 

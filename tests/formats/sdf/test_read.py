@@ -206,7 +206,7 @@ def test_defaults(tmp_path):
     limit = robot.joint["k"].limit
     assert (limit.lower, limit.upper, limit.effort, limit.velocity) == (-math.inf, 2.0, 0.0, None)
     box, capsule = (collision.geometry for collision in robot.link["c"].collisions)
-    assert box.get_size == (1.0, 1.0, 1.0)
+    assert box.size == (1.0, 1.0, 1.0)
     assert (capsule.radius, capsule.length) == (0.5, 1.0)
     assert robot.base.is_free
 

@@ -34,13 +34,13 @@ def report_unexpressed(robot: Robot, written: Written) -> None:
         robot: The source.
         written: The export, which receives the losses.
     """
-    for code, what, parts, severity in _kinds(robot):
+    for code, what, parts, severity in _list_kinds(robot):
         for part, name in parts:
             message = f"{what} '{name}' is dropped" if name else f"a {what} is dropped"
             written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)
 
 
-def _kinds(robot: Robot) -> Iterator[_Kind]:
+def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("closure", "closed loop", [(part, part.name) for part in robot.closures])
     yield _Kind("joint-actuator", "actuator", [(p, p.name) for p in robot.joint_actuators])
     yield _Kind(

@@ -70,7 +70,7 @@ def read(
     add_extras(context, robot)
     for warning in compiled.warnings:
         losses.add("warning", f"MuJoCo warns: {warning}", "", written.place, Severity.INFO)
-    return Reading(robot, losses.findings())
+    return Reading(robot, losses.make_findings())
 
 
 def _compile(expanded: Expanded) -> Compiled:
@@ -97,6 +97,6 @@ def _compile(expanded: Expanded) -> Compiled:
     except ProcessDied as error:
         raise ModelError("MuJoCo crashes on the model", at=place, notes=error.notes) from None
     if compiled.error:
-        at = expanded.at(compiled.error_line).place
+        at = expanded.get_element_at(compiled.error_line).place
         raise ModelError(f"MuJoCo does not compile the model: {compiled.error}", at=at)
     return compiled

@@ -67,7 +67,7 @@ def compile_text(text: str, models: Mapping[str, bytes], folder: str) -> Compile
     except (ValueError, mujoco.FatalError) as error:
         line = _LINE.search(str(error))
         reason = " ".join(_LINE.sub("", str(error)).split()).strip(" ,")
-        at = int(line[1]) if line else _missing_asset(spec, folder)
+        at = int(line[1]) if line else _find_missing_asset(spec, folder)
         return Compiled("", {}, [], said, reason, at)
     said += [str(warning.message) for warning in caught]
     rows = {kind: read(spec, model, mujoco) for kind, read in _READERS.items()}
@@ -76,13 +76,13 @@ def compile_text(text: str, models: Mapping[str, bytes], folder: str) -> Compile
     return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(said)))
 
 
-def _missing_asset(spec: Any, folder: str) -> int:
+def _find_missing_asset(spec: Any, folder: str) -> int:
     """Return the line of the first asset whose file is missing, of which MuJoCo gives no line."""
     for kind, place in (("meshes", "meshdir"), ("hfields", "meshdir"), ("textures", "texturedir")):
         for asset in getattr(spec, kind, ()):
-            path = _asset(asset.file, _folder(spec, asset, place), spec.strippath)
+            path = _make_asset_path(asset.file, _get_folder(spec, asset, place), spec.strippath)
             if path and not os.path.exists(os.path.join(folder, path)):
-                return _line(asset)
+                return _get_line(asset)
     return 0
 
 
@@ -95,21 +95,21 @@ def _keep_all(spec: Any) -> None:
         joint.align = 0
 
 
-def _line(element: Any) -> int:
+def _get_line(element: Any) -> int:
     found = _LINE.search(element.info or "")
     return int(found[1]) if found else 0
 
 
-def _base(element: Any) -> Row:
-    return {"name": element.name, "line": _line(element)}
+def _make_row(element: Any) -> Row:
+    return {"name": element.name, "line": _get_line(element)}
 
 
-def _in_order(elements: Iterable[Any]) -> list[Any]:
+def _sort_by_id(elements: Iterable[Any]) -> list[Any]:
     """Return elements by their id in the compiled model."""
     return sorted(elements, key=lambda element: element.id)
 
 
-def _values(model: Any, prefix: str, index: int, names: Iterable[str]) -> Row:
+def _list_values(model: Any, prefix: str, index: int, names: Iterable[str]) -> Row:
     found = {}
     for name in names:
         value = getattr(model, f"{prefix}_{name}")[index]
@@ -117,24 +117,24 @@ def _values(model: Any, prefix: str, index: int, names: Iterable[str]) -> Row:
     return found
 
 
-def _bodies(spec: Any, model: Any, _: Any) -> list[Row]:
+def _list_bodies(spec: Any, model: Any, _: Any) -> list[Row]:
     names = ("parentid", "pos", "quat", "mass", "inertia", "ipos", "iquat", "gravcomp", "mocapid")
     return [
-        {**_base(body), **_values(model, "body", i, names)}
-        for i, body in enumerate(_in_order(spec.bodies))
+        {**_make_row(body), **_list_values(model, "body", i, names)}
+        for i, body in enumerate(_sort_by_id(spec.bodies))
     ]
 
 
-def _joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+def _list_joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("bodyid", "pos", "axis", "range", "limited", "stiffness", "qposadr", "dofadr"),
         *("actfrclimited", "actfrcrange"),
     )
     rows = []
-    for i, joint in enumerate(_in_order(spec.joints)):
-        row = {**_base(joint), **_values(model, "jnt", i, names)}
-        row["type"] = _enum(mujoco.mjtJoint(model.jnt_type[i]), "mjJNT_")
-        row |= _values(model, "dof", row["dofadr"], ("damping", "frictionloss", "armature"))
+    for i, joint in enumerate(_sort_by_id(spec.joints)):
+        row = {**_make_row(joint), **_list_values(model, "jnt", i, names)}
+        row["type"] = _get_enum_name(mujoco.mjtJoint(model.jnt_type[i]), "mjJNT_")
+        row |= _list_values(model, "dof", row["dofadr"], ("damping", "frictionloss", "armature"))
         row["ref"] = float(model.qpos0[row["qposadr"]])
         row["springref"] = float(model.qpos_spring[row["qposadr"]])
         poly = getattr(model, "dof_dampingpoly", None)
@@ -143,146 +143,150 @@ def _joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     return rows
 
 
-def _geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+def _list_geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("bodyid", "pos", "quat", "size", "dataid", "contype", "conaffinity", "group"),
         *("rgba", "matid", "friction"),
     )
     paired = {int(i) for pair in (model.pair_geom1, model.pair_geom2) for i in pair}
     rows = []
-    for i, geom in enumerate(_in_order(spec.geoms)):
-        row = {**_base(geom), **_values(model, "geom", i, names)}
-        row["type"] = _enum(mujoco.mjtGeom(model.geom_type[i]), "mjGEOM_")
+    for i, geom in enumerate(_sort_by_id(spec.geoms)):
+        row = {**_make_row(geom), **_list_values(model, "geom", i, names)}
+        row["type"] = _get_enum_name(mujoco.mjtGeom(model.geom_type[i]), "mjGEOM_")
         row["paired"] = i in paired
         rows.append(row)
     return rows
 
 
-def _meshes(spec: Any, model: Any, _: Any) -> list[Row]:
+def _list_meshes(spec: Any, model: Any, _: Any) -> list[Row]:
     rows = []
-    for i, mesh in enumerate(_in_order(spec.meshes)):
-        row = {**_base(mesh), **_values(model, "mesh", i, ("pos", "quat"))}
-        row["file"] = _asset(mesh.file, _folder(spec, mesh, "meshdir"), spec.strippath)
+    for i, mesh in enumerate(_sort_by_id(spec.meshes)):
+        row = {**_make_row(mesh), **_list_values(model, "mesh", i, ("pos", "quat"))}
+        row["file"] = _make_asset_path(
+            mesh.file, _get_folder(spec, mesh, "meshdir"), spec.strippath
+        )
         row |= {name: getattr(mesh, name).tolist() for name in ("scale", "refpos", "refquat")}
         rows.append(row)
     return rows
 
 
-def _folder(spec: Any, element: Any, name: str) -> str:
+def _get_folder(spec: Any, element: Any, name: str) -> str:
     """Return the folder of an asset; an attached model has its own."""
     own = getattr(element, "compiler", None)
     return str(getattr(own, name, "") or getattr(spec, name))
 
 
-def _asset(file: str, folder: str, strip: bool) -> str:
+def _make_asset_path(file: str, folder: str, strip: bool) -> str:
     """Return the path of an asset as MuJoCo forms it; empty if it has no file."""
     if not file:
         return ""
     return os.path.join(folder, os.path.basename(file) if strip else file)
 
 
-def _materials(spec: Any, model: Any, _: Any) -> list[Row]:
+def _list_materials(spec: Any, model: Any, _: Any) -> list[Row]:
     files = {
-        texture.name: _asset(texture.file, _folder(spec, texture, "texturedir"), spec.strippath)
+        texture.name: _make_asset_path(
+            texture.file, _get_folder(spec, texture, "texturedir"), spec.strippath
+        )
         for texture in spec.textures
     }
     rows = []
-    for i, material in enumerate(_in_order(spec.materials)):
-        row = {**_base(material), "rgba": model.mat_rgba[i].tolist()}
+    for i, material in enumerate(_sort_by_id(spec.materials)):
+        row = {**_make_row(material), "rgba": model.mat_rgba[i].tolist()}
         named = [name for name in material.textures if name]
         row["texture"] = next((files[name] for name in named if files.get(name)), "")
         rows.append(row)
     return rows
 
 
-def _sites(spec: Any, model: Any, _: Any) -> list[Row]:
+def _list_sites(spec: Any, model: Any, _: Any) -> list[Row]:
     return [
-        {**_base(site), **_values(model, "site", i, ("bodyid", "pos", "quat"))}
-        for i, site in enumerate(_in_order(spec.sites))
+        {**_make_row(site), **_list_values(model, "site", i, ("bodyid", "pos", "quat"))}
+        for i, site in enumerate(_sort_by_id(spec.sites))
     ]
 
 
-def _cameras(spec: Any, model: Any, _: Any) -> list[Row]:
+def _list_cameras(spec: Any, model: Any, _: Any) -> list[Row]:
     names = ("bodyid", "pos", "quat", "fovy", "resolution", "mode")
     return [
-        {**_base(camera), **_values(model, "cam", i, names)}
-        for i, camera in enumerate(_in_order(spec.cameras))
+        {**_make_row(camera), **_list_values(model, "cam", i, names)}
+        for i, camera in enumerate(_sort_by_id(spec.cameras))
     ]
 
 
-def _actuators(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+def _list_actuators(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("gear", "gainprm", "biasprm", "ctrlrange", "ctrllimited", "forcerange", "forcelimited"),
         "trnid",
     )
     rows = []
-    for i, actuator in enumerate(_in_order(spec.actuators)):
-        row = {**_base(actuator), **_values(model, "actuator", i, names)}
+    for i, actuator in enumerate(_sort_by_id(spec.actuators)):
+        row = {**_make_row(actuator), **_list_values(model, "actuator", i, names)}
         for name, enum, prefix in (
             ("trntype", mujoco.mjtTrn, "mjTRN_"),
             ("gaintype", mujoco.mjtGain, "mjGAIN_"),
             ("biastype", mujoco.mjtBias, "mjBIAS_"),
             ("dyntype", mujoco.mjtDyn, "mjDYN_"),
         ):
-            row[name] = _enum(enum(getattr(model, f"actuator_{name}")[i]), prefix)
+            row[name] = _get_enum_name(enum(getattr(model, f"actuator_{name}")[i]), prefix)
         rows.append(row)
     return rows
 
 
-def _equalities(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+def _list_equalities(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     rows = []
-    for i, equality in enumerate(_in_order(spec.equalities)):
+    for i, equality in enumerate(_sort_by_id(spec.equalities)):
         row = {
-            **_base(equality),
-            **_values(model, "eq", i, ("obj1id", "obj2id", "data", "active0")),
+            **_make_row(equality),
+            **_list_values(model, "eq", i, ("obj1id", "obj2id", "data", "active0")),
         }
-        row["type"] = _enum(mujoco.mjtEq(model.eq_type[i]), "mjEQ_")
-        row["objtype"] = _enum(mujoco.mjtObj(model.eq_objtype[i]), "mjOBJ_")
+        row["type"] = _get_enum_name(mujoco.mjtEq(model.eq_type[i]), "mjEQ_")
+        row["objtype"] = _get_enum_name(mujoco.mjtObj(model.eq_objtype[i]), "mjOBJ_")
         rows.append(row)
     return rows
 
 
-def _sensors(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+def _list_sensors(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     rows = []
-    for i, sensor in enumerate(_in_order(spec.sensors)):
-        row = {**_base(sensor), "objid": int(model.sensor_objid[i])}
-        row["type"] = _enum(mujoco.mjtSensor(model.sensor_type[i]), "mjSENS_")
-        row["objtype"] = _enum(mujoco.mjtObj(model.sensor_objtype[i]), "mjOBJ_")
+    for i, sensor in enumerate(_sort_by_id(spec.sensors)):
+        row = {**_make_row(sensor), "objid": int(model.sensor_objid[i])}
+        row["type"] = _get_enum_name(mujoco.mjtSensor(model.sensor_type[i]), "mjSENS_")
+        row["objtype"] = _get_enum_name(mujoco.mjtObj(model.sensor_objtype[i]), "mjOBJ_")
         rows.append(row)
     return rows
 
 
-def _excludes(spec: Any, *_: Any) -> list[Row]:
-    return [{**_base(e), "body1": e.bodyname1, "body2": e.bodyname2} for e in spec.excludes]
+def _list_excludes(spec: Any, *_: Any) -> list[Row]:
+    return [{**_make_row(e), "body1": e.bodyname1, "body2": e.bodyname2} for e in spec.excludes]
 
 
-def _named(attribute: str) -> Callable[..., list[Row]]:
+def _make_lister(attribute: str) -> Callable[..., list[Row]]:
     def read(spec: Any, *_: Any) -> list[Row]:
-        return [_base(element) for element in getattr(spec, attribute, ())]
+        return [_make_row(element) for element in getattr(spec, attribute, ())]
 
     return read
 
 
-def _enum(value: Any, prefix: str) -> str:
+def _get_enum_name(value: Any, prefix: str) -> str:
     return str(value.name).removeprefix(prefix).lower()
 
 
 _READERS: dict[str, Callable[..., list[Row]]] = {
-    "body": _bodies,
-    "joint": _joints,
-    "geom": _geoms,
-    "mesh": _meshes,
-    "material": _materials,
-    "site": _sites,
-    "camera": _cameras,
-    "actuator": _actuators,
-    "equality": _equalities,
-    "sensor": _sensors,
-    "exclude": _excludes,
-    "tendon": _named("tendons"),
-    "light": _named("lights"),
-    "flex": _named("flexes"),
-    "skin": _named("skins"),
-    "plugin": _named("plugins"),
+    "body": _list_bodies,
+    "joint": _list_joints,
+    "geom": _list_geoms,
+    "mesh": _list_meshes,
+    "material": _list_materials,
+    "site": _list_sites,
+    "camera": _list_cameras,
+    "actuator": _list_actuators,
+    "equality": _list_equalities,
+    "sensor": _list_sensors,
+    "exclude": _list_excludes,
+    "tendon": _make_lister("tendons"),
+    "light": _make_lister("lights"),
+    "flex": _make_lister("flexes"),
+    "skin": _make_lister("skins"),
+    "plugin": _make_lister("plugins"),
 }
 """Reader of each kind."""

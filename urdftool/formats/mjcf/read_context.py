@@ -33,35 +33,35 @@ class Context:
     shifts: list[Pose] = field(default_factory=list)
     joints: list[str] = field(default_factory=list)
 
-    def rows(self, kind: str) -> list[Row]:
+    def list_rows(self, kind: str) -> list[Row]:
         """Return the rows of a kind."""
         return self.compiled.rows[kind]
 
-    def element(self, row: Row) -> Element:
+    def get_element(self, row: Row) -> Element:
         """Return the element of a row; the root if its line is unknown."""
-        return self.expanded.at(row["line"])
+        return self.expanded.get_element_at(row["line"])
 
-    def written(self, row: Row) -> Written:
+    def get_place(self, row: Row) -> Written:
         """Return the place of a row."""
-        return Written(self.element(row).place)
+        return Written(self.get_element(row).place)
 
-    def in_link(self, row: Row) -> Pose:
+    def compute_pose_in_link(self, row: Row) -> Pose:
         """Return the pose of a part of a body in the frame of its link."""
-        return self.shifts[row["bodyid"]] @ pose(row)
+        return self.shifts[row["bodyid"]] @ read_pose(row)
 
     def has_link(self, row: Row) -> bool:
         """Tell whether the body of a row is a link."""
         return bool(self.links[row["bodyid"]])
 
 
-def pose(row: Row, position: str = "pos", quaternion: str = "quat") -> Pose:
+def read_pose(row: Row, position: str = "pos", quaternion: str = "quat") -> Pose:
     """Return the pose in a row."""
     w, x, y, z = row[quaternion]
     turned = rotation_from_quaternion((w, x, y, z))
     return Pose(IDENTITY.rotation if w == 1.0 else turned, tuple(row[position]))
 
 
-def unique(wanted: str, taken: set[str]) -> str:
+def make_unique(wanted: str, taken: set[str]) -> str:
     """Return a name that is not taken, and take it."""
     name, count = wanted, 1
     while name in taken:
@@ -78,7 +78,7 @@ def name_bodies(context: Context, world: bool) -> None:
         context: The context, whose ``links`` are set.
         world: Whether the world is a link.
     """
-    rows = context.rows("body")
+    rows = context.list_rows("body")
     taken = {row["name"] for row in rows if row["name"]} | {WORLD}
     context.links = [WORLD if world else ""]
     counts: dict[int, int] = {}
@@ -86,14 +86,14 @@ def name_bodies(context: Context, world: bool) -> None:
         parent = row["parentid"]
         counts[parent] = number = counts.get(parent, 0) + 1
         invented = f"{context.links[parent] or WORLD}_body{number}"
-        context.links.append(row["name"] or unique(invented, taken))
+        context.links.append(row["name"] or make_unique(invented, taken))
 
 
 def name_joints(context: Context) -> set[str]:
     """Name each joint; unnamed joints are named for their body. Return all names."""
-    rows = context.rows("joint")
+    rows = context.list_rows("joint")
     taken = {row["name"] for row in rows if row["name"]}
     for row in rows:
         invented = f"{context.links[row['bodyid']]}_joint"
-        context.joints.append(row["name"] or unique(invented, taken))
+        context.joints.append(row["name"] or make_unique(invented, taken))
     return taken

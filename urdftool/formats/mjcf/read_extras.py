@@ -36,30 +36,32 @@ _LEFT_OUT = {
 def add_extras(context: Context, robot: Robot) -> None:
     """Add everything but bodies, joints and geoms."""
     for kind, (text, severity) in _LEFT_OUT.items():
-        for row in context.rows(kind):
-            place = context.element(row).place
+        for row in context.list_rows(kind):
+            place = context.get_element(row).place
             context.losses.add(kind, text, row["name"], place, severity)
     _add_frames(context, robot)
-    for row in context.rows("actuator"):
+    for row in context.list_rows("actuator"):
         _add_actuator(context, robot, row)
-    for row in context.rows("equality"):
+    for row in context.list_rows("equality"):
         _add_equality(context, robot, row)
-    for row in context.rows("exclude"):
-        robot.exclusions.append(ContactExclusion(context.written(row), row["body1"], row["body2"]))
-    for row in context.rows("sensor"):
+    for row in context.list_rows("exclude"):
+        robot.exclusions.append(
+            ContactExclusion(context.get_place(row), row["body1"], row["body2"])
+        )
+    for row in context.list_rows("sensor"):
         _add_sensor(context, robot, row)
     _add_configurations(context, robot)
 
 
 def _add_frames(context: Context, robot: Robot) -> None:
-    for row in context.rows("site"):
+    for row in context.list_rows("site"):
         if context.has_link(row):
-            written = context.written(row)
-            origin = get_origin_at(context.in_link(row), written)
+            written = context.get_place(row)
+            origin = get_origin_at(context.compute_pose_in_link(row), written)
             link = context.links[row["bodyid"]]
             robot.frames.append(Frame(written, row["name"], link, "site", origin))
-    for row in context.rows("camera"):
-        written = context.written(row)
+    for row in context.list_rows("camera"):
+        written = context.get_place(row)
         if row["mode"] != 0:
             text = "cameras that follow a body are fixed to theirs"
             context.losses.add("camera-mode", text, row["name"], written.place, Severity.INFO)
@@ -72,7 +74,7 @@ def _add_frames(context: Context, robot: Robot) -> None:
             written,
             row["name"],
             context.links[row["bodyid"]],
-            get_origin_at(context.in_link(row) @ _CAMERA, written),
+            get_origin_at(context.compute_pose_in_link(row) @ _CAMERA, written),
             math.radians(row["fovy"]),
             (width, height) if width > 1 and height > 1 else None,
         )
@@ -80,7 +82,7 @@ def _add_frames(context: Context, robot: Robot) -> None:
 
 
 def _add_actuator(context: Context, robot: Robot, row: Row) -> None:
-    written = context.written(row)
+    written = context.get_place(row)
     target = row["trnid"][0]
     joint = None
     if row["trntype"] in ("joint", "jointinparent"):
@@ -103,7 +105,7 @@ def _add_actuator(context: Context, robot: Robot, row: Row) -> None:
             written,
             row["name"],
             joint.name,
-            _mode(gain, (a, b, c)),
+            _get_mode(gain, (a, b, c)),
             row["gear"][0],
             gain,
             (a, b, c),
@@ -113,7 +115,7 @@ def _add_actuator(context: Context, robot: Robot, row: Row) -> None:
     )
 
 
-def _mode(gain: float, bias: tuple[float, float, float]) -> str:
+def _get_mode(gain: float, bias: tuple[float, float, float]) -> str:
     """Return the kind of an actuator by its law."""
     constant, position, velocity = bias
     if constant:
@@ -126,7 +128,7 @@ def _mode(gain: float, bias: tuple[float, float, float]) -> str:
 
 
 def _add_equality(context: Context, robot: Robot, row: Row) -> None:
-    written = context.written(row)
+    written = context.get_place(row)
     if row["type"] == "joint":
         _couple(context, robot, row, written)
     elif row["type"] in ("connect", "weld"):
@@ -148,7 +150,7 @@ def _couple(context: Context, robot: Robot, row: Row, written: Written) -> None:
         text = "couplings of joints that are not linear, not active or to a constant are not read"
         context.losses.add("coupling", text, row["name"] or follower.name, written.place)
         return
-    joints = context.rows("joint")
+    joints = context.list_rows("joint")
     y0, x0 = joints[row["obj1id"]]["ref"], joints[row["obj2id"]]["ref"]
     offset = polynomial[0] + y0 - polynomial[1] * x0
     mimic = Mimic(written, context.joints[row["obj2id"]], polynomial[1], offset)
@@ -164,9 +166,12 @@ def _close(context: Context, robot: Robot, row: Row, written: Written) -> None:
     one, other = row["obj1id"], row["obj2id"]
     x, y, z = row["data"][:3]
     if row["objtype"] == "site":
-        first, second = (context.rows("site")[i] for i in (one, other))
+        first, second = (context.list_rows("site")[i] for i in (one, other))
         one, other = first["bodyid"], second["bodyid"]
-        origin, child_origin = context.in_link(first), context.in_link(second)
+        origin, child_origin = (
+            context.compute_pose_in_link(first),
+            context.compute_pose_in_link(second),
+        )
     elif row["type"] == "connect":
         u, v, w = row["data"][3:6]
         origin = context.shifts[one] @ Pose(translation=(x, y, z))
@@ -191,7 +196,7 @@ def _close(context: Context, robot: Robot, row: Row, written: Written) -> None:
 
 
 def _add_sensor(context: Context, robot: Robot, row: Row) -> None:
-    written, target = context.written(row), row["objid"]
+    written, target = context.get_place(row), row["objid"]
     kind = row["objtype"]
     sensor = MountedSensor(written, row["name"], row["type"])
     if kind == "joint":
@@ -199,8 +204,8 @@ def _add_sensor(context: Context, robot: Robot, row: Row) -> None:
         return
     body, at = -1, IDENTITY
     if kind in ("site", "geom", "camera"):
-        holder = context.rows(kind)[target]
-        body, at = holder["bodyid"], context.in_link(holder)
+        holder = context.list_rows(kind)[target]
+        body, at = holder["bodyid"], context.compute_pose_in_link(holder)
     elif kind in ("body", "xbody"):
         body, at = target, context.shifts[target]
     if body < 0 or not context.links[body]:
@@ -216,7 +221,7 @@ def _add_configurations(context: Context, robot: Robot) -> None:
     named = {element.get("name") or "": element for element in elements}
     joints = [
         (context.joints[i], row["qposadr"], row["ref"])
-        for i, row in enumerate(context.rows("joint"))
+        for i, row in enumerate(context.list_rows("joint"))
         if row["type"] in ("hinge", "slide")
     ]
     if any(reference for _, _, reference in joints):

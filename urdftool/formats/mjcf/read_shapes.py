@@ -21,7 +21,7 @@ from ...model.elements import (
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate, rotation_from_quaternion
 from ...model.provenance import Written
 from .read_compile import Row
-from .read_context import Context, pose
+from .read_context import Context, read_pose
 
 _PLAIN = [0.5, 0.5, 0.5, 1.0]
 """Color of a geom that has none; in 32-bit floats these are exact."""
@@ -34,18 +34,18 @@ _FRICTION = [1.0, 0.005, 0.0001]
 
 def add_shapes(context: Context, robot: Robot) -> None:
     """Add visuals and collisions to the links of a robot."""
-    for row in context.rows("geom"):
-        written = context.written(row)
+    for row in context.list_rows("geom"):
+        written = context.get_place(row)
         if not context.has_link(row):
             text = "geoms of the world are scenery"
             context.losses.add("scenery", text, row["name"], written.place, Severity.INFO)
             continue
         link = robot.link[context.links[row["bodyid"]]]
-        geometry, frame = _geometry(context, row, written)
+        geometry, frame = _read_geometry(context, row, written)
         origin = get_origin_at(context.shifts[row["bodyid"]] @ frame, written)
         name = row["name"] or None
         collides = row["contype"] or row["conaffinity"] or row["paired"]
-        material, alpha = _material(context, row, written)
+        material, alpha = _read_material(context, row, written)
         visible = row["group"] < _HIDDEN_FROM and alpha > 0
         if visible:
             link.visuals.append(Visual(written, name, origin, geometry, material))
@@ -69,11 +69,11 @@ def _report_contact(context: Context, row: Row, written: Written) -> None:
         context.losses.add("friction", text, row["name"], written.place)
 
 
-def _geometry(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
+def _read_geometry(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
     """Return the geometry of a geom and its pose in the frame of the body."""
-    kind, (a, b, c), at = row["type"], row["size"], pose(row)
+    kind, (a, b, c), at = row["type"], row["size"], read_pose(row)
     if kind == "mesh":
-        return _mesh(context, row, written)
+        return _read_mesh(context, row, written)
     if kind == "sphere":
         return Sphere(written, a), at
     if kind == "capsule":
@@ -90,17 +90,17 @@ def _geometry(context: Context, row: Row, written: Written) -> tuple[Geometry, P
     return UnknownShape(written, kind), at
 
 
-def _mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
+def _read_mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
     """Return a mesh and the pose of its file in the frame of the body.
 
     MuJoCo moves the points of a mesh to its center of mass and principal axes, after it has
     subtracted ``refpos``, turned by the inverse of ``refquat``, and scaled.
     """
-    mesh = context.rows("mesh")[row["dataid"]]
-    at = pose(row) @ pose(mesh).invert()
+    mesh = context.list_rows("mesh")[row["dataid"]]
+    at = read_pose(row) @ read_pose(mesh).invert()
     if not mesh["file"]:
         text = "meshes without a file are not read"
-        context.losses.add("mesh", text, mesh["name"], context.written(mesh).place)
+        context.losses.add("mesh", text, mesh["name"], context.get_place(mesh).place)
         return UnknownShape(written, "mesh"), at
     x, y, z = mesh["scale"]
     w, *ijk = mesh["refquat"]
@@ -109,21 +109,21 @@ def _mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]
         turned = Pose(rotation_from_quaternion((w, ijk[0], ijk[1], ijk[2]))).invert()
         if not x == y == z:
             text = "meshes with refquat and unequal scales are not read"
-            context.losses.add("mesh-scale", text, mesh["name"], context.written(mesh).place)
+            context.losses.add("mesh-scale", text, mesh["name"], context.get_place(mesh).place)
             return UnknownShape(written, "mesh"), at
     p, q, r = rotate(turned.rotation, tuple(mesh["refpos"]))
     moved = Pose(turned.rotation, (-x * p, -y * q, -z * r))
-    return Mesh(context.written(mesh), mesh["file"], (x, y, z)), at @ moved
+    return Mesh(context.get_place(mesh), mesh["file"], (x, y, z)), at @ moved
 
 
-def _material(context: Context, row: Row, written: Written) -> tuple[Material, float]:
+def _read_material(context: Context, row: Row, written: Written) -> tuple[Material, float]:
     """Return the material of a geom, and how opaque it is."""
     rgba = row["rgba"]
     if row["matid"] < 0:
         return Material(written, "", tuple(rgba)), rgba[3]
-    material = context.rows("material")[row["matid"]]
+    material = context.list_rows("material")[row["matid"]]
     color = material["rgba"] if rgba == _PLAIN else rgba
     texture = material["texture"] or None
     name = material["name"] if color == material["rgba"] else ""
-    named = Material(context.written(material), name, tuple(color), texture)
+    named = Material(context.get_place(material), name, tuple(color), texture)
     return named, color[3]

@@ -42,7 +42,7 @@ class Expanded:
     files: list[SourceFile] = field(default_factory=list)
     lines: dict[int, Element] = field(default_factory=dict)
 
-    def at(self, line: int) -> Element:
+    def get_element_at(self, line: int) -> Element:
         """Return the element of a line; the root for a line without an element."""
         return self.lines.get(line, self.root)
 
@@ -55,7 +55,7 @@ def expand(file: SourceFile, workspace: Workspace) -> Expanded:
         ModelError: The root is not ``<mujoco>``, or the model has too many elements.
     """
     reader = _Reader(workspace)
-    root = reader.parsed(file)
+    root = reader.parse_file(file)
     if root.tag != "mujoco":
         what = "a fragment that other MJCF files include" if root.tag == "mujocoinclude" else ""
         raise ModelError(
@@ -65,7 +65,7 @@ def expand(file: SourceFile, workspace: Workspace) -> Expanded:
         )
     expanded = Expanded(root, files=reader.files, lines=reader.lines, models=reader.models)
     folder = Path() if file.path == STDIN else Path(file.path).parent
-    expanded.text = reader.text(root, folder, 0, (_key(file.path),))
+    expanded.text = reader.write_text(root, folder, 0, (_make_key(file.path),))
     return expanded
 
 
@@ -79,7 +79,7 @@ class _Reader:
         self.models: dict[str, bytes] = {}
         self._count = 0
 
-    def parsed(self, file: SourceFile) -> Element:
+    def parse_file(self, file: SourceFile) -> Element:
         """Parse a file; MuJoCo's XML reader accepts some text that is not well-formed."""
         self.files.append(file)
         try:
@@ -90,7 +90,7 @@ class _Reader:
                 raise
         return parse(mended).root
 
-    def text(self, root: Element, folder: Path, first: int, above: tuple[str, ...]) -> str:
+    def write_text(self, root: Element, folder: Path, first: int, above: tuple[str, ...]) -> str:
         """Write a model with one start tag per line, and register its lines.
 
         Args:
@@ -114,7 +114,7 @@ class _Reader:
                 ]
                 continue
             if element.tag == "replicate":
-                copies *= _copies(element)
+                copies *= _count_copies(element)
             self._count += copies
             if self._count > MAX_ELEMENTS:
                 raise ModelError(
@@ -124,7 +124,7 @@ class _Reader:
             if element.tag == "model" and element.get("file"):
                 self._attach(element, folder, above)
             written = "".join(f" {name}={quoteattr(v)}" for name, v in element.attributes.items())
-            out.append(f"<{element.tag}{written}>{_escaped(element.text)}")
+            out.append(f"<{element.tag}{written}>{_escape(element.text)}")
             self.lines[first + len(out)] = element
             todo.append(f"</{element.tag}>")
             todo += [(child, copies) for child in reversed(element.children)]
@@ -144,7 +144,7 @@ class _Reader:
         path = folder / name
         if not self.workspace.is_file(path) and self.workspace.is_file(beside):
             path = beside
-        key = _key(path)
+        key = _make_key(path)
         if key == above:
             raise SourceError(f"file '{name}' includes itself", at=element.place)
         if key in included:
@@ -152,38 +152,38 @@ class _Reader:
                 f"file '{name}' is included twice, which MuJoCo refuses", at=element.place
             )
         included.add(key)
-        return reversed(self.parsed(self._file(path, name, element)).children)
+        return reversed(self.parse_file(self._read_file(path, name, element)).children)
 
     def _attach(self, element: Element, folder: Path, above: tuple[str, ...]) -> None:
         name = element.get("file") or ""
         path = folder / name
-        if _key(path) in above:
+        if _make_key(path) in above:
             raise SourceError(f"model '{name}' attaches itself", at=element.place)
         if name in self.models:
             return
         first = _BLOCK * (len(self.models) + 1)
         self.models[name] = b""
-        root = self.parsed(self._file(path, name, element))
-        text = self.text(root, path.parent, first, (*above, _key(path)))
+        root = self.parse_file(self._read_file(path, name, element))
+        text = self.write_text(root, path.parent, first, (*above, _make_key(path)))
         self.models[name] = b"\n" * first + text.encode()
 
-    def _file(self, path: Path, name: str, element: Element) -> SourceFile:
+    def _read_file(self, path: Path, name: str, element: Element) -> SourceFile:
         try:
             return read_file(str(path), self.workspace)
         except SourceError as error:
             raise SourceError(f"file '{name}' {error.message}", at=element.place) from None
 
 
-def _copies(element: Element) -> int:
+def _count_copies(element: Element) -> int:
     try:
         return max(1, int(element.get("count") or "1"))
     except ValueError:
         return 1  # MuJoCo reports it
 
 
-def _key(path: str | PurePath) -> str:
+def _make_key(path: str | PurePath) -> str:
     return str(Path(path).resolve())
 
 
-def _escaped(text: str) -> str:
+def _escape(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace("\n", " ").strip()

@@ -30,7 +30,7 @@ from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
 from ...model.world import WORLD
 from .read_compile import Row
-from .read_context import Context, name_bodies, name_joints, pose, unique
+from .read_context import Context, make_unique, name_bodies, name_joints, read_pose
 
 UNLIMITED = 1e9
 """Range beyond which a joint counts as unlimited."""
@@ -42,9 +42,9 @@ def add_tree(context: Context, robot: Robot) -> None:
     The root is the only body in the world, or a link ``world`` if there are several or if a joint
     other than a free one connects it to the world.
     """
-    bodies = context.rows("body")
+    bodies = context.list_rows("body")
     joints: dict[int, list[int]] = {}
-    for index, row in enumerate(context.rows("joint")):
+    for index, row in enumerate(context.list_rows("joint")):
         joints.setdefault(row["bodyid"], []).append(index)
     name_bodies(context, _needs_world(context, joints))
     taken = name_joints(context)
@@ -54,28 +54,30 @@ def add_tree(context: Context, robot: Robot) -> None:
     for index, row in enumerate(bodies[1:], 1):
         own = joints.get(index, [])
         parent = context.links[row["parentid"]]
-        anchor = _anchor(context.rows("joint")[own[-1]]) if own else ZERO
-        shift = Pose(translation=_negated(anchor))
+        anchor = _anchor(context.list_rows("joint")[own[-1]]) if own else ZERO
+        shift = Pose(translation=_negate(anchor))
         context.shifts.append(shift)
-        link = Link(context.written(row), context.links[index], _inertial(context, row, shift))
+        link = Link(
+            context.get_place(row), context.links[index], _read_inertial(context, row, shift)
+        )
         if parent:
-            made = list(_joints(context, row, index, own, taken))
+            made = list(_read_joints(context, row, index, own, taken))
             robot.joints += made
             robot.links += [
                 Link(joint.provenance, joint.child, is_virtual=True) for joint in made[:-1]
             ]
         else:
-            base = get_origin_at(pose(row), context.written(row))
-            robot.base = Base(context.written(row), bool(own), base)
-            for joint in (context.rows("joint")[number] for number in own):
+            base = get_origin_at(read_pose(row), context.get_place(row))
+            robot.base = Base(context.get_place(row), bool(own), base)
+            for joint in (context.list_rows("joint")[number] for number in own):
                 if any(joint[name] for name in ("damping", "frictionloss", "armature")):
                     text = "damping, friction and armature of a free base are not read"
                     place = _place(context, joint).place
                     context.losses.add("base-dynamics", text, joint["name"], place)
         robot.links.append(link)
         if any(anchor):
-            origin = get_origin_at(shift, context.written(row))
-            robot.frames.append(Frame(context.written(row), link.name, link.name, "body", origin))
+            origin = get_origin_at(shift, context.get_place(row))
+            robot.frames.append(Frame(context.get_place(row), link.name, link.name, "body", origin))
         if row["mocapid"] >= 0:
             text = "bodies that the program moves are fixed"
             context.losses.add("mocap", text, row["name"], link.place, Severity.INFO)
@@ -86,24 +88,26 @@ def add_tree(context: Context, robot: Robot) -> None:
 
 def _needs_world(context: Context, joints: dict[int, list[int]]) -> bool:
     """Tell whether the world is a link of the robot."""
-    top = [i for i, row in enumerate(context.rows("body")) if i and row["parentid"] == 0]
-    kinds = [context.rows("joint")[i]["type"] for body in top for i in joints.get(body, [])]
+    top = [i for i, row in enumerate(context.list_rows("body")) if i and row["parentid"] == 0]
+    kinds = [context.list_rows("joint")[i]["type"] for body in top for i in joints.get(body, [])]
     closes = any(
         0 in (row["obj1id"], row["obj2id"])
-        for row in context.rows("equality")
+        for row in context.list_rows("equality")
         if row["type"] in ("connect", "weld") and row["objtype"] == "body"
     )
     return len(top) != 1 or kinds not in ([], ["free"]) or closes
 
 
-def _inertial(context: Context, row: Row, shift: Pose) -> Inertial | None:
+def _read_inertial(context: Context, row: Row, shift: Pose) -> Inertial | None:
     if not row["mass"]:
         return None
-    written = context.element(row).find_child("inertial")
-    at = context.written(row) if written is None else Written(written.place)
+    written = context.get_element(row).find_child("inertial")
+    at = context.get_place(row) if written is None else Written(written.place)
     a, b, c = row["inertia"]
     tensor = Inertia(at, a, 0.0, 0.0, b, 0.0, c)
-    return Inertial(at, get_origin_at(shift @ pose(row, "ipos", "iquat"), at), row["mass"], tensor)
+    return Inertial(
+        at, get_origin_at(shift @ read_pose(row, "ipos", "iquat"), at), row["mass"], tensor
+    )
 
 
 def _anchor(row: Row) -> Vector:
@@ -112,38 +116,38 @@ def _anchor(row: Row) -> Vector:
     return x, y, z
 
 
-def _negated(point: Vector) -> Vector:
+def _negate(point: Vector) -> Vector:
     x, y, z = point
     return -x, -y, -z
 
 
-def _joints(
+def _read_joints(
     context: Context, body: Row, index: int, own: list[int], taken: set[str]
 ) -> Iterator[Joint]:
     """Yield the joints between a body and its parent, the first of them first."""
     name, parent = context.links[index], context.links[body["parentid"]]
-    at = context.shifts[body["parentid"]] @ pose(body)
+    at = context.shifts[body["parentid"]] @ read_pose(body)
     if not own:
-        written = context.written(body)
-        fixed = unique(f"{name}_fixed", taken)
+        written = context.get_place(body)
+        fixed = make_unique(f"{name}_fixed", taken)
         origin = get_origin_at(at @ context.shifts[index].invert(), written)
         yield Joint(written, fixed, "fixed", parent, name, origin=origin)
         return
     before = ZERO
     links = set(context.links)
     for count, number in enumerate(own, 1):
-        row = context.rows("joint")[number]
-        child = name if count == len(own) else unique(f"{name}~{count}", links)
+        row = context.list_rows("joint")[number]
+        child = name if count == len(own) else make_unique(f"{name}~{count}", links)
         anchor = _anchor(row)
         step = Pose(translation=tuple(a - b for a, b in zip(anchor, before, strict=True)))  # type: ignore[arg-type]
-        joint = _joint(context, row, number, parent, child)
+        joint = _read_joint(context, row, number, parent, child)
         if row["ref"] and joint.type not in ("ball", "floating"):
             step = step @ compute_motion(replace(joint, limit=None), -row["ref"])
         yield replace(joint, origin=get_origin_at(at @ step, joint.provenance))
         at, before, parent = IDENTITY, anchor, child
 
 
-def _joint(context: Context, row: Row, number: int, parent: str, child: str) -> Joint:
+def _read_joint(context: Context, row: Row, number: int, parent: str, child: str) -> Joint:
     """Return a joint without its origin."""
     written = _place(context, row)
     lower, upper = row["range"]
@@ -156,8 +160,8 @@ def _joint(context: Context, row: Row, number: int, parent: str, child: str) -> 
         x, y, z = row["axis"]
         joint.axis = Axis(written, (x, y, z))
         joint.type = "continuous" if kind == "revolute" and not limited else kind
-    joint.dynamics = _dynamics(context, row, written)
-    effort = _effort(context, row, number)
+    joint.dynamics = _read_dynamics(context, row, written)
+    effort = _compute_effort(context, row, number)
     if limited:
         joint.limit = Limit(written, lower, upper, effort)
     elif effort is not None:
@@ -169,13 +173,13 @@ def _joint(context: Context, row: Row, number: int, parent: str, child: str) -> 
 def _place(context: Context, row: Row) -> Written:
     """Return the place of a joint; MuJoCo gives no line of a ``<freejoint>``."""
     if row["line"]:
-        return context.written(row)
-    body = context.element(context.rows("body")[row["bodyid"]])
+        return context.get_place(row)
+    body = context.get_element(context.list_rows("body")[row["bodyid"]])
     element = body.find_child("freejoint")
     return Written((body if element is None else element).place)
 
 
-def _dynamics(context: Context, row: Row, written: Written) -> Dynamics | None:
+def _read_dynamics(context: Context, row: Row, written: Written) -> Dynamics | None:
     if row["poly"]:
         text = "damping that is not proportional to velocity is not read"
         context.losses.add("damping", text, row["name"], written.place)
@@ -189,10 +193,10 @@ def _dynamics(context: Context, row: Row, written: Written) -> Dynamics | None:
     return Dynamics(written, damping, friction, armature, stiffness, reference)
 
 
-def _effort(context: Context, row: Row, number: int) -> float | None:
+def _compute_effort(context: Context, row: Row, number: int) -> float | None:
     """Return the largest force of the actuators of a joint [N or N·m]; None if not bounded."""
     bounds: list[float] = []
-    for actuator in context.rows("actuator"):
+    for actuator in context.list_rows("actuator"):
         if actuator["trntype"] in ("joint", "jointinparent") and actuator["trnid"][0] == number:
             bounds.append(_bound(actuator))
     total = math.fsum(bounds) if bounds else math.inf

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere
 from ...model.pose import Pose, make_pose, rpy_from_rotation
 from ...source.document import Element
-from .extensions import merge_elements, values
+from .extensions import list_values, merge_elements
 from .gltf import undo_axis_conversion
 from .keywords import COLLISION_KEYWORDS
 from .shapes import add_geometry, is_writable, set_place
@@ -36,7 +36,7 @@ def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str)
     set_place(made, t, link, part.origin)
     assert part.geometry is not None
     add_geometry(made, t, part.geometry)
-    for tag, text in values(t, link, COLLISION_KEYWORDS).items():
+    for tag, text in list_values(t, link, COLLISION_KEYWORDS).items():
         get_or_create(made, COLLISION_KEYWORDS[tag].path).text = text
     merge_elements(made, t, link, "collision")
 

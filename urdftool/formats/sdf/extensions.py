@@ -46,7 +46,7 @@ def _is_of_joint(element: Element) -> bool:
     return element.tag in JOINT_KEYWORDS or element.tag in LUMPING_KEYWORDS
 
 
-def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dict[str, str]:
+def list_values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dict[str, str]:
     """Return the values of a table's tags for a link or joint; the last of each tag counts."""
     found: dict[str, str] = {}
     for element in block_elements(t.robot, part):
@@ -72,7 +72,7 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
     _report_repeated(t, link, {**COLLISION_KEYWORDS, **LINK_KEYWORDS})
     _report_untouchable(t, link)
     own = t.plan.stays(link.name)
-    flags = values(t, link, LINK_KEYWORDS)
+    flags = list_values(t, link, LINK_KEYWORDS)
     if own:
         for tag, text in flags.items():
             _set_flag(node, tag, text)
@@ -118,7 +118,7 @@ def _set_flag(node: Node, tag: str, text: str) -> None:
 def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     """Convert the settings of a joint, except sensors."""
     _report_repeated(t, joint, JOINT_KEYWORDS)
-    for tag, text in values(t, joint, JOINT_KEYWORDS).items():
+    for tag, text in list_values(t, joint, JOINT_KEYWORDS).items():
         path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
         if path.startswith("axis/") and node.find("axis") is None:
             text = f"<{tag}> is set for joint '{joint.name}', which has no axis; it is not exported"
@@ -186,7 +186,7 @@ def _report_repeated(t: Translation, part: Link | Joint, table: dict[str, Keywor
 
 def _report_untouchable(t: Translation, link: Link) -> None:
     """Report contact values of a link without collisions, which have no effect."""
-    given = values(t, link, COLLISION_KEYWORDS)
+    given = list_values(t, link, COLLISION_KEYWORDS)
     given.pop("laserRetro", None)
     if given and not link.collisions:
         first = next(e for e in block_elements(t.robot, link) if e.tag in given)

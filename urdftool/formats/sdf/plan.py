@@ -72,7 +72,7 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     masses = {name: link_inertia(robot.link[name]) for name in links}
     for name in links:
         joint = loose.get(name)
-        if joint is not None and (lump or not _stands(masses[name])):
+        if joint is not None and (lump or not _is_physical(masses[name])):
             plan.dissolved.add(joint.name)
     if not lump:
         _dissolve_groups(robot, plan, loose, masses)
@@ -119,7 +119,7 @@ def get_excess(mass: SpatialInertia) -> float:
     return measure_consistency(mass.tensor, least_size=get_noise(mass.mass)).excess
 
 
-def _stands(mass: SpatialInertia) -> bool:
+def _is_physical(mass: SpatialInertia) -> bool:
     """Tell whether a link with these mass properties can be a link of its own."""
     return mass.mass > 0 and get_excess(mass) <= EXACT
 
@@ -135,10 +135,10 @@ def _dissolve_groups(
         return combine(masses[n].transform(poses[n]) for n in links if group[n] in tops)
 
     for top in links:
-        if group[top] != top or _stands(total({top})):
+        if group[top] != top or _is_physical(total({top})):
             continue
         tops, chosen = {top}, []
-        while not _stands(total(tops)):
+        while not _is_physical(total(tops)):
             joint = next(
                 (j for c, j in loose.items() if (group[c] in tops) != (group[j.parent] in tops)),
                 None,
@@ -147,7 +147,7 @@ def _dissolve_groups(
                 break
             chosen.append(joint)
             tops |= {group[joint.child], group[joint.parent]}
-        if _stands(total(tops)):
+        if _is_physical(total(tops)):
             plan.dissolved |= {joint.name for joint in chosen}
             group = _group(robot, plan).top
 

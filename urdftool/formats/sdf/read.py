@@ -29,7 +29,7 @@ from .read_joints import (
 )
 from .read_links import Context, read_link
 from .read_models import Models
-from .read_scope import Scope, own_pose
+from .read_scope import Scope, read_own_pose
 
 
 def read(
@@ -57,14 +57,14 @@ def read(
     finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
     losses = Losses()
     models = Models(finder, workspace, losses)
-    root = models.root(file)
-    top = _choose(models.top_models(root), losses)
+    root = models.parse_root(file)
+    top = _choose(models.list_top_models(root), losses)
     if top is None:
         raise ModelError("the file has no model with a link", at=root.place)
     robot = Robot(Written(top.element.place), top.name)
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
     _fill(Context(robot, losses, file.path), top)
-    return Reading(robot, losses.findings())
+    return Reading(robot, losses.make_findings())
 
 
 def _choose(found: list[Scope], losses: Losses) -> Scope | None:
@@ -73,7 +73,7 @@ def _choose(found: list[Scope], losses: Losses) -> Scope | None:
         id(model): tuple(
             sum(len(part) for part in parts)
             for parts in zip(
-                *((scope.joints, scope.links) for _, scope in model.everything()), strict=True
+                *((scope.joints, scope.links) for _, scope in model.list_scopes()), strict=True
             )
         )
         for model in found
@@ -90,12 +90,12 @@ def _fill(context: Context, top: Scope) -> None:
     """Add links, joints and frames to a robot."""
     robot = context.robot
     links = []
-    for prefix, scope in top.everything():
+    for prefix, scope in top.list_scopes():
         path = prefix.removesuffix("::")
-        base = top.pose(path, top.element) if path else IDENTITY
+        base = top.compute_pose(path, top.element) if path else IDENTITY
         for name, item in scope.links.items():
             links.append((scope, prefix, item.element))
-            context.poses[prefix + name] = base @ scope.pose(name, item.element)
+            context.poses[prefix + name] = base @ scope.compute_pose(name, item.element)
     context.shifts = dict.fromkeys(context.poses, IDENTITY)
     tree, loops = order(find_joints(top))
     has_world = any(WORLD in (joint.parent, joint.child) for joint in (*tree, *loops))
@@ -103,13 +103,13 @@ def _fill(context: Context, top: Scope) -> None:
     roots = [name for name in context.poses if name not in children and name != WORLD]
     is_named = WORLD in context.poses  # a link of that name
     if not is_named:
-        context.poses[WORLD] = own_pose(top).invert()
+        context.poses[WORLD] = read_own_pose(top).invert()
         context.shifts[WORLD] = IDENTITY
     set_shifts(context, tree)
     if (has_world or len(roots) > 1) and not is_named:
         robot.links.append(Link(robot.provenance, WORLD))
     else:
-        at = own_pose(top) @ context.poses[roots[0]] if roots else IDENTITY
+        at = read_own_pose(top) @ context.poses[roots[0]] if roots else IDENTITY
         origin = get_origin_at(at, robot.provenance)
         robot.base = Base(robot.provenance, not (top.is_static or is_named), origin)
     for scope, prefix, element in links:

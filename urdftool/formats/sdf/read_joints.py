@@ -16,9 +16,9 @@ from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
 from ...model.world import WORLD
 from ...source.document import Element
-from .read_links import Context, direction
+from .read_links import Context, normalize_direction
 from .read_scope import MODEL, Item, Scope
-from .read_values import flag, number, vector
+from .read_values import number, read_flag, read_vector
 
 UNLIMITED = 1e16
 """Limit of a joint that has none, before SDF 1.10."""
@@ -62,9 +62,9 @@ def find_joints(top: Scope) -> list[Found]:
         ModelError: An end is missing or does not exist, or the type is unknown.
     """
     found = []
-    for prefix, scope in top.everything():
+    for prefix, scope in top.list_scopes():
         path = prefix.removesuffix("::")
-        base = top.pose(path, top.element) if path else IDENTITY
+        base = top.compute_pose(path, top.element) if path else IDENTITY
         for item in scope.joints.values():
             element = item.element
             if element.get("type") not in _TYPES:
@@ -73,7 +73,7 @@ def find_joints(top: Scope) -> list[Found]:
             parent, child = (_end(scope, top, prefix, item, tag) for tag in ("parent", "child"))
             if parent == child:
                 raise ModelError(f"joint '{item.name}' joins a link to itself", at=element.place)
-            pose = base @ scope.pose(item.name, element)
+            pose = base @ scope.compute_pose(item.name, element)
             found.append(Found(element, scope, prefix + item.name, parent, child, pose))
     return found
 
@@ -128,11 +128,11 @@ def set_shifts(context: Context, tree: list[Found]) -> None:
 def add_joint(context: Context, found: Found) -> None:
     """Add a joint of the tree to the robot."""
     written, robot = Written(found.element.place), context.robot
-    at = placed(context, found.parent).invert() @ placed(context, found.child)
+    at = get_link_pose(context, found.parent).invert() @ get_link_pose(context, found.child)
     joint = Joint(
         written,
         found.name,
-        _type(found),
+        _read_type(found),
         found.parent,
         found.child,
         origin=get_origin_at(at, written),
@@ -152,19 +152,19 @@ def add_joint(context: Context, found: Found) -> None:
             _set_axis(context, found, joint, "axis", turn)
         robot.joints.append(joint)
     if found.type == "gearbox":
-        context.lose("gearbox", "ratios of gearboxes are not read", found.element)
+        context.record_loss("gearbox", "ratios of gearboxes are not read", found.element)
     for sensor in found.element.list_children("sensor"):
         place, name = Written(sensor.place), sensor.get("name") or ""
         kind = sensor.get("type") or ""
         robot.mounted_sensors.append(MountedSensor(place, name, kind, joint=found.name))
 
 
-def placed(context: Context, link: str) -> Pose:
+def get_link_pose(context: Context, link: str) -> Pose:
     """Return the pose of the shifted frame of a link in the top model."""
     return context.poses[link] @ context.shifts[link].invert()
 
 
-def _type(found: Found) -> str:
+def _read_type(found: Found) -> str:
     turning = ("universal", "revolute2", "gearbox")
     return "revolute" if found.type in turning else found.type
 
@@ -181,10 +181,10 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
     """
     element = found.element.find_child(tag)
     holder = found.element if element is None else element
-    xyz = (0.0, 0.0, 1.0) if element is None else vector(element, "xyz", (0.0, 0.0, 1.0))
-    frame = _axis_frame(context, found, element)
+    xyz = (0.0, 0.0, 1.0) if element is None else read_vector(element, "xyz", (0.0, 0.0, 1.0))
+    frame = _find_axis_frame(context, found, element)
     written = Written(holder.place)
-    along = rotate(turn.rotation, rotate(frame.rotation, direction(holder, xyz)))
+    along = rotate(turn.rotation, rotate(frame.rotation, normalize_direction(holder, xyz)))
     joint.axis = Axis(written, _without_noise(along))
     joint.limit = _limit(element, joint.type, written)
     if joint.type == "revolute" and _is_unlimited(joint.limit) and found.type != "gearbox":
@@ -193,9 +193,9 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
         joint.limit = replace(joint.limit, lower=None, upper=None)
         if (joint.limit.effort, joint.limit.velocity) == (None, None):
             joint.limit = None
-    joint.dynamics = _dynamics(element)
+    joint.dynamics = _read_dynamics(element)
     if found.type == "screw":
-        joint.thread_pitch = _pitch(found)
+        joint.thread_pitch = _read_pitch(found)
     mimic = None if element is None else element.find_child("mimic")
     if mimic is not None:
         multiplier = number(mimic, "multiplier", 1.0)
@@ -213,18 +213,18 @@ def _without_noise(axis: Vector) -> Vector:
     return x, y, z
 
 
-def _axis_frame(context: Context, found: Found, element: Element | None) -> Pose:
+def _find_axis_frame(context: Context, found: Found, element: Element | None) -> Pose:
     """Return the pose of the frame in which an axis is written, in the top model."""
     name = found.element.get("name") or ""
-    top = found.pose @ found.scope.pose(name, found.element).invert()  # of the model
+    top = found.pose @ found.scope.compute_pose(name, found.element).invert()  # of the model
     if element is None:
         return found.pose
     xyz = element.find_child("xyz")
     named = None if xyz is None else xyz.get("expressed_in")
     if named:
-        return top @ found.scope.pose(named, element)
+        return top @ found.scope.compute_pose(named, element)
     if found.scope.version < (1, 5) or (
-        found.scope.version < (1, 7) and flag(element, "use_parent_model_frame")
+        found.scope.version < (1, 7) and read_flag(element, "use_parent_model_frame")
     ):
         return top
     return found.pose
@@ -252,7 +252,7 @@ def _is_unlimited(limit: Limit | None) -> bool:
     return limit is None or (limit.lower, limit.upper) == (-math.inf, math.inf)
 
 
-def _dynamics(element: Element | None) -> Dynamics | None:
+def _read_dynamics(element: Element | None) -> Dynamics | None:
     holder = None if element is None else element.find_child("dynamics")
     if holder is None:
         return None
@@ -267,7 +267,7 @@ def _dynamics(element: Element | None) -> Dynamics | None:
     )
 
 
-def _pitch(found: Found) -> float:
+def _read_pitch(found: Found) -> float:
     """Return the translation of a screw for each turn [m].
 
     ``thread_pitch`` is the left-handed angle for each meter; since 1.10 ``screw_thread_pitch`` is
@@ -295,15 +295,15 @@ def add_closure(context: Context, found: Found) -> None:
     """Add a joint that closes a loop."""
     written = Written(found.element.place)
     ends = [
-        get_origin_at(placed(context, link).invert() @ found.pose, written)
+        get_origin_at(get_link_pose(context, link).invert() @ found.pose, written)
         for link in (found.parent, found.child)
     ]
     element = found.element.find_child("axis")
     axis: Vector | None = None
     if found.type not in ("fixed", "ball"):
-        xyz = (0.0, 0.0, 1.0) if element is None else vector(element, "xyz", (0.0, 0.0, 1.0))
-        frame = found.pose.invert() @ _axis_frame(context, found, element)
-        axis = rotate(frame.rotation, direction(found.element, xyz))
+        xyz = (0.0, 0.0, 1.0) if element is None else read_vector(element, "xyz", (0.0, 0.0, 1.0))
+        frame = found.pose.invert() @ _find_axis_frame(context, found, element)
+        axis = rotate(frame.rotation, normalize_direction(found.element, xyz))
     kind = "weld" if found.type == "fixed" else found.type
     closure = Closure(written, found.name, kind, found.parent, found.child, ends[0], ends[1], axis)
     context.robot.closures.append(closure)
@@ -319,7 +319,9 @@ def add_world(context: Context, robot: Robot, roots: list[str], is_static: bool)
             name += "_"
         taken.add(name)
         link = robot.link[root]
-        origin = get_origin_at(placed(context, WORLD).invert() @ placed(context, root))
+        origin = get_origin_at(
+            get_link_pose(context, WORLD).invert() @ get_link_pose(context, root)
+        )
         robot.joints.append(Joint(link.provenance, name, kind, WORLD, root, origin=origin))
 
 
@@ -330,15 +332,15 @@ def add_frames(context: Context, top: Scope) -> None:
         if shift is not IDENTITY and name in robot.link:
             place = robot.link[name].provenance
             robot.frames.append(Frame(place, name, name, "body", get_origin_at(shift)))
-    for prefix, scope in top.everything():
+    for prefix, scope in top.list_scopes():
         path = prefix.removesuffix("::")
-        base = top.pose(path, top.element) if path else IDENTITY
+        base = top.compute_pose(path, top.element) if path else IDENTITY
         for item in scope.frames.values():
             link = scope.link_of(item.name, item.element)
             owner = WORLD if link is None else prefix + "::".join(link)
             if owner not in robot.link:
                 continue
-            pose = base @ scope.pose(item.name, item.element)
+            pose = base @ scope.compute_pose(item.name, item.element)
             written = Written(item.element.place)
-            origin = get_origin_at(placed(context, owner).invert() @ pose, written)
+            origin = get_origin_at(get_link_pose(context, owner).invert() @ pose, written)
             robot.frames.append(Frame(written, prefix + item.name, owner, "frame", origin))

@@ -34,7 +34,7 @@ from ...model.provenance import Written
 from ...source.document import Element
 from ..reading import Losses
 from .read_scope import Scope
-from .read_values import flag, number, numbers_of, pose_in, text_of, vector
+from .read_values import number, read_flag, read_numbers, read_pose, read_text, read_vector
 
 _TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
 _CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "thermal_camera", "wideanglecamera")
@@ -59,7 +59,7 @@ class Context:
     shifts: dict[str, Pose] = field(default_factory=dict)
     poses: dict[str, Pose] = field(default_factory=dict)
 
-    def lose(
+    def record_loss(
         self, code: str, text: str, element: Element, severity: Severity = Severity.WARNING
     ) -> None:
         """Report an element that is not read."""
@@ -69,33 +69,37 @@ class Context:
 def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> Link:
     """Return a link whose parts are in its shifted frame, and add its sensors to the robot."""
     name = prefix + (element.get("name") or "")
-    link = Link(Written(element.place), name, _inertial(context, scope, prefix, element))
+    link = Link(Written(element.place), name, _read_inertial(context, scope, prefix, element))
     for child in element.children:
         if child.tag == "visual":
-            link.visuals += _visual(context, scope, prefix, element, child)
+            link.visuals += _read_visual(context, scope, prefix, element, child)
         elif child.tag == "collision":
-            link.collisions += _collision(context, scope, prefix, element, child)
+            link.collisions += _read_collision(context, scope, prefix, element, child)
         elif child.tag == "sensor":
             _add_sensor(context, scope, prefix, element, child)
         elif child.tag in ("light", "projector", "particle_emitter", "battery", "audio_source"):
-            context.lose(child.tag, f"elements <{child.tag}> are not read", child, Severity.INFO)
-    if not flag(element, "gravity", True):
-        context.lose("gravity", "links without gravity are read as others", element)
-    if flag(element, "kinematic"):
-        context.lose("kinematic", "kinematic links are read as others", element)
+            context.record_loss(
+                child.tag, f"elements <{child.tag}> are not read", child, Severity.INFO
+            )
+    if not read_flag(element, "gravity", True):
+        context.record_loss("gravity", "links without gravity are read as others", element)
+    if read_flag(element, "kinematic"):
+        context.record_loss("kinematic", "kinematic links are read as others", element)
     return link
 
 
-def _pose(context: Context, scope: Scope, prefix: str, link: Element, part: Element) -> Pose:
+def _compute_pose(
+    context: Context, scope: Scope, prefix: str, link: Element, part: Element
+) -> Pose:
     """Return the pose of a part in the shifted frame of its link."""
     name = link.get("name") or ""
-    pose, frame = pose_in(part)
+    pose, frame = read_pose(part)
     if frame and frame != name:
-        pose = scope.pose(name, part).invert() @ scope.pose(frame, part) @ pose
+        pose = scope.compute_pose(name, part).invert() @ scope.compute_pose(frame, part) @ pose
     return context.shifts[prefix + name] @ pose
 
 
-def _inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Inertial | None:
+def _read_inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Inertial | None:
     """Return the inertia: 1 kg and 1 kg·m² where none is written."""
     element = link.find_child("inertial")
     holder = link if element is None else element
@@ -104,44 +108,44 @@ def _inertial(context: Context, scope: Scope, prefix: str, link: Element) -> Ine
         origin = get_origin_at(context.shifts[prefix + (link.get("name") or "")], written)
         return Inertial(written, origin, 1.0, Inertia(written, **_TENSOR))
     if (element.get("auto") or "").lower() in ("true", "1"):
-        context.lose("auto-inertia", "inertia from shapes (auto) is not computed", link)
+        context.record_loss("auto-inertia", "inertia from shapes (auto) is not computed", link)
         return None
     if element.find_child("fluid_added_mass") is not None:
-        context.lose("added-mass", "added mass of a fluid is not read", link)
-    origin = get_origin_at(_pose(context, scope, prefix, link, element), written)
+        context.record_loss("added-mass", "added mass of a fluid is not read", link)
+    origin = get_origin_at(_compute_pose(context, scope, prefix, link, element), written)
     tensor = element.find_child("inertia")
     values = {name: number(tensor, name, value) for name, value in _TENSOR.items()}
     at = written if tensor is None else Written(tensor.place)
     return Inertial(written, origin, number(element, "mass", 1.0), Inertia(at, **values))
 
 
-def _visual(
+def _read_visual(
     context: Context, scope: Scope, prefix: str, link: Element, element: Element
 ) -> list[Visual]:
-    geometry, turn = _geometry(context, element)
+    geometry, turn = _read_geometry(context, element)
     if geometry is None:
         return []
     written = Written(element.place)
-    origin = get_origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
-    material = _material(context, element)
+    origin = get_origin_at(_compute_pose(context, scope, prefix, link, element) @ turn, written)
+    material = _read_material(context, element)
     return [Visual(written, element.get("name"), origin, geometry, material)]
 
 
-def _collision(
+def _read_collision(
     context: Context, scope: Scope, prefix: str, link: Element, element: Element
 ) -> list[Collision]:
-    geometry, turn = _geometry(context, element)
+    geometry, turn = _read_geometry(context, element)
     if geometry is None:
         return []
     surface = element.find_child("surface")
     if surface is not None and surface.children:
-        context.lose("surface", "friction and contact of collisions are not read", element)
+        context.record_loss("surface", "friction and contact of collisions are not read", element)
     written = Written(element.place)
-    origin = get_origin_at(_pose(context, scope, prefix, link, element) @ turn, written)
+    origin = get_origin_at(_compute_pose(context, scope, prefix, link, element) @ turn, written)
     return [Collision(written, element.get("name"), origin, geometry)]
 
 
-def _geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]:
+def _read_geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]:
     """Return the shape of a visual or collision, and its pose in the frame of that."""
     outer = holder.find_child("geometry")
     shapes = [] if outer is None else [child for child in outer.children if ":" not in child.tag]
@@ -150,13 +154,13 @@ def _geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]
     element, written = shapes[0], Written(shapes[0].place)
     tag = element.tag
     if tag == "plane":
-        return _plane(element, written)
+        return _read_plane(element, written)
     if tag == "mesh":
-        return _mesh(context, element, written), IDENTITY
+        return _read_mesh(context, element, written), IDENTITY
     if tag == "box":
-        return Box(written, vector(element, "size", (1.0, 1.0, 1.0))), IDENTITY
+        return Box(written, read_vector(element, "size", (1.0, 1.0, 1.0))), IDENTITY
     if tag == "ellipsoid":
-        return Ellipsoid(written, vector(element, "radii", (1.0, 1.0, 1.0))), IDENTITY
+        return Ellipsoid(written, read_vector(element, "radii", (1.0, 1.0, 1.0))), IDENTITY
     if tag == "sphere":
         return Sphere(written, number(element, "radius", 1.0)), IDENTITY
     if tag == "capsule":
@@ -166,19 +170,19 @@ def _geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]
         radius, length = number(element, "radius", 1.0), number(element, "length", 1.0)
         made = Cone if tag == "cone" else Cylinder
         return made(written, radius, length), IDENTITY
-    context.lose(f"shape-{tag}", f"geometry <{tag}> is not read", holder)
+    context.record_loss(f"shape-{tag}", f"geometry <{tag}> is not read", holder)
     return UnknownShape(written, tag), IDENTITY
 
 
-def _plane(element: Element, written: Written) -> tuple[Plane, Pose]:
-    normal = vector(element, "normal", (0.0, 0.0, 1.0))
+def _read_plane(element: Element, written: Written) -> tuple[Plane, Pose]:
+    normal = read_vector(element, "normal", (0.0, 0.0, 1.0))
     size = element.find_child("size")
-    extent = None if size is None else numbers_of(size, 2)
+    extent = None if size is None else read_numbers(size, 2)
     plane = Plane(written, None if extent is None else (extent[0], extent[1]))
-    return plane, Pose(_rotation_to(normal, element))
+    return plane, Pose(_compute_rotation(normal, element))
 
 
-def _rotation_to(normal: Vector, element: Element) -> tuple[Vector, Vector, Vector]:
+def _compute_rotation(normal: Vector, element: Element) -> tuple[Vector, Vector, Vector]:
     """Return the least rotation that turns z to a direction."""
     length = compute_norm(normal)
     if not length:
@@ -190,17 +194,17 @@ def _rotation_to(normal: Vector, element: Element) -> tuple[Vector, Vector, Vect
     return (1 - k * x * x, -k * x * y, x), (-k * x * y, 1 - k * y * y, y), (-x, -y, z)
 
 
-def _mesh(context: Context, element: Element, written: Written) -> Geometry:
-    uri = text_of(element, "uri") or text_of(element, "filename")
+def _read_mesh(context: Context, element: Element, written: Written) -> Geometry:
+    uri = read_text(element, "uri") or read_text(element, "filename")
     if element.find_child("submesh") is not None:
-        context.lose("submesh", "parts of mesh files (submesh) are not read", element)
+        context.record_loss("submesh", "parts of mesh files (submesh) are not read", element)
         return UnknownShape(written, "submesh")
     if "://" not in uri and element.file.path != context.main:
         uri = os.path.join(os.path.dirname(os.path.abspath(element.file.path)), uri)
-    return Mesh(written, uri, vector(element, "scale", (1.0, 1.0, 1.0)))
+    return Mesh(written, uri, read_vector(element, "scale", (1.0, 1.0, 1.0)))
 
 
-def _material(context: Context, holder: Element) -> Material | None:
+def _read_material(context: Context, holder: Element) -> Material | None:
     element = holder.find_child("material")
     if element is None:
         return None
@@ -208,11 +212,13 @@ def _material(context: Context, holder: Element) -> Material | None:
     color = None
     if diffuse is not None:
         values = [*map(float, diffuse.text.split()), 1.0][:4]
-        r, g, b, a = values if len(values) == 4 else numbers_of(diffuse, 4)
+        r, g, b, a = values if len(values) == 4 else read_numbers(diffuse, 4)
         color = r, g, b, a
     script = element.find_child("script")
     if script is not None:
-        context.lose("material-script", "scripts of materials are not read", holder, _MATERIAL)
+        context.record_loss(
+            "material-script", "scripts of materials are not read", holder, _MATERIAL
+        )
     pbr = element.find_child("pbr")
     maps = [] if pbr is None else [e.text.strip() for e in pbr.walk() if e.tag == "albedo_map"]
     if color is None and not maps:
@@ -224,11 +230,11 @@ def _add_sensor(
     context: Context, scope: Scope, prefix: str, link: Element, element: Element
 ) -> None:
     written, kind = Written(element.place), element.get("type") or ""
-    pose = _pose(context, scope, prefix, link, element)
+    pose = _compute_pose(context, scope, prefix, link, element)
     name, owner = element.get("name") or "", prefix + (link.get("name") or "")
     camera = element.find_child("camera")
     if kind in _CAMERAS and camera is not None:
-        inner, _ = pose_in(camera)
+        inner, _ = read_pose(camera)
         width, height = (
             number(camera.find_child("image"), tag, 0.0) for tag in ("width", "height")
         )
@@ -244,7 +250,7 @@ def _add_sensor(
     context.robot.mounted_sensors.append(sensor)
 
 
-def direction(element: Element, vector: Vector) -> Vector:
+def normalize_direction(element: Element, vector: Vector) -> Vector:
     """Return a unit vector.
 
     Raises:

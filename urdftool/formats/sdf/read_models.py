@@ -13,8 +13,8 @@ from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
 from ..reading import Losses
-from .read_scope import MODEL, Item, Scope, own_pose
-from .read_values import Version, flag, text_of, version_of
+from .read_scope import MODEL, Item, Scope, read_own_pose
+from .read_values import Version, read_flag, read_text, read_version
 
 NEWEST: Version = (1, 12)
 MAX_DEPTH = 30
@@ -39,7 +39,7 @@ class Models:
         self.losses = losses
         self._above: list[str] = []
 
-    def root(self, file: SourceFile) -> Element:
+    def parse_root(self, file: SourceFile) -> Element:
         """Parse a file.
 
         Raises:
@@ -54,13 +54,13 @@ class Models:
             if count > MAX_ELEMENTS:
                 text = f"the file has more than {MAX_ELEMENTS} elements; it is not read"
                 raise ModelError(text, at=element.place)
-        version = version_of(root)
+        version = read_version(root)
         if version > NEWEST:
             text = f"rules of SDF 1.{NEWEST[1]} are used for a later version"
             self.losses.add("version", text, root.get("version") or "", root.place)
         return root
 
-    def top_models(self, root: Element) -> list[Scope]:
+    def list_top_models(self, root: Element) -> list[Scope]:
         """Return the models of a file, those of its world included.
 
         Raises:
@@ -69,15 +69,15 @@ class Models:
         worlds = list(root.list_children("world"))
         if len(worlds) > 1:
             raise ModelError("the file has two worlds; name a file of one", at=worlds[1].place)
-        version = version_of(root)
+        version = read_version(root)
         self._above.append(os.path.realpath(root.file.path))
         found = []
         for holder in (root, *worlds):
             for child in holder.children:
                 if child.tag == "model":
-                    found.append(self._model(child, version))
+                    found.append(self._read_model(child, version))
                 elif child.tag == "include":
-                    found += [one for one in (self._included(child),) if one is not None]
+                    found += [one for one in (self._read_included(child),) if one is not None]
                 elif child.tag in ("actor", "light", "road", "population"):
                     text = "what else is in the world is not read"
                     self.losses.add(
@@ -85,20 +85,20 @@ class Models:
                     )
         return found
 
-    def _model(self, element: Element, version: Version, parent: Scope | None = None) -> Scope:
+    def _read_model(self, element: Element, version: Version, parent: Scope | None = None) -> Scope:
         name = element.get("name") or ""
         if not name:
             raise ModelError("a model has no name", at=element.place)
         scope = Scope(element, name, version, element, parent=parent)
         scope.placement = element.get("placement_frame") or ""
-        scope.is_static = flag(element, "static")
+        scope.is_static = read_flag(element, "static")
         scope.canonical = element.get("canonical_link") or ""
         self._fill(scope, element, version, MODEL)
         return scope
 
     def _fill(self, scope: Scope, element: Element, version: Version, home: str) -> None:
         """Add the contents of a model to a scope."""
-        if len(self._depth(scope)) > MAX_DEPTH:
+        if len(self._list_ancestors(scope)) > MAX_DEPTH:
             text = f"models are nested more than {MAX_DEPTH} deep"
             raise ModelError(text, at=element.place)
         for child in element.children:
@@ -106,7 +106,7 @@ class Models:
                 kinds = {"link": scope.links, "joint": scope.joints, "frame": scope.frames}
                 self._add(scope, kinds[child.tag], Item(child, home))
             elif child.tag == "model":
-                nested = self._model(child, version, scope)
+                nested = self._read_model(child, version, scope)
                 nested.home = home
                 self._nest(scope, nested)
             elif child.tag == "include":
@@ -119,7 +119,7 @@ class Models:
                 text = "grippers are not read"
                 self.losses.add("gripper", text, child.get("name") or "", child.place)
 
-    def _depth(self, scope: Scope | None) -> list[Scope]:
+    def _list_ancestors(self, scope: Scope | None) -> list[Scope]:
         above = []
         while scope is not None:
             above.append(scope)
@@ -143,15 +143,15 @@ class Models:
 
     def _include(self, scope: Scope, element: Element, home: str) -> None:
         """Add an included model as a nested one, or merge it."""
-        model = self._included(element, scope)
+        model = self._read_included(element, scope)
         if model is None:
             return
         model.home = home
-        if not flag_of(element, "merge"):
+        if not read_flag_attribute(element, "merge"):
             self._nest(scope, model)
             return
         frame = f"_merged__{model.name}__model__"
-        scope.models[frame] = _only_frame(model, frame)
+        scope.models[frame] = _make_frame_scope(model, frame)
         for items, own in (
             (model.links, scope.links),
             (model.joints, scope.joints),
@@ -165,14 +165,14 @@ class Models:
             nested.home = frame if nested.home == MODEL else nested.home
             self._nest(scope, nested)
 
-    def _included(self, element: Element, parent: Scope | None = None) -> Scope | None:
+    def _read_included(self, element: Element, parent: Scope | None = None) -> Scope | None:
         """Read the model of an ``<include>``; its name, pose and ``static`` replace the model's.
 
         Raises:
             SourceError: The file does not exist, or includes itself.
             ModelError: It has no model, or several.
         """
-        path = self._path(element)
+        path = self._resolve_path(element)
         key = os.path.realpath(path)
         if key in self._above:
             raise SourceError(f"file '{path}' includes itself", at=element.place)
@@ -180,7 +180,7 @@ class Models:
             file = read_file(str(path), self._workspace)
         except SourceError as error:
             raise SourceError(f"file '{path}' {error.message}", at=element.place) from None
-        root = self.root(file)
+        root = self.parse_root(file)
         self._above.append(key)
         models = list(root.list_children("model"))
         if len(models) != 1:
@@ -191,32 +191,32 @@ class Models:
                 self._above.pop()
                 return None
             raise ModelError(text, at=element.place)
-        model = self._model(models[0], version_of(root), parent)
+        model = self._read_model(models[0], read_version(root), parent)
         self._above.pop()
-        model.name = text_of(element, "name") or model.name
+        model.name = read_text(element, "name") or model.name
         if element.find_child("pose") is not None:
             model.posed = element
             model.placement = ""
-        model.placement = text_of(element, "placement_frame") or model.placement
-        model.is_static = flag(element, "static", model.is_static)
+        model.placement = read_text(element, "placement_frame") or model.placement
+        model.is_static = read_flag(element, "static", model.is_static)
         for child in element.list_children("plugin"):
             name = child.get("filename") or ""
             self.losses.add("plugin", "plugins are not read", name, child.place, Severity.INFO)
         return model
 
-    def _path(self, element: Element) -> Path:
+    def _resolve_path(self, element: Element) -> Path:
         """Return the SDF file of an ``<include>``."""
-        uri = text_of(element, "uri")
+        uri = read_text(element, "uri")
         if not uri:
             raise SourceError("<include> has no <uri>", at=element.place)
-        for path in self._places(uri, element):
+        for path in self._list_places(uri, element):
             if self._workspace.is_folder(path):
-                return self._main_file(path, element)
+                return self._find_main_file(path, element)
             if self._workspace.is_file(path):
                 return path
         raise SourceError(f"model '{uri}' is not found", at=element.place)
 
-    def _places(self, uri: str, element: Element) -> Iterator[Path]:
+    def _list_places(self, uri: str, element: Element) -> Iterator[Path]:
         """Yield the paths that a URI may mean."""
         scheme, separator, rest = uri.partition("://")
         folder = Path(element.file.path).resolve().parent
@@ -237,14 +237,15 @@ class Models:
         for path in self._packages.paths:
             yield Path(path) / name
 
-    def _main_file(self, folder: Path, element: Element) -> Path:
+    def _find_main_file(self, folder: Path, element: Element) -> Path:
         """Return the newest file that ``model.config`` of a folder names."""
         for name in ("model.config", "manifest.xml"):
             if not self._workspace.is_file(folder / name):
                 continue
             root = parse(read_file(str(folder / name), self._workspace)).root
             files = [
-                (_config_version(child), child.text.strip()) for child in root.list_children("sdf")
+                (_read_config_version(child), child.text.strip())
+                for child in root.list_children("sdf")
             ]
             known = [(version, text) for version, text in files if version <= NEWEST]
             if known:
@@ -255,19 +256,19 @@ class Models:
         raise SourceError(text, at=element.place)
 
 
-def flag_of(element: Element, name: str) -> bool:
+def read_flag_attribute(element: Element, name: str) -> bool:
     """Return whether an attribute is ``true`` or ``1``."""
     return (element.get(name) or "").lower() in ("true", "1")
 
 
-def _config_version(element: Element) -> Version:
+def _read_config_version(element: Element) -> Version:
     try:
-        return version_of(element)
+        return read_version(element)
     except ModelError:
         return 1, 0
 
 
-def _only_frame(model: Scope, name: str) -> Scope:
+def _make_frame_scope(model: Scope, name: str) -> Scope:
     """Return the pose of a merged model as a model without contents."""
     return Scope(
         model.element,
@@ -277,5 +278,5 @@ def _only_frame(model: Scope, name: str) -> Scope:
         canonical=model.canonical or next(iter(model.links), MODEL),
         parent=model.parent,
         home=model.home,
-        merged=own_pose(model),
+        merged=read_own_pose(model),
     )

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from ...errors import ModelError
 from ...model.pose import IDENTITY, Pose
 from ...source.document import Element
-from .read_values import Version, pose_in, text_of
+from .read_values import Version, read_pose, read_text
 
 MODEL = "__model__"
 """Name of the frame of a model."""
@@ -76,14 +76,14 @@ class Scope:
     merged: Pose | None = None
     _poses: dict[str, Pose | None] = field(default_factory=dict)
 
-    def everything(self, prefix: str = "") -> Iterator[tuple[str, Scope]]:
+    def list_scopes(self, prefix: str = "") -> Iterator[tuple[str, Scope]]:
         """Yield this scope and those nested in it, each with the prefix of its names."""
         if self.merged is None:
             yield prefix, self
         for name, model in self.models.items():
-            yield from model.everything(f"{prefix}{name}::")
+            yield from model.list_scopes(f"{prefix}{name}::")
 
-    def pose(self, name: str, user: Element) -> Pose:
+    def compute_pose(self, name: str, user: Element) -> Pose:
         """Return the pose of a frame of any kind in the frame of this model.
 
         Args:
@@ -110,31 +110,33 @@ class Scope:
 
     def _resolve(self, name: str, user: Element) -> Pose:
         if name in self.links:
-            return self._placed(self.links[name], self.links[name].home)
+            return self._compute_item_pose(self.links[name], self.links[name].home)
         if name in self.frames:
             item = self.frames[name]
-            return self._placed(item, item.element.get("attached_to") or item.home)
+            return self._compute_item_pose(item, item.element.get("attached_to") or item.home)
         if name in self.joints:
             item = self.joints[name]
-            return self._placed(item, text_of(item.element, "child"))
+            return self._compute_item_pose(item, read_text(item.element, "child"))
         if name in self.models:
-            return self._nested(self.models[name])
+            return self._compute_nested_pose(self.models[name])
         first, separator, rest = name.partition("::")
         if separator and first in self.models:
-            return self._nested(self.models[first]) @ self.models[first].pose(rest, user)
+            return self._compute_nested_pose(self.models[first]) @ self.models[first].compute_pose(
+                rest, user
+            )
         if name == WORLD and self.parent is None:
-            return own_pose(self).invert()
+            return read_own_pose(self).invert()
         raise ModelError(f"frame '{name}' does not exist", at=user.place)
 
-    def _placed(self, item: Item, default: str) -> Pose:
+    def _compute_item_pose(self, item: Item, default: str) -> Pose:
         """Return the pose of an item whose pose is relative to a frame by default."""
-        pose, named = pose_in(item.element)
+        pose, named = read_pose(item.element)
         named = item.home if named == MODEL else named
-        return self.pose(named or default, item.element) @ pose
+        return self.compute_pose(named or default, item.element) @ pose
 
-    def _nested(self, model: Scope) -> Pose:
-        _, named = pose_in(model.posed)
-        return self.pose(named or model.home, model.posed) @ own_pose(model)
+    def _compute_nested_pose(self, model: Scope) -> Pose:
+        _, named = read_pose(model.posed)
+        return self.compute_pose(named or model.home, model.posed) @ read_own_pose(model)
 
     def link_of(self, name: str, user: Element) -> tuple[str, ...] | None:
         """Return the path of the link to which a frame is attached; None for the world.
@@ -153,7 +155,7 @@ class Scope:
             to = self.frames[name].element.get("attached_to") or self.frames[name].home
             return self._link_of(to, user, depth + 1)
         if name in self.joints:
-            return self._link_of(text_of(self.joints[name].element, "child"), user, depth + 1)
+            return self._link_of(read_text(self.joints[name].element, "child"), user, depth + 1)
         first, separator, rest = name.partition("::")
         if first in self.models and self.models[first].merged is None:
             path = self.models[first]._link_of(rest if separator else MODEL, user, depth + 1)
@@ -169,11 +171,11 @@ class Scope:
         raise ModelError(f"'{name}' is neither a link nor a frame of the model", at=user.place)
 
 
-def own_pose(model: Scope) -> Pose:
+def read_own_pose(model: Scope) -> Pose:
     """Return the ``<pose>`` of a model for its model frame."""
     if model.merged is not None:
         return model.merged
-    pose, _ = pose_in(model.posed)
+    pose, _ = read_pose(model.posed)
     if not model.placement:
         return pose
-    return pose @ model.pose(model.placement, model.posed).invert()
+    return pose @ model.compute_pose(model.placement, model.posed).invert()

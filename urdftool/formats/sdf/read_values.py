@@ -12,13 +12,13 @@ from ...source.document import Element
 Version = tuple[int, int]
 
 
-def text_of(element: Element, tag: str, default: str = "") -> str:
+def read_text(element: Element, tag: str, default: str = "") -> str:
     """Return the text of a child; the default if there is none."""
     child = element.find_child(tag)
     return default if child is None else child.text.strip()
 
 
-def numbers_of(element: Element, count: int) -> tuple[float, ...]:
+def read_numbers(element: Element, count: int) -> tuple[float, ...]:
     """Return the numbers in the text of an element.
 
     Raises:
@@ -40,25 +40,25 @@ def numbers_of(element: Element, count: int) -> tuple[float, ...]:
 def number(element: Element | None, tag: str, default: float) -> float:
     """Return the number in a child; the default without it."""
     child = None if element is None else element.find_child(tag)
-    return default if child is None else numbers_of(child, 1)[0]
+    return default if child is None else read_numbers(child, 1)[0]
 
 
-def vector(element: Element, tag: str, default: Vector) -> Vector:
+def read_vector(element: Element, tag: str, default: Vector) -> Vector:
     """Return three numbers of a child; the default without it."""
     child = element.find_child(tag)
     if child is None:
         return default
-    x, y, z = numbers_of(child, 3)
+    x, y, z = read_numbers(child, 3)
     return x, y, z
 
 
-def flag(element: Element, tag: str, default: bool = False) -> bool:
+def read_flag(element: Element, tag: str, default: bool = False) -> bool:
     """Return whether the text of a child is ``true`` or ``1``."""
     child = element.find_child(tag)
     return default if child is None else child.text.strip().lower() in ("true", "1")
 
 
-def pose_in(element: Element) -> tuple[Pose, str]:
+def read_pose(element: Element) -> tuple[Pose, str]:
     """Return the ``<pose>`` of an element, and the frame that it names; empty if none."""
     child = element.find_child("pose")
     if child is None:
@@ -67,17 +67,17 @@ def pose_in(element: Element) -> tuple[Pose, str]:
     if not child.text.strip():
         return IDENTITY, frame
     if child.get("rotation_format") == "quat_xyzw":
-        x, y, z, a, b, c, d = numbers_of(child, 7)
+        x, y, z, a, b, c, d = read_numbers(child, 7)
         if not any((a, b, c, d)):
             raise ModelError("<pose> has a quaternion of zeros", at=child.place)
         return Pose(rotation_from_quaternion((d, a, b, c)), (x, y, z)), frame
-    x, y, z, roll, pitch, yaw = numbers_of(child, 6)
+    x, y, z, roll, pitch, yaw = read_numbers(child, 6)
     if (child.get("degrees") or "").lower() in ("true", "1"):
         roll, pitch, yaw = map(math.radians, (roll, pitch, yaw))
     return Pose(rotation_from_rpy((roll, pitch, yaw)), (x, y, z)), frame
 
 
-def version_of(root: Element) -> Version:
+def read_version(root: Element) -> Version:
     """Return the version of an ``<sdf>`` element.
 
     Raises:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.elements import Capsule, Cylinder, Link, Visual
 from ...source.document import Element
-from .extensions import merge_elements, values
+from .extensions import list_values, merge_elements
 from .gltf import undo_axis_conversion
 from .keywords import COLLISION_KEYWORDS
 from .materials import add_material
@@ -37,7 +37,7 @@ def add_visual(node: Node, t: Translation, link: Link, part: Visual, name: str) 
     assert shape is not None
     add_geometry(made, t, shape)
     add_material(made, t, link, part)
-    retro = values(t, link, COLLISION_KEYWORDS).get("laserRetro")
+    retro = list_values(t, link, COLLISION_KEYWORDS).get("laserRetro")
     if retro is not None and not t.options.classic:
         add(made, "laser_retro", retro)
     merge_elements(made, t, link, "visual")

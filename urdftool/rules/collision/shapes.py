@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Collision, Link, Robot, UnknownShape, Visual
 from ...model.millimeters import find_shapes_in_millimeters
 from ...model.read import number, parse_numbers
-from ...suggestions import nearest
+from ...suggestions import find_nearest
 from ..fix import (
     FixContext,
     Proposal,
@@ -132,7 +132,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 _describe_unknown_shape(link, shape, geometry),
                 at=geometry,
                 effects=effects,
-                data={"tag": tag, "suggestion": nearest(tag, _KNOWN)},
+                data={"tag": tag, "suggestion": find_nearest(tag, _KNOWN)},
             )
 
 
@@ -153,7 +153,7 @@ def _describe_unknown_shape(link: Link, shape: Visual | Collision, geometry: Unk
             f"<geometry> in a {shape.element.tag} of link '{link.name}' begins with <{tag}>, which "
             "urdfdom reads as the shape; move it out of <geometry>"
         )
-    near = nearest(tag, _KNOWN)
+    near = find_nearest(tag, _KNOWN)
     right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
     remedy = f"did you mean '{near}'?" if near else f"write {right}"
     return f"URDF does not define the shape <{tag}> of link '{link.name}'; {remedy}"

@@ -14,7 +14,7 @@ from ...model.controllers import Controller, list_controllers
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.location import SourceFile
-from ...source.nearby_files import file_at
+from ...source.nearby_files import read_optional_file
 from ...workspace import Workspace
 
 _FOLDERS = ("config", "controllers", "control", "bringup/config", "params", "launch")
@@ -67,7 +67,7 @@ class Package:
             return []
         workspace = self.workspace
         found = workspace.list_matches(self.folder / "launch", "**/*")[:_MOST_FILES]
-        files = [file_at(workspace, path) for path in found if workspace.is_file(path)]
+        files = [read_optional_file(workspace, path) for path in found if workspace.is_file(path)]
         return [file for file in files if file is not None and len(file.data) < _MOST_BYTES]
 
     @cached_property
@@ -87,7 +87,7 @@ class Package:
             found += [path for path in others if workspace.is_file(path)]
         if len(found) > _MOST_FILES:
             return None
-        return [file for path in found if (file := file_at(workspace, path)) is not None]
+        return [file for path in found if (file := read_optional_file(workspace, path)) is not None]
 
     @cached_property
     def other_robots(self) -> list[SourceFile] | None:
@@ -133,7 +133,7 @@ def _find_controller_files(robot: Robot, package: Package) -> Iterator[Controlle
         for path in _list_configuration_files(workspace, package.folder)
     }
     for path in sorted(named | beside):
-        file = file_at(workspace, path) if workspace.is_file(path) else None
+        file = read_optional_file(workspace, path) if workspace.is_file(path) else None
         if file is None or len(file.data) > _MOST_BYTES or not _CONTROLLER.search(file.data):
             continue
         by_plugin, by_launch = path in named, package.is_launched_with(path)

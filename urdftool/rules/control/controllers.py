@@ -11,7 +11,7 @@ from ...source.description import Description
 from ...source.yaml_tree import Node
 from ..fix import FixContext, Proposal, Span, get_suggestion, unsafe
 from ..rule import ROS, UNSAFE, WARNING, Problem, rule
-from ..words import nearest
+from ..words import find_nearest
 from .controller_files import ControllerFile, Package, get_package
 
 APPLIES_TO = ("ros2_control", "transmission")
@@ -143,4 +143,4 @@ def _suggest_joint(robot: Robot, controller: Controller, name: str) -> str:
     longer = [f for f in free if f.startswith(f"{name}_") or name.startswith(f"{f}_")]
     if len(longer) == 1:
         return longer[0]
-    return nearest(name, free, 0.8)
+    return find_nearest(name, free, 0.8)

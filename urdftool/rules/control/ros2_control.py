@@ -19,7 +19,7 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 
 APPLIES_TO = ("ros2_control",)
 
@@ -48,7 +48,7 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     at=joint.element.locate_attribute("name"),
                     data={
                         "joint": joint.name,
-                        "suggestion": nearest(joint.name, robot.joint),
+                        "suggestion": find_nearest(joint.name, robot.joint),
                     },
                 )
 

@@ -21,7 +21,7 @@ from ..fix import (
     unsafe,
 )
 from ..rule import BOTH, ERROR, UNSAFE, Problem, rule
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 
 APPLIES_TO = ("ros2_control",)
 
@@ -52,7 +52,7 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
                 f"ros2_control '{control.name}' has the unknown type '{control.type}'; "
                 f"the types are {', '.join(_TYPES)}" + suggest_name(control.type, _TYPES),
                 at=control.element.locate_attribute("type"),
-                data={"type": control.type, "suggestion": nearest(control.type, _TYPES)},
+                data={"type": control.type, "suggestion": find_nearest(control.type, _TYPES)},
             )
 
 
@@ -109,7 +109,7 @@ def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
                     f"ros2_control '{control.name}' has an unknown <{child.tag}>; it may have "
                     f"{', '.join(_CHILDREN)}{suggest_name(child.tag, _CHILDREN)}",
                     at=child,
-                    data={"suggestion": nearest(child.tag, _CHILDREN)},
+                    data={"suggestion": find_nearest(child.tag, _CHILDREN)},
                 )
 
 

@@ -21,7 +21,7 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import nearest, quote, suggest_name
+from ..words import find_nearest, quote, suggest_name
 
 APPLIES_TO = ("ros2_control",)
 
@@ -94,7 +94,7 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
     for control in robot.ros2_controls:
         for joint in control.joints:
             for interface in (*joint.command_interfaces, *joint.state_interfaces):
-                near = nearest(interface.name, _STANDARD, 0.8)
+                near = find_nearest(interface.name, _STANDARD, 0.8)
                 if interface.name not in _STANDARD and near:
                     yield Problem(
                         control.element,

@@ -22,7 +22,7 @@ from ..fix import (
     write_suggestion,
 )
 from ..rule import ERROR, GAZEBO, UNSAFE, WARNING, Problem, rule
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 
 APPLIES_TO = ("ros2_control", "plugin")
 
@@ -250,7 +250,7 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                             or f"; the states are {', '.join(_IMU)}"
                         ),
                         at=interface.element.locate_attribute("name"),
-                        data={"suggestion": nearest(interface.name, _IMU)},
+                        data={"suggestion": find_nearest(interface.name, _IMU)},
                     )
 
 
@@ -284,5 +284,5 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
                     f"no <sensor> in a <gazebo> block has the name '{part.name}'"
                     + suggest_name(part.name, known),
                     at=part.element.locate_attribute("name"),
-                    data={"sensor": part.name, "suggestion": nearest(part.name, known)},
+                    data={"sensor": part.name, "suggestion": find_nearest(part.name, known)},
                 )

@@ -20,7 +20,7 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 
 APPLIES_TO = ("transmission", "plugin")
 
@@ -52,7 +52,7 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     f"{describe_transmission(transmission)} refers to joint '{joint.name}', "
                     f"which does not exist{suggest_name(joint.name, idle, 0.8)}",
                     at=joint.element.locate_attribute("name"),
-                    data={"joint": joint.name, "suggestion": nearest(joint.name, idle, 0.8)},
+                    data={"joint": joint.name, "suggestion": find_nearest(joint.name, idle, 0.8)},
                 )
 
 
@@ -227,7 +227,7 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                     f"'{name}' in {describe_transmission(transmission)} is not a hardware interface"
                     + (near or "; write, for example, hardware_interface/EffortJointInterface"),
                     at=child,
-                    data={"suggestion": nearest(name, _KNOWN, 0.6)},
+                    data={"suggestion": find_nearest(name, _KNOWN, 0.6)},
                 )
 
 

@@ -25,7 +25,7 @@ from ..fix import (
 )
 from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import nearest, quote, suggest_name
+from ..words import find_nearest, quote, suggest_name
 from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
 
 APPLIES_TO = ("plugin",)
@@ -296,7 +296,7 @@ def _report_unknown_entities(
         f"<{at.tag}> of plugin '{plugin.name}' {verb} {quote(missing)}, but the robot has {kinds}"
         + suggest_name(missing[0], known),
         at=at,
-        data={"kind": kind, "missing": missing, "suggestion": nearest(missing[0], known)},
+        data={"kind": kind, "missing": missing, "suggestion": find_nearest(missing[0], known)},
     )
 
 

@@ -20,7 +20,7 @@ from ..fix import (
 )
 from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import nearest, quote, suggest_name
+from ..words import find_nearest, quote, suggest_name
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
 from .lumped_model import find_sdf_joints
 from .lumping import get_lumped_body, is_lumped, is_preserving, remove_words
@@ -71,7 +71,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
             f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
             + suggest_name(name, known, _MIN_SIMILARITY),
             at=block.element.locate_attribute("reference"),
-            data={"name": name, "suggestion": nearest(name, known, _MIN_SIMILARITY)},
+            data={"name": name, "suggestion": find_nearest(name, known, _MIN_SIMILARITY)},
         )
 
 

@@ -29,7 +29,7 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import nearest, split_words, suggest_name
+from ..words import find_nearest, split_words, suggest_name
 from .lumping import get_lumped_body
 
 APPLIES_TO = ("gazebo",)
@@ -79,7 +79,7 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
                 sensor.element,
                 f"{name}{what}{near or '; write, for example, camera, imu or gpu_lidar'}",
                 at=sensor.element.locate_attribute("type"),
-                data={"suggestion": nearest(sensor.type, TYPES) if sensor.type else ""},
+                data={"suggestion": find_nearest(sensor.type, TYPES) if sensor.type else ""},
             )
 
 

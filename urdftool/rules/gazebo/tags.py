@@ -20,7 +20,7 @@ from ..fix import (
 )
 from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
-from ..words import nearest
+from ..words import find_nearest
 from .contact import get_contact_role, has_friction
 from .lumping import get_lumped_body
 
@@ -62,7 +62,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
         return
     colors = _collect_materials(robot)
     names = {*robot.link, *robot.joint}
-    meant = {nearest(name, names) for name in robot.extensions if name and name not in names}
+    meant = {find_nearest(name, names) for name in robot.extensions if name and name not in names}
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue

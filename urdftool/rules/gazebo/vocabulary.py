@@ -8,7 +8,7 @@ from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
 from ..fix import FixContext, Proposal, find_element, rename_element, unsafe
 from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
-from ..words import fold, nearest
+from ..words import find_nearest, fold
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS, ROBOT_KEYWORDS
 from .plugin_parameters import LIBRARIES, PARAMETERS
 from .sdf_names import SDF_CHILDREN
@@ -149,7 +149,7 @@ def _check_plugin(plugin: Element) -> Iterator[Problem]:
         tag = child.tag
         if tag in PARAMETERS or ":" in tag or len(tag) < 5:
             continue
-        near = nearest(tag, PARAMETERS, 0.86)
+        near = find_nearest(tag, PARAMETERS, 0.86)
         if near and fold(near) != fold(tag) and not _is_variant(tag, near):
             yield Problem(
                 plugin,
@@ -170,7 +170,7 @@ def _is_variant(tag: str, near: str) -> bool:
 
 
 def _suggest_element(tag: str, known: frozenset[str]) -> str:
-    near = nearest(tag, known, 0.8)
+    near = find_nearest(tag, known, 0.8)
     if near and fold(near) != fold(tag) and (len(tag) < 4 or abs(len(tag) - len(near)) > 2):
         return ""
     return near

@@ -9,7 +9,7 @@ from ...source.document import Element
 from ..fix import FixContext, Proposal, format_numbers, get_suggestion, set_attribute, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 from ..xml.vocabulary_table import find_misspelled_attributes
 from .range import get_bounds
 
@@ -75,7 +75,7 @@ def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
         f"joint '{joint.name}' mimics '{mimic.joint}', but the robot has no such joint{near}",
         at=mimic.element.locate_attribute("joint"),
         alike=bool(near),
-        data={"suggestion": nearest(mimic.joint, robot.joint)},
+        data={"suggestion": find_nearest(mimic.joint, robot.joint)},
     )
 
 

@@ -18,7 +18,7 @@ from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, SAFE, Problem, rule
-from ..words import nearest
+from ..words import find_nearest
 from .changes import change_uses
 from .dropped import is_dropped
 from .mesh_uses import MeshUse, find_actual_case, get_mesh_uses
@@ -131,7 +131,7 @@ def _suggest_file(workspace: Workspace, path: Path) -> str:
     """Suggest a file of nearly that name in the folder, or of that name in the package."""
     try:
         names = [entry.name for entry in workspace.list_folder(path.parent)]
-        near = nearest(path.name, names, 0.8)
+        near = find_nearest(path.name, names, 0.8)
     except OSError:
         near = ""
     if near:

@@ -10,7 +10,7 @@ from pathlib import Path
 from ...errors import ConfigError
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.nearby_files import file_at
+from ...source.nearby_files import read_optional_file
 from ...source.packages import shorten_path
 from ...source.yaml_tree import Node, parse_yaml
 from ..fix import FixContext, Proposal, Span, safe, unsafe
@@ -275,7 +275,7 @@ def _read_next_to_srdf(robot: Robot, description: Description, name: str) -> Nod
         return None
     path = Path(description.path).parent / name
     workspace = description.workspace
-    file = file_at(workspace, shorten_path(path)) if workspace.is_file(path) else None
+    file = read_optional_file(workspace, shorten_path(path)) if workspace.is_file(path) else None
     try:
         return None if file is None else parse_yaml(file)
     except ConfigError:

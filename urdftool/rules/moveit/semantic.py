@@ -23,7 +23,7 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 
 _ON = ("moveit",)
 
@@ -105,7 +105,7 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
                     + suggest_name(name, robot.link),
                     at=element.locate_attribute(attribute),
                     severity=None if essential else WARNING,
-                    data={"suggestion": nearest(name, robot.link)},
+                    data={"suggestion": find_nearest(name, robot.link)},
                 )
 
 
@@ -131,7 +131,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
                     f"<{element.tag}> refers to joint '{name}', which the robot does not have"
                     + suggest_name(name, robot.joint),
                     at=element.locate_attribute(attribute),
-                    data={"suggestion": nearest(name, robot.joint)},
+                    data={"suggestion": find_nearest(name, robot.joint)},
                 )
 
 

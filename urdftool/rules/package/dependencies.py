@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...source.document import Element
-from ...source.nearby_files import document_at
+from ...source.nearby_files import read_optional_document
 from ...source.packages import Packages
 from ...workspace import Workspace
 
@@ -48,7 +48,7 @@ def find_dependency_chain(
 
 def _list_dependencies(workspace: Workspace, folder: Path) -> list[Element]:
     """List the dependencies in a package's manifest."""
-    document = document_at(workspace, folder / "package.xml")
+    document = read_optional_document(workspace, folder / "package.xml")
     if document is None or document.root.tag != "package":
         return []
     children = document.root.children

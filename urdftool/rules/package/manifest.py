@@ -12,7 +12,7 @@ from ...model.elements import Link, Robot
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
-from ...source.nearby_files import document_at, file_at
+from ...source.nearby_files import read_optional_document, read_optional_file
 from ...workspace import Workspace, memoize_by_workspace
 from ..fix import (
     Change,
@@ -104,7 +104,11 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
 
 def _parse_manifest(context: FixContext) -> Document | None:
     own = context.description.packages.own
-    found = document_at(context.workspace, own[1] / "package.xml") if own is not None else None
+    found = (
+        read_optional_document(context.workspace, own[1] / "package.xml")
+        if own is not None
+        else None
+    )
     return found if found is not None and found.root.tag == "package" else None
 
 
@@ -283,7 +287,11 @@ def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the folder to an existing install(), or add one."""
     own = context.description.packages.own
     name: str = problem.data["folder"]
-    file = file_at(context.workspace, own[1] / "CMakeLists.txt") if own is not None else None
+    file = (
+        read_optional_file(context.workspace, own[1] / "CMakeLists.txt")
+        if own is not None
+        else None
+    )
     if own is None or file is None or re.search(r"['\s();#\"]", name):
         return None
     folder, data = name.encode(), file.data

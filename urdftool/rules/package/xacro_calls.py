@@ -9,7 +9,7 @@ from pathlib import Path
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.location import Place
-from ...source.nearby_files import file_at
+from ...source.nearby_files import read_optional_file
 from ...workspace import Workspace
 from ..fix import FixContext, Proposal, Span, safe
 from ..rule import INFO, ROS, SAFE, Problem, rule
@@ -43,7 +43,7 @@ def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Prob
         return
     name = description.packages.file.name.encode()
     for path in _find_callers(description.workspace, own[1]):
-        file = file_at(description.workspace, path)
+        file = read_optional_file(description.workspace, path)
         if file is None or name not in file.data or len(file.data) > _MOST_BYTES:
             continue
         data = file.data

@@ -26,7 +26,7 @@ from ..gazebo.lumping import is_lumped
 from ..renaming import rename_part
 from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
-from ..words import nearest, suggest_name
+from ..words import find_nearest, suggest_name
 from ..xml.vocabulary_table import find_misspelled_children, is_for_another_reader
 
 
@@ -265,7 +265,7 @@ def _report_unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Probl
         joint,
         f"parent '{name}' of joint '{joint.name}' is not a link{_describe_remedy(name, robot)}",
         at=parent.locate_attribute("link"),
-        data={"suggestion": nearest(name, robot.link)},
+        data={"suggestion": find_nearest(name, robot.link)},
         severity=INFO if is_world and is_for_another_reader(robot.element) else None,
         effects=select_holding(
             _WITHOUT_PARENT, "the parent is world" if is_world else "the parent is not world"
@@ -342,7 +342,7 @@ def report_every_unknown_child(robot: Robot) -> Iterator[Problem]:
 
 def _report_unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> Problem:
     name, orphans = joint.child, _find_orphans(robot, joint)
-    meant = orphans[0] if alone and len(orphans) == 1 else nearest(name, orphans, 0.6)
+    meant = orphans[0] if alone and len(orphans) == 1 else find_nearest(name, orphans, 0.6)
     right = _describe_remedy(name, robot)
     if meant:
         right = f"; did you mean '{meant}', which has no parent joint?"
@@ -350,7 +350,7 @@ def _report_unknown_child(robot: Robot, joint: Joint, child: Element, alone: boo
         joint,
         f"child '{name}' of joint '{joint.name}' is not a link{right}",
         at=child.locate_attribute("link"),
-        data={"suggestion": nearest(name, robot.link), "orphan": meant},
+        data={"suggestion": find_nearest(name, robot.link), "orphan": meant},
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
 from ...model.read import parse_numbers
-from ...suggestions import nearest, suggest_name
+from ...suggestions import find_nearest, suggest_name
 from ..fix import (
     FixContext,
     Proposal,
@@ -62,7 +62,7 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
                 f"material '{name}' is not defined{times}"
                 + (suggest_name(name, defined) or "; add a <color>"),
                 at=first.element.locate_attribute("name"),
-                data={"material": name, "suggestion": nearest(name, defined)},
+                data={"material": name, "suggestion": find_nearest(name, defined)},
             )
 
 

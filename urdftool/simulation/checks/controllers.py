@@ -76,7 +76,7 @@ def _explain_unstable(run: Run, column: int, joint: RigidBodyJoint, control: Con
     """Explain why a joint shakes by its gains; empty if it does not, or not because of them."""
     pid, recording = control.pid, run.recording
     assert pid is not None
-    if recording.ended != "lost" and not _shakes(run, column, joint):
+    if recording.ended != "lost" and not _is_oscillating(run, column, joint):
         return ""
     step, inertia = run.settings.timestep, compute_moved_inertia(run, column)
     unit = "kg" if joint.kind == "prismatic" else "kg·m²"
@@ -102,7 +102,7 @@ def _explain_unstable(run: Run, column: int, joint: RigidBodyJoint, control: Con
     return ""
 
 
-def _shakes(run: Run, column: int, joint: RigidBodyJoint) -> bool:
+def _is_oscillating(run: Run, column: int, joint: RigidBodyJoint) -> bool:
     """Tell whether a joint oscillates at the end of a run."""
     recording = run.recording
     if recording.still_since is not None:

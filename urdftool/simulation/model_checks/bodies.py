@@ -37,7 +37,7 @@ def check_read_back(robot: Robot, run: Run, known: set[str]) -> Iterator[Fault]:
         )
 
 
-def body_of(run: Run, link: str) -> RigidBody | None:
+def find_body(run: Run, link: str) -> RigidBody | None:
     """Return the rigid body that a link is a part of; None if the engine has none."""
     return next((body for body in run.bodies.bodies if link in body.links), None)
 
@@ -47,7 +47,7 @@ def is_held(run: Run, body: RigidBody) -> bool:
     return run.bodies.fixed_base and body is run.bodies.bodies[0]
 
 
-def massless_bodies(robot: Robot, run: Run) -> list[RigidBody]:
+def list_massless_bodies(robot: Robot, run: Run) -> list[RigidBody]:
     """List the bodies without mass that matter: a free root, and what bears mass or has shapes."""
     bodies = run.bodies.bodies
     loads = {body.parent for body in bodies if body.mass}
@@ -60,7 +60,7 @@ def massless_bodies(robot: Robot, run: Run) -> list[RigidBody]:
     ]
 
 
-def large_massless_links(robot: Robot, run: Run) -> set[str]:
+def list_large_massless_links(robot: Robot, run: Run) -> set[str]:
     """List links without mass that are a good part of their rigid body or the robot, by volume.
 
     The mass of a link without shapes counts for those of its body that have some and no mass: so
@@ -121,7 +121,7 @@ def is_impossible(tensor: SymmetricTensor, excess: float) -> bool:
     return found.size == 0 or found.negativity > 1e-9 or found.excess > excess / (1 + excess)
 
 
-def mass_taken(run: Run, body: RigidBody) -> str:
+def describe_mass_taken(run: Run, body: RigidBody) -> str:
     """Say what the engine that ran did with a body without mass."""
     engine = run.recording.capabilities
     for part in run.recording.read_back:
@@ -132,7 +132,7 @@ def mass_taken(run: Run, body: RigidBody) -> str:
     return f"{engine.title} simulated it with none, or next to none"
 
 
-def tensor_taken(run: Run, body: RigidBody) -> str:
+def describe_tensor_taken(run: Run, body: RigidBody) -> str:
     """Say what the engine that ran took instead of an inconsistent tensor."""
     engine = run.recording.capabilities.title
     for part in run.recording.read_back:

@@ -15,16 +15,16 @@ from ..mesh_cache import compute_once
 from ..rigid_bodies import RigidBody, link_mass_properties
 from ..run import Run
 from .bodies import (
-    body_of,
     check_read_back,
+    describe_mass_taken,
+    describe_tensor_taken,
+    find_body,
     is_held,
     is_impossible,
-    large_massless_links,
-    mass_taken,
-    massless_bodies,
-    tensor_taken,
+    list_large_massless_links,
+    list_massless_bodies,
 )
-from .mass_distribution import share_of_mass, slows_link
+from .mass_distribution import compute_mass_share, slows_link
 
 KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -76,25 +76,26 @@ def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
     findings = compute_once(robot, "findings", lambda: validate(robot, "simulate"))
     known = {body.name for body in run.bodies.bodies if not body.mass}
     massless = frozenset(
-        {body.name for body in massless_bodies(robot, run)} | large_massless_links(robot, run)
+        {body.name for body in list_massless_bodies(robot, run)}
+        | list_large_massless_links(robot, run)
     )
     for kind, rules in KINDS.items():
         told: set[str] = set()
         for rule in rules:
             for finding in (one for one in findings if one.code == rule):
-                about = Described(finding, robot, run, body_of(run, finding.name), massless)
+                about = Described(finding, robot, run, find_body(run, finding.name), massless)
                 if finding.name in told or (finding.kind == "link" and about.body is None):
                     continue
                 if (cause := _CAUSES[kind](about)) is None:
                     continue
                 told.add(finding.name)
-                yield _fault(kind, about, cause)
+                yield _make_fault(kind, about, cause)
                 if kind == "impossible-inertia" and about.body is not None:
                     known.add(about.body.name)
     yield from check_read_back(robot, run, known)
 
 
-def _fault(kind: str, about: Described, cause: str) -> Fault:
+def _make_fault(kind: str, about: Described, cause: str) -> Fault:
     finding = about.finding
     is_remark = kind in REMARKS
     if kind == "nothing-touches":
@@ -111,15 +112,15 @@ def _fault(kind: str, about: Described, cause: str) -> Fault:
     )
 
 
-def _always(_about: Described) -> str | None:
+def _explain_always(_about: Described) -> str | None:
     return ""
 
 
-def _of_extent(_about: Described) -> str | None:
+def _explain_extent(_about: Described) -> str | None:
     return "it is left out"
 
 
-def _of_scale(about: Described) -> str | None:
+def _explain_scale(about: Described) -> str | None:
     """Explain a shape in millimeters; its finding does, unless a mesh has a scale already."""
     scale = about.finding.data.get("scale", ())
     if not scale or all(factor == 1.0 for factor in scale):
@@ -128,11 +129,11 @@ def _of_scale(about: Described) -> str | None:
     return f'it is a thousand times too large by its scale; write <mesh scale="{right}">'
 
 
-def _of_moving_body(about: Described) -> str | None:
+def _explain_moving_body(about: Described) -> str | None:
     return None if about.body is None or is_held(about.run, about.body) else ""
 
 
-def _of_mass(about: Described) -> str | None:
+def _explain_mass(about: Described) -> str | None:
     """Explain a link without mass by what the engine took; None if its body has enough."""
     run, body = about.run, about.body
     if body is None or about.finding.name not in about.massless:
@@ -140,10 +141,10 @@ def _of_mass(about: Described) -> str | None:
     if body.mass:
         return "it has a shape and no <inertial> with a mass"
     advice = "" if body.parent >= 0 else ": give it one, or fix it to the world with --fixed-base"
-    return f"it has no <inertial> with a mass; {mass_taken(run, body)}{advice}"
+    return f"it has no <inertial> with a mass; {describe_mass_taken(run, body)}{advice}"
 
 
-def _of_tensor(about: Described) -> str | None:
+def _explain_tensor(about: Described) -> str | None:
     """Explain an inconsistent tensor by what the engine took; None if its body has another."""
     run, body, link = about.run, about.body, about.robot.link
     if body is None or body.properties is None or is_held(run, body):
@@ -158,10 +159,10 @@ def _of_tensor(about: Described) -> str | None:
         and is_impossible(own.tensor, excess)
     ]
     worst = max(bad, key=lambda one: one.mass).name if bad else body.name
-    return tensor_taken(run, body) if about.finding.name == worst else None
+    return describe_tensor_taken(run, body) if about.finding.name == worst else None
 
 
-def _of_size(about: Described) -> str | None:
+def _explain_size(about: Described) -> str | None:
     """Explain an inertia that slows its link; None where it does not matter."""
     robot, run, link = about.robot, about.run, about.robot.link[about.finding.name]
     if about.body is None or is_held(run, about.body):
@@ -171,26 +172,26 @@ def _of_size(about: Described) -> str | None:
     return "a tensor of ones, or of other units; the link turns far too slowly"
 
 
-def _of_density(about: Described) -> str | None:
+def _explain_density(about: Described) -> str | None:
     """Explain a mass that is too large for its link; None for a light link."""
     run, link = about.run, about.robot.link[about.finding.name]
     if about.body is None or is_held(run, about.body):
         return None
-    if share_of_mass(link, run) <= run.thresholds.light_link:
+    if compute_mass_share(link, run) <= run.thresholds.light_link:
         return None
     return "lead is lighter: its mass is in grams, or its shapes in another unit"
 
 
 _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
     {
-        "nothing-touches": _always,
-        "no-extent": _of_extent,
-        "no-mass": _of_mass,
-        "impossible-inertia": _of_tensor,
-        "inertia-too-large": _of_size,
-        "too-dense": _of_density,
-        "mass-out-of-line": _of_moving_body,
-        "too-large": _of_scale,
+        "nothing-touches": _explain_always,
+        "no-extent": _explain_extent,
+        "no-mass": _explain_mass,
+        "impossible-inertia": _explain_tensor,
+        "inertia-too-large": _explain_size,
+        "too-dense": _explain_density,
+        "mass-out-of-line": _explain_moving_body,
+        "too-large": _explain_scale,
     }
 )
 """For each kind, the cause of a fault; None where a finding does not matter in a run."""

@@ -22,7 +22,7 @@ def has_shapes(robot: Robot, name: str) -> bool:
     return bool(robot.link[name].collisions or robot.link[name].visuals)
 
 
-def share_of_mass(link: Link, run: Run) -> float:
+def compute_mass_share(link: Link, run: Run) -> float:
     """Return the mass of a link over that of the robot."""
     own = link_mass_properties(link)
     return 0.0 if own is None else own.mass / run.bodies.mass
@@ -44,7 +44,7 @@ def slows_link(robot: Robot, link: Link, run: Run, *, placeholder: bool) -> bool
     own = link_mass_properties(link)
     if own is None:
         return False
-    share = share_of_mass(link, run)
+    share = compute_mass_share(link, run)
     spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
     if not has_shapes(robot, link.name) and share < bounds.heavy_link:
         return _slows_frame(robot, link, own, spread, run)

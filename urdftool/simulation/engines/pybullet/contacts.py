@@ -56,7 +56,7 @@ class ContactReader:
         local, _ = self.p.multiplyTransforms(*self.p.invertTransform(where, turn), at, (0, 0, 0, 1))
 
         def distance(shape: Any) -> float:
-            low, high = shape.bounds()
+            low, high = shape.get_bounds()
             outside = np.maximum(0.0, np.maximum(low - local, np.array(local) - high))
             return float(np.linalg.norm(outside))
 
