@@ -32,12 +32,12 @@ def bad(tmp_path):
 
 def test_fix_writes_only_when_asked(bad):
     before = bad.read_text()
-    mended = api.fix(bad, select=["axis-not-unit"], unsafe=True)
-    assert mended.applied == {"axis-not-unit": 1}
-    assert mended.report.findings == []
+    result = api.fix(bad, select=["axis-not-unit"], unsafe=True)
+    assert result.applied == {"axis-not-unit": 1}
+    assert result.report.findings == []
     assert bad.read_text() == before
     api.fix(bad, select=["axis-not-unit"], unsafe=True, write=True)
-    assert bad.read_text() == mended.after[str(bad)].decode() == before.replace("0 0 2", "0 0 1")
+    assert bad.read_text() == result.after[str(bad)].decode() == before.replace("0 0 2", "0 0 1")
 
 
 def test_fix_gives_what_the_command_writes(tmp_path, urdftool):

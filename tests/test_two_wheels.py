@@ -17,7 +17,7 @@ MISTAKES = {
     "unknown-parent-link",
     "collision-off-visual",
 }
-"""What is found at once; an axis and a missing drive show when these are mended."""
+"""What is found at once; an axis and a missing drive show when these are fixed."""
 
 
 @pytest.fixture

@@ -22,7 +22,7 @@ class Group(NamedTuple):
         by: Scope within which they are reported once.
         sentence: Message for several findings, with ``{count}`` and ``{names}``; if empty, the
             first message followed by the other names.
-        alike: What the findings of the group have in common besides severity and effects.
+        alike: What the findings of the group have in common in addition to severity and effects.
     """
 
     by: Scope

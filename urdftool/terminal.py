@@ -1,8 +1,8 @@
 """Escape control characters in text that goes to a terminal.
 
 Names, paths and lines of a file may contain sequences that move the cursor, set the title, hide
-text or change its direction. Terminal output passes through :class:`Shown`; pipes and files get
-results unchanged. Color codes and clearing a line are kept, since urdftool writes them.
+text or change its direction. Terminal output passes through :class:`SanitizingStream`; pipes and
+files get results unchanged. Color codes and clearing a line are kept, since urdftool writes them.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class SanitizingStream(io.RawIOBase):
 
 
 def install() -> None:
-    """Route standard output and standard error through :class:`Shown` if they are terminals."""
+    """Route standard output and standard error through :class:`SanitizingStream` on terminals."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if isinstance(stream, io.TextIOWrapper) and stream.isatty():

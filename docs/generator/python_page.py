@@ -12,7 +12,7 @@ import urdftool
 from urdftool.collision import compute, settings
 from urdftool.formats.check import Check
 from urdftool.formats.written import Written
-from urdftool.lint.fix_run import Mended
+from urdftool.lint.fix_run import FixedDescription
 from urdftool.model import elements
 from urdftool.simulation.fault import Fault
 from urdftool.simulation.settings import Settings
@@ -28,7 +28,7 @@ PARTS = (
 """Parts of a robot that most programs use."""
 
 RESULTS = (
-    *(Mended, Written, Check, Verdict, Fault),
+    *(FixedDescription, Written, Check, Verdict, Fault),
     *(Settings, settings.Settings, compute.Result),
 )
 """Types of arguments and results other than robots and findings."""

@@ -309,9 +309,9 @@ def test_what_cannot_be_read_is_mended_until_it_can(write, urdftool):
     text = "<!-- a -- b -->\n" + LONG.replace("<link", "<!-- c -- d -->\n  <link", 1)
     path = write("r.urdf", text)
     assert urdftool("lint", path, "--fix", "--unsafe-fixes", "--no-cache").code == 0
-    mended = Path(path).read_text()
-    assert mended.startswith('<?xml version="1.0"?>\n<!-- a - - b -->\n<robot')
-    assert '<axis xyz="0 0 1"/>' in mended
+    fixed = Path(path).read_text()
+    assert fixed.startswith('<?xml version="1.0"?>\n<!-- a - - b -->\n<robot')
+    assert '<axis xyz="0 0 1"/>' in fixed
 
 
 def test_json_says_what_would_be_written_where(write, urdftool):

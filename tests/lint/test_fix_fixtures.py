@@ -1,7 +1,7 @@
 """Each fix against its fixtures: ``bad.urdf`` with ``--fix`` is ``fixed.urdf``, byte for byte.
 
 ``fixed*`` beside ``bad*`` in ``fixtures/rules/RULE/`` is what the fix of that rule alone makes of
-it; a file without a ``fixed`` one is not mended. In a folder ``fixed*`` are other files, which
+it; a file without a ``fixed`` one is not fixed. In a folder ``fixed*`` are other files, which
 become so or are made.
 """
 

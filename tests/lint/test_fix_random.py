@@ -111,15 +111,15 @@ def check(path, case):
     options = Options(Settings(select=(rule,)), fixes=True)
     report = check_file(path.name, options)
     assert [f.code for f in report.findings] == [rule], report.findings
-    mended = fix_description(report, options, unsafe=True)
-    assert not mended.broken
-    fixed = mended.after[path.name]
+    result = fix_description(report, options, unsafe=True)
+    assert not result.broken
+    fixed = result.after[path.name]
     expat.ParserCreate().Parse(fixed, True)
     if rule != "empty-dynamics":  # whose line goes with it where it has one
         assert fixed == good
     else:
         assert fixed.split() == good.split()
-    assert not mended.report.findings
+    assert not result.report.findings
     path.write_bytes(fixed)
     assert not fix_description(check_file(path.name, options), options, unsafe=True).after
 

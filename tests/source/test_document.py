@@ -131,9 +131,9 @@ def test_files_that_cannot_be_read(write, tmp_path):
 
 def test_lax_readers_see_the_mended_file_at_the_same_bytes():
     text = b"<!-- (c) -- all -->\n<?xml version='1.0'?>\n<robot name='r'/>"
-    mended = repair(SourceFile("r.urdf", text))
-    assert len(mended.data) == len(text)
-    assert parse(mended).root.start == text.index(b"<robot")
+    repaired = repair(SourceFile("r.urdf", text))
+    assert len(repaired.data) == len(text)
+    assert parse(repaired).root.start == text.index(b"<robot")
     assert repair(SourceFile("r.urdf", b"<robot/>")) is None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from ..lint.fix_run import Mended
+from ..lint.fix_run import FixedDescription
 from ..source.description import GltfUp
 
 
@@ -23,7 +23,7 @@ def fix(
     meshes: bool = False,
     write: bool = False,
     gltf_up: GltfUp | None = None,
-) -> Mended:
+) -> FixedDescription:
     """Fix the findings of ``check``, changing only the affected bytes of the source.
 
     Each fix is checked: the description is read again, and a fix that adds findings is reverted.
@@ -68,9 +68,9 @@ def fix(
     report = check_file(path, options)
     if report.error is not None:
         raise report.error
-    mended = fix_description(report, options, unsafe=unsafe, meshes=meshes)
-    if write and mended.after:
+    result = fix_description(report, options, unsafe=unsafe, meshes=meshes)
+    if write and result.after:
         from ..output import rewrite
 
-        rewrite(mended.before, mended.after)
-    return mended
+        rewrite(result.before, result.after)
+    return result

@@ -124,7 +124,7 @@ def _report_unfixed(console: Console, reports: Sequence[Report], kinds: Kinds) -
     outside: Counter[str] = Counter()
     for report in reports:
         outside.update(where for _, where in report.outside)
-        for finding, reason in report.unmended:
+        for finding, reason in report.not_fixed:
             place, rule = finding.location, finding.code
             console.print_note(f"{place}: not fixed [{rule}]: {reason}", level=1)
     for where, count in outside.items():

@@ -43,7 +43,7 @@ def load_tolerant(
         many: The arguments are for several robots, and need not be declared by this one.
 
     Raises:
-        UrdftoolError: The robot cannot be read, as for ``read_description`` and ``robot_of``, or
+        UrdftoolError: The robot cannot be read, as for ``read_description`` and ``make_robot``, or
             the reader of its format.
     """
     from ..errors import XmlError
@@ -64,11 +64,11 @@ def load_tolerant(
     try:
         description = read(file=file)
     except XmlError as error:
-        mended = None if is_xacro(file) else repair(file)
-        if mended is None:
+        repaired = None if is_xacro(file) else repair(file)
+        if repaired is None:
             raise
         try:
-            description = read(file=mended)
+            description = read(file=repaired)
         except XmlError:
             raise error from None
         console.print_note(

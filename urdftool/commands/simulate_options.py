@@ -140,7 +140,7 @@ _OPTIONS = (
 
 
 def add_simulation_options(function: F) -> F:
-    """Add the options; :func:`settings_of` makes settings of their values."""
+    """Add the options; :func:`make_settings` makes settings of their values."""
     for option in reversed(_OPTIONS):
         function = option(function)
     return function

@@ -2,11 +2,12 @@
 
 This package imports nothing by itself; its modules are:
 
-- ``shapes``: ``robot_shapes``, the colored triangles of a robot, by link;
+- ``shapes``: ``read_robot_shapes``, the colored triangles of a robot, by link;
 - ``camera``: ``Camera``, the viewpoint of a picture;
-- ``picture``: ``draw``, from shapes at poses to pixels; ``png_file``: ``png``, pixels to a file;
+- ``picture``: ``draw``, from shapes at poses to pixels;
+- ``png_file``: ``encode_png``, from pixels to a file;
 - ``contact_sheet``: every joint at both limits;
-- ``gif_file``: animations; ``lettering``: text on pictures;
+- ``gif_file``: animations; ``text``: text on pictures;
 - ``gather``, ``normals``, ``materials``, ``texture``: appearance of surfaces;
 - ``raster``, ``clip``, ``scene``, ``light``, ``ground``, ``visibility``: rendering.
 """

@@ -18,7 +18,7 @@ def compute_near_plane(corners: Floats) -> float:
 def project_triangles(
     corners: Floats, reach: tuple[float, float], size: tuple[int, int], plane: float
 ) -> tuple[Floats, Indices]:
-    """Project triangles for :func:`raster.front`, and return the rows they come from.
+    """Project triangles for :func:`raster.find_front`, and return the rows they come from.
 
     Args:
         corners: In the camera's axes, from the eye [m], shape (m, 3, 3); forward is -z.

@@ -50,7 +50,7 @@ def draw(
     """Render a picture of shapes, reproducible pixel by pixel.
 
     Args:
-        shapes: From :func:`robot_shapes`.
+        shapes: From :func:`read_robot_shapes`.
         poses: Poses of the links in the world [m], by name; links without one are not drawn.
         camera: The viewpoint; a ``View`` is used as it is, a ``Camera`` is fitted to the shapes.
         size: Width and height in pixels; ignored if ``camera`` is a ``View``.

@@ -42,7 +42,8 @@ def find_front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness
         size: Columns and rows of samples.
 
     Returns:
-        Rows of triangles, or ``NOBODY``, and their nearness, or 0; each of shape (columns * rows,).
+        Rows of triangles, or ``NO_TRIANGLE``, and their nearness, or 0; each of shape
+        (columns * rows,).
     """
     keys = np.zeros(size[0] * size[1], dtype=np.uint64)
     for found in list_covered(corners, size):
@@ -55,7 +56,7 @@ def find_front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness
 
 
 def list_covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
-    """Yield the samples that triangles cover, in blocks; arguments as :func:`front`."""
+    """Yield the samples that triangles cover, in blocks; arguments as :func:`find_front`."""
     width, height = size
     (ax, ay, _), (bx, by, _), (cx, cy, _) = np.ascontiguousarray(corners.transpose(1, 2, 0))
     left, right = np.minimum(np.minimum(ax, bx), cx), np.maximum(np.maximum(ax, bx), cx)

@@ -61,7 +61,7 @@ def report_defects(robot: Robot) -> list[Finding]:
 
 
 def report_taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
-    """A robot with the world that it names and does not declare, and the defects that this is.
+    """Add the world link to a robot that names it without declaring it; report the defects of that.
 
     Args:
         robot: Any robot; it is copied unchanged.

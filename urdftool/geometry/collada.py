@@ -86,10 +86,10 @@ def _parse(path: Path, notes: list[MeshNote]) -> Any:
         if document.errors and _drop_broken_materials(document):
             message = "A material of the COLLADA file is broken; its colour is lost."
             notes.append(MeshNote("collada-broken-material", message, lossy=True))
-            mended = BytesIO()
-            document.xmlnode.write(mended)
-            mended.seek(0)
-            document = collada.Collada(mended, ignore=[collada.common.DaeError])
+            repaired = BytesIO()
+            document.xmlnode.write(repaired)
+            repaired.seek(0)
+            document = collada.Collada(repaired, ignore=[collada.common.DaeError])
         return document
     # the parser raises arbitrary exceptions for malformed files
     except Exception as error:

@@ -103,7 +103,7 @@ def _materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[
     for library in dict.fromkeys(libraries):
         file = path.parent / library
         if not os.path.isfile(file):
-            message = f"The material file {library} is not beside the OBJ file; colours are lost."
+            message = f"{library} is not in the folder of the OBJ file; its colors are lost"
             notes.append(MeshNote("obj-without-materials", message, lossy=True))
             continue
         current = Material()

@@ -125,7 +125,7 @@ class MeshBody:
 def get_cached_mesh_body(
     path: Path, cache: DiskCache, *, surface: bool = False, gltf_up: GltfUp = "y"
 ) -> MeshBody:
-    """Return :func:`mesh_body`, which is kept by the content of the file.
+    """Return :func:`integrate_mesh_body`, which is kept by the content of the file.
 
     Raises:
         MeshError: The file cannot be read or encloses no volume.

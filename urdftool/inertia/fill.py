@@ -23,7 +23,7 @@ from ..source.packages import find_own_package, shorten_path
 from .inertia_error import InertiaError
 from .link_review import LinkReview
 from .masses import Masses
-from .wanted import Want, Wanted, determine_edits
+from .requested_edits import LinkEdits, RequestedEdit, determine_edits
 
 _LONGEST_CALL = 60
 _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
@@ -60,7 +60,7 @@ class Filling:
         still_wrong: Whether a physically inconsistent inertia remains.
     """
 
-    written: list[Wanted] = field(default_factory=list)
+    written: list[LinkEdits] = field(default_factory=list)
     unchanged: list[str] = field(default_factory=list)
     refused: list[Refusal] = field(default_factory=list)
     left: list[Refusal] = field(default_factory=list)
@@ -87,12 +87,13 @@ def fill(
     """
     filling = Filling()
     todo = [
-        wanted
+        link_edits
         for item in found
-        if (wanted := _determine_edits(item, filling, masses, robot)) is not None and wanted.wants
+        if (link_edits := _determine_edits(item, filling, masses, robot)) is not None
+        and link_edits.edits
     ]
     _Editor(robot, single, through_calls).settle(todo, filling)
-    touched = {wanted.link.name for wanted in filling.written}
+    touched = {link_edits.link.name for link_edits in filling.written}
     filling.still_wrong = any(
         item.status == "wrong" and item.link.name not in touched for item in found
     )
@@ -101,7 +102,7 @@ def fill(
 
 def _determine_edits(
     item: LinkReview, filling: Filling, masses: Masses, robot: Robot
-) -> Wanted | None:
+) -> LinkEdits | None:
     name = item.link.name
 
     def left(reason: str) -> None:
@@ -130,13 +131,13 @@ def _determine_edits(
         left("one of its numbers cannot be read; --all replaces it")
         return None
     try:
-        wanted = determine_edits(item, recompute=masses.recompute)
+        link_edits = determine_edits(item, recompute=masses.recompute)
     except InertiaError as error:
         left(error.message)
         return None
-    if not wanted.wants:
+    if not link_edits.edits:
         filling.unchanged.append(name)
-    return wanted
+    return link_edits
 
 
 class _RefusedError(Exception):
@@ -159,85 +160,93 @@ class _Editor:
         for element in self.description.document.root.walk():
             self.users.setdefault((element.file.path, element.start), []).append(element)
 
-    def settle(self, todo: list[Wanted], filling: Filling) -> None:
+    def settle(self, todo: list[LinkEdits], filling: Filling) -> None:
         """Divide the links into written and refused, and create the edits of the former."""
         refused: dict[int, str] = {}
-        sites: dict[int, list[tuple[Site, Want]]] = {}
-        for wanted in todo:
+        sites: dict[int, list[tuple[Site, RequestedEdit]]] = {}
+        for link_edits in todo:
             try:
-                sites[id(wanted)] = [(self.find_site(want), want) for want in wanted.wants]
+                sites[id(link_edits)] = [
+                    (self.find_site(request), request) for request in link_edits.edits
+                ]
             except (_RefusedError, SourceError) as error:
-                refused[id(wanted)] = str(error)
+                refused[id(link_edits)] = str(error)
         while True:
             before = len(refused)
-            alive = [wanted for wanted in todo if id(wanted) not in refused]
+            alive = [link_edits for link_edits in todo if id(link_edits) not in refused]
             changes = self._group_by_site(alive, sites)
-            for wanted in alive:
-                for site, want in sites[id(wanted)]:
-                    reason = self._get_conflict(site, want, changes)
+            for link_edits in alive:
+                for site, request in sites[id(link_edits)]:
+                    reason = self._get_conflict(site, request, changes)
                     if reason:
-                        refused[id(wanted)] = reason
+                        refused[id(link_edits)] = reason
             if len(refused) == before:
                 break
-        for wanted in todo:
-            if id(wanted) in refused:
-                advice = tuple((_place(want), _describe_edit(want)) for want in wanted.wants)
+        for link_edits in todo:
+            if id(link_edits) in refused:
+                advice = tuple(
+                    (_place(request), _describe_edit(request)) for request in link_edits.edits
+                )
                 filling.refused.append(
-                    Refusal(wanted.link.name, refused[id(wanted)], wanted.link.place, advice)
+                    Refusal(
+                        link_edits.link.name, refused[id(link_edits)], link_edits.link.place, advice
+                    )
                 )
             else:
-                filling.written.append(wanted)
-        for site, wants in self._group_by_site(filling.written, sites).items():
-            filling.edits.setdefault(site.path, []).append(self._edit(site, wants[0]))
+                filling.written.append(link_edits)
+        for site, edits in self._group_by_site(filling.written, sites).items():
+            filling.edits.setdefault(site.path, []).append(self._edit(site, edits[0]))
 
     def _group_by_site(
-        self, alive: Sequence[Wanted], sites: dict[int, list[tuple[Site, Want]]]
-    ) -> dict[Site, list[Want]]:
-        changes: dict[Site, list[Want]] = {}
-        for wanted in alive:
-            for site, want in sites[id(wanted)]:
-                changes.setdefault(site, []).append(want)
+        self, alive: Sequence[LinkEdits], sites: dict[int, list[tuple[Site, RequestedEdit]]]
+    ) -> dict[Site, list[RequestedEdit]]:
+        changes: dict[Site, list[RequestedEdit]] = {}
+        for link_edits in alive:
+            for site, request in sites[id(link_edits)]:
+                changes.setdefault(site, []).append(request)
         return changes
 
-    def _get_conflict(self, site: Site, want: Want, changes: dict[Site, list[Want]]) -> str:
+    def _get_conflict(
+        self, site: Site, request: RequestedEdit, changes: dict[Site, list[RequestedEdit]]
+    ) -> str:
         """Return the reason why a place cannot be edited, or an empty string."""
-        wants = changes[site]
-        if any((other.value, other.lines) != (want.value, want.lines) for other in wants):
+        edits = changes[site]
+        if any((other.value, other.lines) != (request.value, request.lines) for other in edits):
             return "it comes from a macro whose other expansions require different numbers"
-        having = {id(other.element) for other in wants}
-        for user in self.users[want.element.file.path, want.element.start]:
-            if id(user) not in having and self._is_same_site(user, want, site):
+        having = {id(other.element) for other in edits}
+        for user in self.users[request.element.file.path, request.element.start]:
+            if id(user) not in having and self._is_same_site(user, request, site):
                 return (
                     "its source is also used elsewhere, where it must not change "
                     f"({_format_element(user)})"
                 )
         return ""
 
-    def _is_same_site(self, user: Element, want: Want, site: Site) -> bool:
-        if want.attribute is None:
+    def _is_same_site(self, user: Element, request: RequestedEdit, site: Site) -> bool:
+        if request.attribute is None:
             return True
         try:
-            return self.find_site(Want(user, want.attribute, want.value)) == site
+            return self.find_site(RequestedEdit(user, request.attribute, request.value)) == site
         except _RefusedError:
             return False
 
-    def find_site(self, want: Want) -> Site:
+    def find_site(self, request: RequestedEdit) -> Site:
         """Find the place in the source where a change must be made.
 
         Raises:
             _RefusedError: The element or attribute is computed or in a file that may not be edited.
         """
-        element = want.element
+        element = request.element
         source = self._get_source(element.file)
         if element.start not in source.elements:
             raise _RefusedError("it is not a separate element in the source")
-        if want.attribute is None:
-            return Site(element.file.path, element.start, f"<{want.child}>")
-        raw = edit.read_literal(source.elements[element.start], want.attribute)
+        if request.attribute is None:
+            return Site(element.file.path, element.start, f"<{request.child}>")
+        raw = edit.read_literal(source.elements[element.start], request.attribute)
         if raw is None:
-            return Site(element.file.path, element.start, want.attribute)
+            return Site(element.file.path, element.start, request.attribute)
         calls = [call for call in element.calls if call.macro]
-        at, name = Site(element.file.path, element.start, want.attribute), want.attribute
+        at, name = Site(element.file.path, element.start, request.attribute), request.attribute
         while "$" in raw:
             passed = _PARAMETER.fullmatch(raw.strip())
             call = calls.pop(0) if calls else None
@@ -271,30 +280,30 @@ class _Editor:
         if self.main == STDIN or not real.startswith(root + os.sep):
             raise _RefusedError(f"it is written in {file.path}, outside of {shorten_path(root)}")
 
-    def _edit(self, site: Site, want: Want) -> edit.Edit:
+    def _edit(self, site: Site, request: RequestedEdit) -> edit.Edit:
         source = self.sources[site.path]
         element = source.elements[site.start]
-        if want.attribute is not None:
-            return edit.set_attribute(source, element, site.what, want.value)
-        after = element.find_child(want.after) if want.after else None
-        if want.after == "mass" and after is None:
+        if request.attribute is not None:
+            return edit.set_attribute(source, element, site.what, request.value)
+        after = element.find_child(request.after) if request.after else None
+        if request.after == "mass" and after is None:
             after = element.find_child("origin")
-        return edit.insert_child(source, element, want.lines, after=after)
+        return edit.insert_child(source, element, request.lines, after=after)
 
 
-def _place(want: Want) -> Place:
-    if want.attribute is None:
-        return want.element.place
-    return want.element.locate_attribute(want.attribute)
+def _place(request: RequestedEdit) -> Place:
+    if request.attribute is None:
+        return request.element.place
+    return request.element.locate_attribute(request.attribute)
 
 
-def _describe_edit(want: Want) -> str:
+def _describe_edit(request: RequestedEdit) -> str:
     """Describe a change, and the macro expansion it is for."""
-    call = next((call for call in want.element.calls if call.macro), None)
+    call = next((call for call in request.element.calls if call.macro), None)
     if call is None:
-        return want.said
+        return request.description
     what = call.what if len(call.what) <= _LONGEST_CALL else f"macro '{call.macro}'"
-    return f"{want.said} for {call.file.path}:{call.line}:{call.column} ({what})"
+    return f"{request.description} for {call.file.path}:{call.line}:{call.column} ({what})"
 
 
 def _format_element(element: Element) -> str:

@@ -61,7 +61,7 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
         root = _read(robot, edited).root
     except UrdftoolError as error:
         return f"the edited text cannot be read: {error}"
-    names = {wanted.link.name for wanted in filling.written}
+    names = {link_edits.link.name for link_edits in filling.written}
     before = list(_list_outside(robot.source.document.root, names))
     after = list(_list_outside(root, names))
     if before != after:
@@ -70,10 +70,10 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
         )
         return f"the edit would change more than inertia: {changed}"
     links = read_robot(root).link
-    for wanted in filling.written:
-        link = links.get(wanted.link.name)
-        if link is None or not _has(link, wanted.result, exact=not wanted.item.missing):
-            return f"link '{wanted.link.name}' would not have the computed inertia"
+    for link_edits in filling.written:
+        link = links.get(link_edits.link.name)
+        if link is None or not _has(link, link_edits.result, exact=not link_edits.item.missing):
+            return f"link '{link_edits.link.name}' would not have the computed inertia"
     return ""
 
 

@@ -34,7 +34,7 @@ def review(
         only: Names of the links to return; all if empty.
 
     Raises:
-        InertiaError: The mass assignment is invalid, see :func:`check_masses` and :func:`weigh`.
+        InertiaError: The masses are invalid: see :func:`check_masses`, :func:`assign_masses`.
     """
     masses = masses or Masses()
     check_masses(masses, [link.name for link in robot.links])

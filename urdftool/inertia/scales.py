@@ -35,12 +35,12 @@ class Scales:
         description = robot.source
         assert description is not None
 
-        def read(wanted: Sequence[str]) -> dict[str, Any]:
-            keys = {name: _get_key(description, name) for name in wanted}
-            new = [name for name in wanted if keys[name] not in self.known]
+        def read(names: Sequence[str]) -> dict[str, Any]:
+            keys = {name: _get_key(description, name) for name in names}
+            new = [name for name in names if keys[name] not in self.known]
             for name, body in read_meshes(description, new, jobs=1).items():
                 self.known[keys[name]] = body
-            return {name: self.known[keys[name]] for name in wanted}
+            return {name: self.known[keys[name]] for name in names}
 
         found = [LinkReview(robot.link[name]) for name in names]
         weights: dict[str, tuple[float, Any, Any]] = {}

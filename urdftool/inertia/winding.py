@@ -78,7 +78,7 @@ def compute_winding_numbers(points: Array, boxes: Boxes) -> Array:
 
     Args:
         points: Points [m], shape (n, 3).
-        boxes: The surface, from ``boxes_of``.
+        boxes: The surface, from ``sort_into_boxes``.
     """
     result = np.empty(len(points))
     step = max(1, _DENSE // max(1, len(boxes.radius)))

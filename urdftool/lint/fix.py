@@ -80,7 +80,7 @@ def add_fixes(
             report.outside.append((group[0], str(error)))
             continue
         except RefusedError as error:
-            report.unmended.append((group[0], str(error)))
+            report.not_fixed.append((group[0], str(error)))
             continue
         except Exception as error:
             library = find_missing_library(error)

@@ -63,7 +63,7 @@ class FixResult:
 
 
 @dataclass
-class Mended:
+class FixedDescription:
     """Description with fixes applied.
 
     Attributes:
@@ -85,7 +85,7 @@ class Mended:
 
 def fix_description(
     report: Report, options: Options, *, unsafe: bool = False, meshes: bool = False
-) -> Mended:
+) -> FixedDescription:
     """Apply the fixes of one description.
 
     Args:
@@ -98,7 +98,9 @@ def fix_description(
         ConfigError: The configuration is invalid.
     """
     done = apply_fixes([report], options, unsafe=unsafe, meshes=meshes)
-    return Mended(done.reports[0], done.before, done.after, done.applied, done.broken, done.unmade)
+    return FixedDescription(
+        done.reports[0], done.before, done.after, done.applied, done.broken, done.unmade
+    )
 
 
 def apply_fixes(
@@ -404,3 +406,13 @@ def is_concerned(report: Report, paths: Iterable[str]) -> bool:
 
 def _collect_paths(report: Report) -> set[str]:
     return set(report.files).union(*(f.fix.paths for f in report.findings if f.fix is not None))
+
+
+def __getattr__(name: str) -> object:
+    """Return a class by its deprecated name."""
+    if name == "Mended":
+        import warnings
+
+        warnings.warn("Mended is deprecated; use FixedDescription", DeprecationWarning, 2)
+        return FixedDescription
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -91,7 +91,7 @@ class Rejections:
 
         Args:
             finding: The finding.
-            selected: Whether the user selected rules, and so is shown whatever they find.
+            selected: Whether the user selected rules, and so is shown all that they find.
 
         Returns:
             The finding; moot if it had effects and has none left.

@@ -65,7 +65,7 @@ class Report:
         failed_rules: Exception by rule; each is a bug of urdftool.
         skipped_rules: Missing optional library by rule that requires it.
         skipped_fixes: Missing optional library by rule whose fix requires it.
-        unmended: Findings whose fix cannot be applied to the source, with the reason.
+        not_fixed: Findings whose fix cannot be applied to the source, with the reason.
         outside: Findings whose fix would change a file outside of the package, with both.
     """
 
@@ -80,7 +80,7 @@ class Report:
     failed_rules: dict[str, str] = field(default_factory=dict)
     skipped_rules: dict[str, str] = field(default_factory=dict)
     skipped_fixes: dict[str, str] = field(default_factory=dict)
-    unmended: list[tuple[Finding, str]] = field(default_factory=list)
+    not_fixed: list[tuple[Finding, str]] = field(default_factory=list)
     outside: list[tuple[Finding, str]] = field(default_factory=list)
 
     @property

@@ -221,11 +221,11 @@ def _read_mended(
     file: SourceFile, options: Options, configuration: Configuration
 ) -> Description | None:
     """Read a file that is not well-formed as tolerant readers do, to check the rest of it."""
-    mended = None if is_xacro(file) else repair(file)
-    if mended is None:
+    repaired = None if is_xacro(file) else repair(file)
+    if repaired is None:
         return None
     try:
-        return replace(_read(mended, options, configuration), repaired=True)
+        return replace(_read(repaired, options, configuration), repaired=True)
     except SourceError:
         return None
 

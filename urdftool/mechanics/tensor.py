@@ -60,7 +60,7 @@ def measure_consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> 
     Args:
         tensor: Inertia about the center of mass [kg·m²].
         least_size: Smallest size [kg·m²] to which excess and negativity are relative, see
-            :func:`noise_of`.
+            :func:`get_noise`.
     """
     moments = low, middle, high = compute_principal_moments(tensor)
     size = max(abs(low), abs(high), least_size)

@@ -24,7 +24,7 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
     Args:
         robot: Any robot, also an invalid one.
         positions: Joint positions by name [rad, m]; 0 by default. Mimic joints do not follow
-            their leaders; use :func:`with_mimics` for that.
+            their leaders; use :func:`add_mimic_positions` for that.
     """
     poses: dict[str, Pose] = {}
     for name in robot.tree.order:

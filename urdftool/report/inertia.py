@@ -74,10 +74,10 @@ def format_table(title: str, properties: SpatialInertia, facts: Mapping[str, str
     rows = {
         "mass": f"{found['mass']:.6g} kg",
         **facts,
-        "centre of mass": f"{_format_shown(found['com'])} m",
+        "center of mass": f"{_format_shown(found['com'])} m",
     }
     for label, six in (
-        ("about the centre of mass", found["inertia"]),
+        ("about the center of mass", found["inertia"]),
         ("about the origin", found["inertia_about_origin"]),
     ):
         rows[label] = "ixx, iyy, izz  " + _format_shown(six[name] for name in ("ixx", "iyy", "izz"))
@@ -94,7 +94,7 @@ def format_summary(what: str, properties: SpatialInertia) -> str:
     """Format mass and moments in one line, with six digits."""
     six = get_components(properties.tensor)
     moments = ", ".join(f"{name} {six[name]:.6g}" for name in ("ixx", "iyy", "izz"))
-    return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the centre of mass"
+    return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the center of mass"
 
 
 def _collect_rounded_components(tensor: SymmetricTensor) -> dict[str, float]:

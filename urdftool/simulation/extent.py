@@ -62,7 +62,7 @@ def measure_extent(robot: Robot, name: str, *, only_collisions: bool = False) ->
 
 
 def get_shape_corners(robot: Robot, shape: Visual | Collision) -> Array | None:
-    """Return the points of a shape as :func:`shape_points`, of a mesh the outermost ones."""
+    """Return the points of a shape as :func:`get_shape_points`, of a mesh the outermost ones."""
     if not isinstance(shape.geometry, Mesh):
         return get_shape_points(robot, shape)
     points = get_outermost_points(robot, shape.geometry)

@@ -4,7 +4,7 @@ An edit replaces a span of bytes. Bytes outside the spans are unchanged: comment
 whitespace, line ends and a byte order mark. Inserted text gets the indentation and the line ends of
 its surroundings.
 
-Elements to edit must come from :func:`parsed`, since the end of an element moved by xacro is
+Elements to edit must come from :func:`parse_source`, since the end of an element moved by xacro is
 unknown.
 """
 

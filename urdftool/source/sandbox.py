@@ -1,8 +1,8 @@
 """Sandbox of xacro expansion: accessible environment variables and files.
 
-A description is a program. Untrusted descriptions see only the variables in ``OPEN_VARIABLES``, and
-read only files of ROS packages and of their own project. Expressions use the functions of
-``bounded`` in any case.
+A description is a program. Untrusted descriptions see only the variables in
+``VISIBLE_ENV_VARS``, and read only files of ROS packages and of their own project. Expressions
+use the functions of ``safe_builtins`` in any case.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ def locate_attributes(data: bytes, start: int) -> dict[str, tuple[int, int]]:
 
 
 def locate_value(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
-    """Return the span of the value between its quotes, for a span of :func:`attribute_spans`."""
+    """Return the span of the value between its quotes, for a span of :func:`locate_attributes`."""
     match = _ATTRIBUTE.match(data, span[0])
     if match is None:
         return span

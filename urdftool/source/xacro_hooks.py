@@ -92,7 +92,7 @@ class Run:
         self.patience = EvaluationLimits(self.make_time_error)
 
     def expand(self) -> None:
-        """Parse the file and expand it with xacro; requires :meth:`hooks`."""
+        """Parse the file and expand it with xacro; requires :meth:`install_hooks`."""
         xacro.init_stacks(self.result.file.path)
         self.result.tree = parse_xacro(self.result.file)
         xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)

@@ -5,7 +5,7 @@ This package imports nothing by itself; its modules are:
 - ``page``: contents and events of the page; ``panels``: its texts, tables and controls;
 - ``joints``, ``sliders``: the joint sliders, their bounds and units;
 - ``body``: the robot in the scene; ``looks``: its surfaces as meshes, ``glb`` for textured ones;
-  ``equal_box``: inertia boxes;
+  ``compute_inertia_box``: inertia boxes;
 - ``surroundings``: light, ground and viewpoint;
 - ``numbers``: properties of links and joints; ``marks``: the links of findings;
 - ``watch``: changes of files;

@@ -76,7 +76,7 @@ class Page:
 
         Args:
             server: The server of the page.
-            robot: The robot, checked by :func:`worthy`.
+            robot: The robot, checked by :func:`require_viewable`.
             read: Reads the current description.
             load: Returns the triangles of a robot's ``"visual"`` or ``"collision"``.
             check: Lints a robot; None to skip lint.

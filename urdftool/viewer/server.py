@@ -143,7 +143,7 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
 
 
 def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
-    """Install :func:`_answer` as the request handler of a server that has just started.
+    """Install :func:`_handle_request` as the request handler of a server that has just started.
 
     viser accepts no request handler. The server of websockets has one as an attribute, and each
     connection refers to its server, so this function makes the first connection. Clients that

@@ -23,7 +23,7 @@ Job = tuple[Path, bool, GltfUp]
 
 
 def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
-    """Return the ``conversion`` of each job, from the cache or computed in parallel."""
+    """Convert the mesh of each job, or return it from the cache; in parallel."""
     keys = [_get_key(*job) for job in jobs]
     cache = DiskCache(cache_folder("mjcf-meshes"))
     found: list[Converted | str | None] = [

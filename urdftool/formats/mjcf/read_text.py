@@ -85,10 +85,10 @@ class _Reader:
         try:
             return parse(file).root
         except XmlError:
-            mended = repair(file)
-            if mended is None:
+            repaired = repair(file)
+            if repaired is None:
                 raise
-        return parse(mended).root
+        return parse(repaired).root
 
     def write_text(self, root: Element, folder: Path, first: int, above: tuple[str, ...]) -> str:
         """Write a model with one start tag per line, and register its lines.

@@ -45,8 +45,8 @@ def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
         inertia = worst.inertial and (worst.inertial.inertia or worst.inertial)
         yield make_defect(
             "inertia-triangle-inequality",
-            f"no rigid body has the inertia of link '{worst.name}': its largest principal moment "
-            f"exceeds the sum of the others by {short:.0%} of itself",
+            f"inertia of link '{worst.name}' is physically inconsistent: its largest principal "
+            f"moment exceeds the sum of the others by {short:.0%}",
             (inertia or worst).place,
             "link",
             worst.name,

@@ -37,6 +37,6 @@ def write_imu_noise(made: Node, sensor: Element) -> None:
 
 
 def is_old_noise(element: Element) -> bool:
-    """Tell whether an element is noise that :func:`imu_noise` converts."""
+    """Tell whether an element is noise that :func:`write_imu_noise` converts."""
     parent = element.parent
     return element.tag == "noise" and parent is not None and parent.tag == "imu"

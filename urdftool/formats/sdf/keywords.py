@@ -1,7 +1,7 @@
 """Tags in ``<gazebo reference="…">`` blocks, and the SDF element that each sets.
 
 One table for each kind of reference; the page of the mapping is generated from them. The kind of a
-tag's value is known to :func:`urdftool.rules.gazebo.block_values.kind_of_value`.
+tag's value is known to :func:`urdftool.rules.gazebo.block_values.get_kind`.
 """
 
 from __future__ import annotations

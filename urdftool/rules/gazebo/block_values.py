@@ -92,7 +92,7 @@ def get_kind(keyword: str) -> str:
 
 
 def is_value_of_kind(kind: str, text: str) -> bool:
-    """Tell whether a text is a value of a kind that :func:`kind_of_value` returns."""
+    """Tell whether a text is a value of a kind that :func:`get_kind` returns."""
     if kind == "flag":
         return is_flag(text)
     if kind == "vector":

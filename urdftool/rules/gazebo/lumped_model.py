@@ -38,7 +38,7 @@ def is_joint_kept(robot: Robot, joint: Joint, kept: set[str]) -> bool:
     Args:
         robot: The robot.
         joint: One of its joints.
-        kept: The links that :func:`kept_links` returns.
+        kept: The links that :func:`find_kept_links` returns.
     """
     return joint.child in kept and not is_lumped(robot, joint.child)
 
@@ -49,7 +49,7 @@ def is_named_as_link(robot: Robot, joint: Joint, kept: set[str]) -> bool:
     Args:
         robot: The robot.
         joint: One of its joints.
-        kept: The links that :func:`kept_links` returns.
+        kept: The links that :func:`find_kept_links` returns.
     """
     if joint.name not in robot.link or not is_joint_kept(robot, joint, kept):
         return False

@@ -52,7 +52,7 @@ def describe_remedy(link: Link, inertial: Inertial, six: SymmetricTensor) -> str
 
 
 def get_remedy_kind(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:
-    """Name the kind of the remedy of :func:`remedy_text`; empty if there is none."""
+    """Name the kind of the remedy of :func:`describe_remedy`; empty if there is none."""
     proposal = find_proposal(link, inertial, six)
     return get_solid_kind(link) if proposal is None else proposal.kind
 

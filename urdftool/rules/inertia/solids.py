@@ -146,7 +146,7 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
 
 
 def get_solid_kind(link: Link) -> str:
-    """Name the element of the solid that :func:`solid_text` describes; empty if there is none."""
+    """Name the element of the solid of :func:`describe_solid`; empty if there is none."""
     shape = get_only_shape(link)
     if compute_solid_moments(link) is None or shape is None or shape.geometry is None:
         return ""

@@ -180,7 +180,7 @@ def report_every_link_on_cycle(robot: Robot) -> Iterator[Problem]:
 
 
 def _find_cycles(robot: Robot) -> dict[str, list[Link]]:
-    """Find the cycle that each link is in or below, as ``_cycle`` does, in linear time."""
+    """Find the cycle that each link is in or below, as ``_find_cycle`` does, in linear time."""
     found: dict[str, list[Link]] = {}
     for link in robot.link.values():
         above: dict[str, None] = {}

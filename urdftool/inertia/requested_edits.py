@@ -23,7 +23,7 @@ _SAME = 1e-11
 
 
 @dataclass
-class Want:
+class RequestedEdit:
     """A change to one expanded element: lines of a child to add, or an attribute to set."""
 
     element: Element
@@ -34,7 +34,7 @@ class Want:
     after: str | None = None
 
     @property
-    def said(self) -> str:
+    def description(self) -> str:
         """Describe the change for a user who makes it by hand."""
         if self.attribute is not None:
             return f'set {self.attribute}="{self.value}"'
@@ -42,12 +42,12 @@ class Want:
 
 
 @dataclass
-class Wanted:
+class LinkEdits:
     """All changes to one link, and its resulting mass properties."""
 
     item: LinkReview
     result: SpatialInertia
-    wants: list[Want] = field(default_factory=list)
+    edits: list[RequestedEdit] = field(default_factory=list)
 
     @property
     def link(self) -> Link:
@@ -55,7 +55,7 @@ class Wanted:
         return self.item.link
 
 
-def determine_edits(item: LinkReview, *, recompute: bool) -> Wanted:
+def determine_edits(item: LinkReview, *, recompute: bool) -> LinkEdits:
     """Determine the changes to a link whose implied mass properties are known.
 
     Args:
@@ -70,8 +70,8 @@ def determine_edits(item: LinkReview, *, recompute: bool) -> Wanted:
     inertial = item.link.inertial
     if inertial is None:
         lines = ("<inertial>", *(f"\t{line}" for line in _collect_children(result)), "</inertial>")
-        want = Want(item.link.element, child="inertial", lines=lines)
-        return Wanted(item, result, [want])
+        request = RequestedEdit(item.link.element, child="inertial", lines=lines)
+        return LinkEdits(item, result, [request])
     element = inertial.element
     origin, mass, inertia = (element.find_child(tag) for tag in ("origin", "mass", "inertia"))
     back = transpose(get_inertial_rotation(inertial))
@@ -80,29 +80,37 @@ def determine_edits(item: LinkReview, *, recompute: bool) -> Wanted:
         f"link '{item.link.name}'",
     )
     if not element.children:
-        return Wanted(item, result, [Want(element, child="mass", lines=_collect_children(along))])
-    found = Wanted(item, result)
+        return LinkEdits(
+            item, result, [RequestedEdit(element, child="mass", lines=_collect_children(along))]
+        )
+    found = LinkEdits(item, result)
     texts = dict(zip(("origin", "mass", "inertia"), _collect_children(along), strict=True))
     if origin is None:
         if any(along.com):
-            found.wants.append(Want(element, child="origin", lines=(texts["origin"],)))
+            found.edits.append(RequestedEdit(element, child="origin", lines=(texts["origin"],)))
     elif recompute and not _is_same_number(origin.get("xyz") or "0 0 0", along.com):
-        found.wants.append(Want(origin, "xyz", format_numbers_text(along.com)))
+        found.edits.append(RequestedEdit(origin, "xyz", format_numbers_text(along.com)))
     if mass is None or "value" not in mass.attributes:
         if mass is None:
-            found.wants.append(Want(element, child="mass", lines=(texts["mass"],), after="origin"))
+            found.edits.append(
+                RequestedEdit(element, child="mass", lines=(texts["mass"],), after="origin")
+            )
         else:
-            found.wants.append(Want(mass, "value", number_text(along.mass)))
+            found.edits.append(RequestedEdit(mass, "value", number_text(along.mass)))
     elif recompute and not _is_same_number(mass.get("value"), [along.mass]):
-        found.wants.append(Want(mass, "value", number_text(along.mass)))
+        found.edits.append(RequestedEdit(mass, "value", number_text(along.mass)))
     if inertia is None:
-        found.wants.append(Want(element, child="inertia", lines=(texts["inertia"],), after="mass"))
+        found.edits.append(
+            RequestedEdit(element, child="inertia", lines=(texts["inertia"],), after="mass")
+        )
     else:
-        found.wants += _set_numbers(inertia, along, recompute=recompute)
+        found.edits += _set_numbers(inertia, along, recompute=recompute)
     return found
 
 
-def _set_numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) -> list[Want]:
+def _set_numbers(
+    inertia: Element, along: SpatialInertia, *, recompute: bool
+) -> list[RequestedEdit]:
     """Set those of the six numbers that differ, or are missing.
 
     Unless ``recompute``, a missing product of inertia is set to 0 if all moments are written.
@@ -120,9 +128,9 @@ def _set_numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) ->
         }
         tensor = as_tensor([{**meant, **kept}[name] for name in COMPONENTS])
         require_consistent(replace(along, tensor=tensor), "the written tensor")
-        return [Want(inertia, name, number_text(meant[name])) for name in missing]
+        return [RequestedEdit(inertia, name, number_text(meant[name])) for name in missing]
     return [
-        Want(inertia, name, number_text(meant[name]))
+        RequestedEdit(inertia, name, number_text(meant[name]))
         for name in COMPONENTS
         if not _is_same_number(inertia.get(name), [meant[name]], scale=max(map(abs, along.tensor)))
     ]
