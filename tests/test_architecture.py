@@ -391,7 +391,7 @@ QUESTIONS = frozenset(
 READ_TEXTS = {
     ("formats/mjcf/meshes.py", "_report_notes"): "reports equal records of a file once",
     ("lint/group.py", "_combine_fixes"): "chooses between two wordings of the combined fix",
-    ("report/expansion.py", "warnings"): "removes line breaks",
+    ("report/expansion.py", "format_warnings"): "removes line breaks",
     ("rules/xacro/expansion_warnings.py", "_match_warnings"): "warnings of the library xacro",
 }
 """Functions that compare texts: for the page only, or texts of another library."""

@@ -33,8 +33,10 @@ def test_a_pendulum_on_a_cart(cart, angle):
     assert cart.compute_mass_matrix(q) == pytest.approx(
         np.array([[5, lever], [lever, 0.2 + 2 * 0.25]]), abs=1e-14
     )
-    assert cart.gravity(q) == pytest.approx([0, -2 * 9.81 * 0.5 * math.cos(angle)], abs=1e-13)
-    mass, com, _ = cart.centroid(q)
+    assert cart.compute_gravity(q) == pytest.approx(
+        [0, -2 * 9.81 * 0.5 * math.cos(angle)], abs=1e-13
+    )
+    mass, com, _ = cart.compute_centroid(q)
     assert mass == 5
     expected = (3 * 0.4 + 2 * (0.4 + 0.5 * math.cos(angle))) / 5
     assert com == pytest.approx([expected, 0, 2 * (1 - 0.5 * math.sin(angle)) / 5])

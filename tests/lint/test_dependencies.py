@@ -34,7 +34,7 @@ class Kept(Cache):
         self.read = {q for part in (read, *read.shared) for q in part.asked}
 
 sys.addaudithook(hook)
-check = run._lint_once
+check = run._check_variant
 
 def checked(*question):  # what is read before is part of the key
     global heard, found
@@ -43,12 +43,12 @@ def checked(*question):  # what is read before is part of the key
     heard, found = None, heard
     return report
 
-run._lint_once = checked
+run._check_variant = checked
 cache = Kept()
 missed = {}
 for path in sys.argv[1:]:
     options = Options(Settings(select=("all",)), fixes=True, cache=cache)
-    run.lint_file(path, options)
+    run.check_file(path, options)
     own = (sys.prefix, sys.base_prefix, os.path.dirname(os.path.dirname(run.__file__)))
     found.discard(("list", os.getcwd()))  # which the import of a library lists
     left = sorted(q for q in found - cache.read if not q[1].startswith(own))

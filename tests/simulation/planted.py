@@ -112,6 +112,6 @@ def into_neighbour(path, name, part=1.0):
 
 def _middle(body, poses, link=None):
     """The middle of the largest shape of a body, or of one of its links, in the world."""
-    boxes = [shape.bounds() for shape in body.shapes if link in (None, shape.link)]
+    boxes = [shape.get_bounds() for shape in body.shapes if link in (None, shape.link)]
     low, high = max(boxes, key=lambda box: np.prod(box[1] - box[0]))
     return np.array(poses[body.name].transform(tuple(((low + high) / 2).tolist())))

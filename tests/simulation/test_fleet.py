@@ -28,7 +28,7 @@ def _work(path):
     if path == "refused":
         from urdftool.model.load import load
 
-        raise Refused(list(__import__("urdftool.formats.defects", fromlist=["x"]).defects(
+        raise Refused(list(__import__("urdftool.formats.defects", fromlist=["x"]).report_defects(
             load(ROBOTS / "ros2_arm" / "urdf" / "robot2.urdf.xacro"))))  # fmt: skip
     if path == "bug":
         raise ZeroDivisionError("oh")

@@ -61,7 +61,7 @@ def test_the_verdict_is_the_same_whether_one_looked_before(robot):
     assert looked.known
     assert not plain.known
     with mock.patch.object(
-        interpenetration, "misplaced_collision", side_effect=AssertionError("looked again")
+        interpenetration, "explain_misplaced_collision", side_effect=AssertionError("looked again")
     ):
         found = judge(robot, looked).faults
     wanted = judge(robot, plain).faults

@@ -38,7 +38,7 @@ def _docs():
     )
     found = {}
     for field, text in zip(node.body[1::2], node.body[2::2], strict=True):
-        found[field.target.id] = text.get_value.value
+        found[field.target.id] = text.value.value
     return found
 
 

@@ -57,7 +57,7 @@ def test_columns_count_characters_not_bytes():
 def test_a_byte_order_mark_is_no_column():
     text = b"\xef\xbb\xbf<robot name='r'><link name='x'/></robot>"
     assert document(text).root.place.column == 1
-    assert next(document(text).root.all("link")).place.column == 17
+    assert next(document(text).root.list_children("link")).place.column == 17
 
 
 def test_crlf_lines_count_once():

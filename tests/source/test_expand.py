@@ -35,7 +35,7 @@ def canonical(text):
 
 
 def find(description, tag, name=None):
-    for element in description.document().root.walk():
+    for element in description.make_document().root.walk():
         if element.tag == tag and name in (None, element.get("name")):
             return element
     raise AssertionError(f"no <{tag}>")

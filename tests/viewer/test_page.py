@@ -314,7 +314,7 @@ def test_what_fails_is_said_and_the_page_goes_on(show):
     def fail():
         raise ZeroDivisionError("oh")
 
-    page._safely(fail)
+    page._run_safely(fail)
     assert "Bug in urdftool" in page._banner.content
     page.joints.put("upper")
     assert page.joints.positions["shoulder"] == 1.25
