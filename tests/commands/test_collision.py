@@ -272,7 +272,6 @@ def test_a_check_of_nothing_is_no_pass(urdftool, write):
     assert "selected links" in done.err
 
 
-@pytest.mark.slow
 def test_a_part_beyond_the_error_is_said_with_what_helps(urdftool, write):
     open_sphere = noisy("sphere", (0.1,), noise=0.0)
     half = open_sphere[1][(open_sphere[0][open_sphere[1]][:, :, 2] > 0).all(axis=1)]
@@ -282,7 +281,7 @@ def test_a_part_beyond_the_error_is_said_with_what_helps(urdftool, write):
     done = urdftool(*words)
     assert done.code == 0
     (line,) = (line for line in done.err.splitlines() if "exceeds 5.0%" in line)
-    assert line.startswith("urdftool: a bowl.stl: reach ")
+    assert line.startswith("urdftool: a bowl.stl: excess ")
     assert "--max-hulls 4 would give about" in line or "more pieces help little" in line
     assert "1 not within the error" in done.err
     found = urdftool(*words, "--overwrite", "--method", "hull")

@@ -106,8 +106,10 @@ class PlaneCutter:
         for _ in range(self.effort.retries):
             if best.measures.error <= max_error or not self._learn(best):
                 break
-            parts = [self.partition.reprice(part) for part in best.parts]
-            parts = self._search(parts, most, goal, dense=True)
+            old = [self.partition.reprice(part) for part in best.parts]
+            parts = self._search(old, most, goal, dense=True)
+            if _estimate(parts) >= _estimate(old):
+                break
             found = self._finish(parts, max_error)
             if found.measures.error < best.measures.error:
                 best = found

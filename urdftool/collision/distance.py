@@ -18,6 +18,8 @@ _COARSE = 1000  # triangles below which more neighbors are tested
 _REFINED = 6000  # points of which the distance is measured exactly for the largest one
 _COVERED = 2.0  # spacings from every point of the covered part to its nearest sample
 _KEPT = 100_000  # largest sample whose positions are cached
+_BOUNDED = 2000  # points up to which each one is queried
+_CELLS = (16, 64)  # grid cells along the longest side, by which others are selected
 _AT_ONCE = 8192  # point-triangle pairs per block, to fit the processor's cache
 
 
@@ -155,11 +157,20 @@ def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Po
     """
     if not len(points):
         return 0.0, points, np.zeros(0)
+    some, limit = _candidates(surface, points, count)
+    best, found, distances = _farthest(surface, points[some], count)
+    if len(some) < len(points) and limit > best:  # a point that was left out may be farther
+        some, _ = _candidates(surface, points, count, best)
+        best, found, distances = _farthest(surface, points[some], count)
+    return best, found, distances
+
+
+def _farthest(surface: Surface, points: Points, count: int) -> tuple[float, Points, Points]:
     bounds, _ = surface.tree.query(points, eps=0.02, workers=surface.workers)
     order = np.argsort(-bounds, kind="stable")
     best = 0.0
     chosen: list[Points] = []
-    begin, step = 0, max(count, 256)
+    begin, step = 0, max(count, 32)
     last = min(len(order), _REFINED)  # of the others, the samples' spacing decides
     while begin < last and (not begin or bounds[order[begin]] > best):
         chosen.append(surface.distance(points[order[begin : begin + step]]))
@@ -168,6 +179,47 @@ def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Po
     found = np.concatenate(chosen)
     first = np.argsort(-found, kind="stable")[:count]
     return best, points[order[first]], found[first]
+
+
+def _candidates(
+    surface: Surface, points: Points, count: int, limit: float = 0.0
+) -> tuple[npt.NDArray[np.int64], float]:
+    """Select the points that may be among those farthest from all samples.
+
+    One point of each grid cell bounds the distance of the others. Queries are slow where all
+    samples are about equally far, as in the middle of a bowl.
+
+    Args:
+        surface: The surface.
+        points: Points [m].
+        count: Number of farthest points.
+        limit: Distance [m] below which points are not wanted; 0 for that of the ``count`` farthest.
+
+    Returns:
+        Their indices, and a distance [m] that all other points do not exceed.
+    """
+    some = np.arange(len(points))
+    fixed = limit > 0
+    for cells in _CELLS:
+        if len(some) <= _BOUNDED:
+            break
+        first, owner = _group(points[some], cells)
+        away, _ = surface.tree.query(points[some[first]], eps=0.02, workers=surface.workers)
+        bounds = away[owner] + np.linalg.norm(points[some] - points[some[first]][owner], axis=1)
+        if not fixed and count <= len(away):
+            ranked = np.partition(away, len(away) - count)
+            limit = max(limit, float(ranked[len(away) - count]) / 1.02)  # as eps permits
+        some = some[bounds >= limit]
+    return some, limit
+
+
+def _group(points: Points, cells: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Group points by the cells of a grid; return the first of each group, and their groups."""
+    low = points.min(axis=0)
+    width = float(np.ptp(points, axis=0).max()) / cells or 1.0
+    places = ((points - low) / width).astype(np.int64) @ (cells + 1) ** np.arange(3)
+    _, first, owner = np.unique(places, return_index=True, return_inverse=True)
+    return first, owner
 
 
 def to_triangles(points: Points, corners: Points) -> Points:
