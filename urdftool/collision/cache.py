@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..storage import DiskCache, cache_key
 from .compute import Result, Task, result_of
 
-_VERSION = 11
+_VERSION = 12
 """Version of the results; increment it when the same settings give another result."""
 
 

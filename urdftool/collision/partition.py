@@ -3,7 +3,8 @@
 A part is the surface inside its cell; the hull of a clipped surface is that of the clipped solid,
 so cuts need no caps. The cost of a part is the larger one of its *bulge*, by which its hull
 protrudes from the visual, and its *burial*, the depth of exterior points of the visual inside the
-hull. Faces of the hull on a cut are inside the union of the parts and count for neither.
+hull. Faces of the hull on a cut are inside the union of the parts and do not count for burial. They
+count for the bulge, since the part on the other side may leave their concave regions open.
 """
 
 from __future__ import annotations
@@ -200,7 +201,7 @@ class Partition:
         inner = self._on_cuts(ends[hull.simplices], sides, cuts)
         volume = float(hull.volume)
         part = Part(points, faces, cuts, ends[hull.vertices], volume, sides, inner)
-        self._price_bulge(part, ends[hull.simplices[~inner]])
+        self._price_bulge(part, ends[hull.simplices])
         self._price_burial(part)
         return part
 
