@@ -15,7 +15,7 @@ import numpy as np
 
 from ..diagnostic import Diagnostic
 from ..errors import MeshError
-from ..geometry.topology import body_labels, edges_of
+from ..geometry.topology import body_labels, edges_of, used_vertices
 from .convex import capped_hull, thickened
 from .cut import Cutter
 from .cuts import PlaneCutter
@@ -179,7 +179,7 @@ def _bodies(
     limit = settings.max_error * target.size
     pieces: list[Piece] = []
     for label in range(count):
-        used = np.unique(surface.faces[labels == label])
+        used = used_vertices(surface.faces[labels == label], len(surface.vertices))
         if not seen[used].any():
             continue
         points = surface.vertices[used]

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
+from ..geometry.topology import used_vertices
 
 BORDER_WEIGHT = 10.0
 """Weight of the planes that keep open borders in place, relative to those of the faces."""
@@ -50,7 +51,7 @@ def decimate(vertices: Points, faces: Faces, target: int) -> tuple[Points, Faces
     if len(faces) <= target:
         return vertices, faces
     low, high = vertices.min(axis=0), vertices.max(axis=0)
-    original = np.unique(faces)
+    original = used_vertices(faces, len(vertices))
     number = np.zeros(len(vertices), dtype=np.int32)
     number[original] = np.arange(len(original))
     points = (vertices[original] - (low + high) / 2) / max(float((high - low).max()), 1e-300)

@@ -13,7 +13,14 @@ from ..diagnostic import Diagnostic, make_remark
 from ..errors import MeshError
 from ..geometry.load import FARTHEST, load_mesh
 from ..geometry.mesh import Faces, Points
-from ..geometry.topology import collapsed, components, edges_of, neighbors, weld
+from ..geometry.topology import (
+    collapsed,
+    components,
+    edges_of,
+    neighbors,
+    used_vertices,
+    weld,
+)
 from ..inertia.repair import drop_duplicates, orient
 from ..source.description import GltfUp
 
@@ -128,7 +135,7 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     if turned:
         message = f"{turned} faces were turned to agree with their neighbours."
         said.append(make_remark("turned-faces", message, count=turned))
-    used = np.unique(kept)
+    used = used_vertices(kept, len(points))
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
     points, kept = points[used], number[kept].astype(np.int64)

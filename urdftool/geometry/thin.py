@@ -19,6 +19,7 @@ from ..errors import MeshError
 from ..storage import DiskCache, cache_key
 from .load import load_mesh
 from .mesh import Mesh, Part, Points
+from .topology import used_vertices
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
@@ -54,7 +55,7 @@ class ThinMeshes:
         if data is not None:
             return np.array(json.loads(data), dtype=np.float64)
         used = self._full(path, scale, gltf_up)
-        points = used.vertices[np.unique(used.faces)]
+        points = used.vertices[used_vertices(used.faces, len(used.vertices))]
         found = np.array([points.min(axis=0), points.max(axis=0)])
         if key is not None:
             self.cache.put(key, json.dumps(found.tolist()).encode())

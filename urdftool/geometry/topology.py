@@ -159,6 +159,18 @@ def merge_vertices(
     return vertices[first[seen]], renumbered[merged].astype(np.int64)
 
 
+def used_vertices(faces: Faces, count: int) -> npt.NDArray[np.int64]:
+    """Return the indices of the vertices that faces use, ascending.
+
+    Args:
+        faces: Indices of vertices.
+        count: Number of vertices.
+    """
+    used = np.zeros(count, dtype=bool)
+    used[faces.reshape(-1)] = True
+    return np.flatnonzero(used)
+
+
 def collapsed(faces: Faces) -> npt.NDArray[np.bool_]:
     """Find the faces that use one vertex twice."""
     return np.asarray(

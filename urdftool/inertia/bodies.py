@@ -176,9 +176,10 @@ def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = 
         MeshError: The file cannot be read or encloses no volume.
     """
     from ..geometry.load import load_mesh
+    from ..geometry.topology import used_vertices
 
     mesh = load_mesh(path, gltf_up=gltf_up)
-    used = mesh.vertices[np.unique(mesh.faces)]
+    used = mesh.vertices[used_vertices(mesh.faces, len(mesh.vertices))]
     box = used.min(axis=0), used.max(axis=0)
     count = len(mesh.faces)
     if surface:

@@ -24,7 +24,7 @@ import numpy.typing as npt
 
 from ..errors import MeshError
 from ..geometry.mesh import Array, Faces, Points
-from ..geometry.topology import body_labels, collapsed, edges_of, weld
+from ..geometry.topology import Edges, body_labels, collapsed, edges_of, weld
 from ..mechanics.spatial_inertia import SpatialInertia
 from .hull import compute_hull_moments
 from .inertia_error import InertiaError
@@ -103,7 +103,7 @@ def estimate_mass_properties(
         InertiaError: Mass or density is not above zero, or the result is physically inconsistent.
     """
     _check_amount(mass, density)
-    points, merged, _ = weld(vertices, faces)
+    points, merged, edges = weld(vertices, faces)
     kept = merged[~collapsed(merged)]
     if len(kept) < 4:
         raise MeshError(
@@ -112,8 +112,9 @@ def estimate_mass_properties(
     # normalized to size 1, so that thresholds are independent of units
     middle, size = _choose_frame(points)
     points = (points - middle) / size
-    bodies = int(body_labels(len(kept), edges_of(kept)).max()) + 1
-    solid = _integrate_exact(points, kept) or _estimate_open(points, kept)
+    labels = body_labels(len(kept), edges)
+    bodies = int(labels.max()) + 1
+    solid = _integrate_exact(points, kept, edges, labels) or _estimate_open(points, kept)
     hull = None if solid.method == "exact" else compute_hull_moments(points).measure * size**3
     moments = Moments(
         solid.moments.measure * size**3,
@@ -156,12 +157,14 @@ def _choose_frame(points: Points) -> tuple[Array, float]:
     return 0.5 * (low + high), size
 
 
-def _integrate_exact(points: Points, faces: Faces) -> _Solid | None:
+def _integrate_exact(
+    points: Points, faces: Faces, edges: Edges, labels: npt.NDArray[np.int64] | None = None
+) -> _Solid | None:
     """Integrate bodies that are all closed and consistently wound; None for others."""
-    edges = edges_of(faces)
     if not edges.cycle:
         return None
-    labels = body_labels(len(faces), edges)
+    if labels is None:
+        labels = body_labels(len(faces), edges)
     volumes, areas = _compute_measures(points, faces, labels)
     sheets = np.abs(volumes) < _SHEET * areas**1.5
     if sheets.all() or areas[sheets].sum() > 0.01 * areas.sum():
@@ -265,7 +268,7 @@ def _estimate_open(points: Points, faces: Faces) -> _Solid:
     if turned:
         notes.append(f"Faces reversed to agree with their neighbors: {turned}.")
     filling = fill_holes(points, wound)
-    filled = _integrate_exact(filling.vertices, filling.faces)
+    filled = _integrate_exact(filling.vertices, filling.faces, edges_of(filling.faces))
     opening = (
         filling.area / _compute_measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
     )
