@@ -175,11 +175,7 @@ def test_each_deed_has_its_place(path):
             assert relative in CALLS.get(called, (relative,)), f"{relative} calls {called}"
 
 
-TO_GO = "to go with the restructuring of its package"
 LIBRARY = "the only way to change what a library does"
-KNOWN_STATE = dict.fromkeys(("hull_cache.py: _stores", "mesh_cache.py: _last"), TO_GO)
-"""Module-level state, by file and name, with the reason why it is there."""
-
 KNOWN_PATCHES = {
     "completion.py: click.STRING.shell_complete": LIBRARY,
     "terminal.py: sys": "streams of this process: a terminal obeys nothing that a file holds",
@@ -248,8 +244,7 @@ def state(tree):
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_no_module_keeps_state(path):
-    found = {f"{path.name}: {name}" for name in state(TREES[path])}
-    assert not found - set(KNOWN_STATE)
+    assert not set(state(TREES[path]))
 
 
 def patches(tree):

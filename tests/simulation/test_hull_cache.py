@@ -10,7 +10,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.model.load import load
-from urdftool.simulation.hull_cache import get_or_compute, use_cache
+from urdftool.simulation.hull_cache import HullCache
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 from urdftool.storage import cache_folder
@@ -45,6 +45,10 @@ def write_robot(folder):
         "</link></robot>"
     )
     return path
+
+
+def get_or_compute(path, facts, make):
+    return HullCache(cache_folder("simulate")).get_or_compute(path, facts, make)
 
 
 def entries():
@@ -129,15 +133,12 @@ def test_where_nothing_can_be_kept_work_goes_on(mesh, monkeypatch, tmp_path):
 
 def test_where_it_is_kept_can_be_said(mesh, tmp_path):
     make = Maker()
-    with use_cache(tmp_path / "here"):
-        get_or_compute(mesh, ["pieces"], make)
-        get_or_compute(mesh, ["pieces"], make)
+    for _ in range(2):
+        HullCache(tmp_path / "here").get_or_compute(mesh, ["pieces"], make)
     assert make.times == 1
     assert [path for path in (tmp_path / "here").rglob("*") if len(path.name) == 64]
-    assert not entries()
-    with use_cache(None):
-        get_or_compute(mesh, ["pieces"], make)
-        get_or_compute(mesh, ["pieces"], make)
+    for _ in range(2):
+        HullCache(None).get_or_compute(mesh, ["pieces"], make)
     assert make.times == 3
     assert not entries()
 

@@ -69,7 +69,7 @@ def command(
         get_engine_names,
         get_library,
     )
-    from ..simulation.hull_cache import use_cache
+    from ..simulation.mesh_cache import set_cache_folder
     from .cache_options import choose_cache_folder
     from .load_tolerant import load_tolerant
     from .simulate_control import apply_controllers
@@ -101,10 +101,10 @@ def command(
     thresholds = read_configured_thresholds(console, paths[0])
     with (
         terminate_gracefully(),
-        use_cache(cache),
         EngineProcess(get_library(engines[0])) as child,  # which starts meanwhile
     ):
         model = load_tolerant(console, paths[0], arguments, package, package_path)
+        set_cache_folder(model, cache)
         settings = apply_controllers(console, settings, model, controllers, strict=strict)
         return simulate_one(
             console,

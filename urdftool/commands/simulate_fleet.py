@@ -52,7 +52,7 @@ class Fleet:
             UrdftoolError: The robot cannot be read or simulated.
         """
         from ..simulation.fleet import Row, make_row
-        from ..simulation.hull_cache import use_cache
+        from ..simulation.mesh_cache import set_cache_folder
         from .load_tolerant import load_tolerant
         from .simulate_control import apply_controllers
         from .simulate_one import read_configured_thresholds, simulate_and_judge
@@ -60,14 +60,14 @@ class Fleet:
         robot = load_tolerant(
             self.console, path, self.arguments, self.packages, self.package_paths, many=True
         )
+        set_cache_folder(robot, self.cache)
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="the file has macros only, and no link")
         settings = apply_controllers(
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
-        with use_cache(self.cache):
-            thresholds = read_configured_thresholds(self.console, path)
-            verdicts, comparison = simulate_and_judge(robot, settings, self.engines, thresholds)
+        thresholds = read_configured_thresholds(self.console, path)
+        verdicts, comparison = simulate_and_judge(robot, settings, self.engines, thresholds)
         differ = comparison.report_faults(robot) if comparison is not None else []
         return make_row(path, robot.name, [v for some in verdicts for v in some], differ)
 

@@ -6,14 +6,13 @@ Both are small, and reading the files is most of the time of a short simulation.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from ..geometry.mesh import Faces, Points
-from ..storage import DiskCache, cache_folder, cache_key
+from ..storage import DiskCache, cache_key
 
 Cloud = tuple[Points, Faces]
 """Points (n, 3) and triangles (m, 3) of them, which may be none."""
@@ -21,40 +20,34 @@ Cloud = tuple[Points, Faces]
 _VERSION = 1
 """To be raised whenever the same file gives something else."""
 
-_stores: list[DiskCache] = []
 
+class HullCache:
+    """Cache of hulls and points in a folder."""
 
-@contextmanager
-def use_cache(folder: str | Path | None) -> Iterator[None]:
-    """Keep it in a folder, and not in the user's cache; None keeps nothing."""
-    _stores.append(DiskCache(folder))
-    try:
-        yield
-    finally:
-        _stores.pop()
+    def __init__(self, folder: str | Path | None) -> None:
+        """Set the folder; None caches nothing."""
+        self._store = DiskCache(folder)
 
+    def get_or_compute(
+        self, path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]
+    ) -> list[Cloud]:
+        """Return the cached result for the bytes of a file, or compute and cache it.
 
-def get_or_compute(
-    path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]
-) -> list[Cloud]:
-    """Return the cached result for the bytes of a file, or compute and cache it.
-
-    Args:
-        path: The mesh file; ``make`` reports one that cannot be read.
-        facts: What else the result depends on.
-        make: Reads the file.
-    """
-    store = _stores[-1] if _stores else DiskCache(cache_folder("simulate"))
-    key = None if store.folder is None else _get_key(path, facts)
-    if key is None:
-        return make()
-    known = store.get(key)
-    clouds = None if known is None else _decode(known)
-    if clouds is None:
-        clouds = make()
-        store.put(key, _get_encoded(clouds))
-        store.trim()
-    return clouds
+        Args:
+            path: The mesh file; ``make`` reports one that cannot be read.
+            facts: What else the result depends on.
+            make: Reads the file.
+        """
+        key = None if self._store.folder is None else _get_key(path, facts)
+        if key is None:
+            return make()
+        known = self._store.get(key)
+        clouds = None if known is None else _decode(known)
+        if clouds is None:
+            clouds = make()
+            self._store.put(key, _get_encoded(clouds))
+            self._store.trim()
+        return clouds
 
 
 def _get_key(path: Path, facts: Sequence[object]) -> str | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from pathlib import Path
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import numpy as np
 
@@ -14,23 +14,49 @@ from ..geometry.load import load_named
 from ..geometry.mesh import Mesh as Triangles
 from ..geometry.mesh import Points
 from ..model.elements import Mesh, Robot
-from .hull_cache import Cloud, get_or_compute
+from ..storage import cache_folder
+from .hull_cache import Cloud, HullCache
 
 T = TypeVar("T")
 
-_last: tuple[Robot, dict[Hashable, object]] | None = None
+_CACHE = "cache of hulls"
 
 
 def compute_once(robot: Robot, key: Hashable, make: Callable[[], T]) -> T:
     """Return the result for a robot and a key, computed once; errors are not cached."""
-    global _last
-    memo = _last  # another thread may put its own robot there
-    if memo is None or memo[0] is not robot:
-        memo = _last = robot, {}
-    known = memo[1]
-    if key not in known:
-        known[key] = make()
-    return cast(T, known[key])
+    return robot.memo.get(("simulation", key), make)
+
+
+def set_cache_folder(robot: Robot, folder: str | Path | None) -> None:
+    """Cache hulls of a robot's meshes in a folder, and not in the user's cache.
+
+    Args:
+        robot: The robot, none of whose meshes has been read yet.
+        folder: The folder; None caches nothing on disk.
+    """
+    compute_once(robot, _CACHE, lambda: HullCache(folder))
+
+
+def get_cached_hulls(
+    robot: Robot, geometry: Mesh, what: str, make: Callable[[], list[Cloud]]
+) -> list[Cloud]:
+    """Return what was computed of a mesh before, also in an earlier run, or compute it.
+
+    Args:
+        robot: The robot.
+        geometry: The mesh.
+        what: Name of the result.
+        make: Computes it.
+
+    Raises:
+        UrdftoolError: The mesh is not found, or what ``make`` raises.
+    """
+
+    def read() -> list[Cloud]:
+        cache = compute_once(robot, _CACHE, lambda: HullCache(cache_folder("simulate")))
+        return cache.get_or_compute(*_get_mesh_key(robot, geometry, what), make)
+
+    return compute_once(robot, (what, geometry.filename, geometry.scale), read)
 
 
 def load_triangles(robot: Robot, geometry: Mesh) -> Triangles:
@@ -67,15 +93,15 @@ def get_outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
         if robot.source is None:
             return None
         try:
-            ((points, _),) = get_or_compute(*get_mesh_key(robot, geometry, "points"), make)
+            ((points, _),) = get_cached_hulls(robot, geometry, "points", make)
         except UrdftoolError:
             return None
         return points
 
-    return compute_once(robot, ("points", geometry.filename, geometry.scale), read)
+    return compute_once(robot, ("outermost", geometry.filename, geometry.scale), read)
 
 
-def get_mesh_key(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
+def _get_mesh_key(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
     """Return the file of a mesh, and what else the cached result depends on.
 
     Raises:

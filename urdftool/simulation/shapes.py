@@ -28,8 +28,7 @@ from ..model.elements import (
 )
 from ..model.pose import Pose, make_pose
 from ..model.shapes import get_shape_name
-from .hull_cache import get_or_compute
-from .mesh_cache import compute_once, get_mesh_key, load_triangles
+from .mesh_cache import get_cached_hulls, load_triangles
 from .recording import Array
 
 MOST_PIECES = 32
@@ -173,13 +172,11 @@ def _collect_pieces(
     try:
         if robot.source is None:
             raise ModelError("the robot was not read from a file, so its meshes are nowhere")
-        parts = compute_once(
+        parts = get_cached_hulls(
             robot,
-            ("pieces", geometry.filename, geometry.scale),
-            lambda: get_or_compute(
-                *get_mesh_key(robot, geometry, "pieces"),
-                lambda: list(_list_convex_parts(load_triangles(robot, geometry))),
-            ),
+            geometry,
+            "pieces",
+            lambda: list(_list_convex_parts(load_triangles(robot, geometry))),
         )
     except UrdftoolError as error:
         message = f"mesh '{geometry.filename}': {error.message}"
