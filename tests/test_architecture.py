@@ -271,11 +271,7 @@ def test_no_function_of_another_module_is_replaced(path):
     assert not found - set(KNOWN_PATCHES)
 
 
-KNOWN_CYCLES = (
-    {"document", "edit", "location", "well_formed"},
-    {"controller_drives", "drive_wheels"},
-    {"choose", "compute", "links", "spheres"},
-)
+KNOWN_CYCLES = ({"choose", "compute", "links", "spheres"},)
 """Modules that import each other inside of functions; to go."""
 
 

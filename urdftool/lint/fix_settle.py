@@ -102,7 +102,7 @@ class Settler:
         if file.path not in self.sources:
             self._check_file(file)
             try:
-                self.sources[file.path] = file.parse_for_edits()
+                self.sources[file.path] = edit.parse_source(file)
             except SourceError as error:
                 raise RefusedError(error.message) from None
         return self.sources[file.path]

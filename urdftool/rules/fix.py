@@ -363,11 +363,18 @@ def escape_attribute(text: str) -> str:
     return text
 
 
+def _find_as_written(element: Element) -> Element | None:
+    """Return an element in the source without expansion; None if it is not written there."""
+    from ..source.edit import parse_source
+
+    return parse_source(element.file).elements.get(element.start)
+
+
 def get_written_value(element: Element, name: str) -> str:
     """Get an attribute as written, expressions included."""
     from ..source.edit import read_literal
 
-    raw = element.file.parse_for_edits().elements.get(element.start)
+    raw = _find_as_written(element)
     return (read_literal(raw, name) if raw is not None else None) or element.get(name) or ""
 
 
@@ -378,13 +385,13 @@ def is_computed(element: Element, name: str = "name") -> bool:
 
 def may_vary(element: Element) -> bool:
     """Tell whether other arguments may give an element other children."""
-    raw = element.file.parse_for_edits().elements.get(element.start)
+    raw = _find_as_written(element)
     return raw is None or any(one.tag.startswith("xacro:") for one in raw.walk())
 
 
 def is_always_there(element: Element) -> bool:
     """Tell whether an element exists exactly once for all arguments."""
-    raw = element.file.parse_for_edits().elements.get(element.start)
+    raw = _find_as_written(element)
     if raw is None or any(call.macro for call in element.calls):
         return False
     parent = raw.parent
@@ -395,7 +402,7 @@ def is_always_there(element: Element) -> bool:
 
 def is_written_inside(inner: Element, outer: Element) -> bool:
     """Tell whether an element is written inside another, not inserted by a macro call."""
-    raw = outer.file.parse_for_edits().elements.get(outer.start)
+    raw = _find_as_written(outer)
     return raw is not None and inner.file is outer.file and raw.start <= inner.start < raw.end
 
 
@@ -434,7 +441,9 @@ def get_written_lines(element: Element) -> Iterator[str]:
     Yields:
         Lines, indented by one tab per level.
     """
-    source = element.file.parse_for_edits()
+    from ..source.edit import parse_source
+
+    source = parse_source(element.file)
     raw = source.elements[element.start]
     text = element.file.data[raw.start : raw.end].decode(element.file.encoding)
     own = len((source.get_indentation(raw) or b"").expandtabs(8))

@@ -80,6 +80,17 @@ class Source:
         return b"  "
 
 
+def parse_source(file: SourceFile) -> Source:
+    """Parse a file once, as written, without expansion.
+
+    Raises:
+        SourceError: Its encoding is not supported for edits.
+    """
+    if file.editable is None:
+        file.editable = Source(file)
+    return file.editable
+
+
 def read_literal(element: Element, name: str) -> str | None:
     """Return the value of an attribute as written, with references resolved; None if absent."""
     span = element.file.locate_attributes(element.start).get(name)
@@ -205,8 +216,3 @@ def apply(file: SourceFile, edits: Iterable[Edit]) -> bytes:
         parts += [file.data[position : edit.start], edit.text]
         position = edit.end
     return b"".join([*parts, file.data[position:]])
-
-
-def parse_source(file: SourceFile) -> Source:
-    """Parse a file for edits; see :class:`Source`."""
-    return Source(file)

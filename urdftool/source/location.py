@@ -16,9 +16,10 @@ class SourceFile:
         path: Path as the user would type it, or ``<stdin>``.
         data: The bytes.
         encoding: Encoding of the bytes, for counting columns.
+        editable: The file as :func:`edit.parse_source` parsed it; None before.
     """
 
-    __slots__ = ("_editable", "_starts", "_tags", "data", "encoding", "path")
+    __slots__ = ("_starts", "_tags", "data", "editable", "encoding", "path")
 
     def __init__(self, path: str, data: bytes, encoding: str = "utf-8") -> None:
         """Store the bytes; derived values are computed on demand."""
@@ -27,7 +28,7 @@ class SourceFile:
         self.encoding = encoding
         self._starts: list[int] | None = None
         self._tags: dict[int, dict[str, tuple[int, int]]] = {}
-        self._editable: Source | None = None
+        self.editable: Source | None = None
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle the bytes without derived values."""
@@ -79,18 +80,6 @@ class SourceFile:
         from .tags import find_tag_end
 
         return find_tag_end(self.data, start)
-
-    def parse_for_edits(self) -> Source:
-        """Parse the file once, as written, without expansion.
-
-        Raises:
-            SourceError: Its encoding is not supported for edits.
-        """
-        if self._editable is None:
-            from .edit import Source
-
-            self._editable = Source(self)
-        return self._editable
 
 
 class Call(NamedTuple):
