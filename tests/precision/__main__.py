@@ -40,17 +40,17 @@ KEPT = Path(__file__).with_name("verdicts.jsonl")
 HEAD = """\
 # How precise lint is
 
-Findings of real robots (example-robot-data, pybullet_data, descriptions of public repositories)
-were each read beside the source, and what they say of a reader was compared with what that reader
-does. *Useful*: a maintainer would change the file or wants to know. *Noise*: true, but nobody would
-act on it. *Wrong*: not true, or its advice makes the robot worse, or a sentence about any reader is
-false in this case. `python -m tests.precision` draws a sample: `--by finding` from all findings, as
-a user meets them; `--by rule` from the rules in turn, so that rare rules weigh as much as common
-ones. At most one finding of a rule and robot is drawn. `--only robots` leaves out inputs of
-tests of parsers, steps of lessons and objects without a moving joint (`tests/precision/robots.py`):
-there nobody can say what would be worth a change. The findings are those before what was
-learned from them was changed in the rules. The collections hold files that test a parser or teach a
-step; readers of seed 11235 counted what is true there as noise (23 of 35), earlier ones did not.
+Readers compared findings on real robots (example-robot-data, pybullet_data, descriptions of public
+repositories) with the source, and each statement about a simulator with that simulator. *Useful*: a
+maintainer would change the file or needs to know. *Noise*: true, but it requires no action.
+*Wrong*: not true, or its advice makes the robot worse, or a statement about a reader is false for
+this file. `python -m tests.precision` draws a sample: `--by finding` from all findings, as
+users meet them; `--by rule` from the rules in turn, so that rare rules count as much as common
+ones. At most one finding of a rule and robot is drawn. `--only robots` leaves out test files of
+parsers, steps of lessons and objects without a moving joint (`tests/precision/robots.py`), where no
+reader can decide what should change. The samples were drawn before the rules were changed because of
+them. The collections contain test files of parsers and steps of lessons; the readers of seed 11235
+counted true findings there as noise (23 of 35), earlier readers did not.
 """
 VERDICTS = ("useful", "noise", "wrong")
 

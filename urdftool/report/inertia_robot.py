@@ -77,7 +77,7 @@ def _collect_compared(comparison: Comparison | None, item: LinkReview) -> tuple[
 def _format_verdict(item: LinkReview) -> str:
     status = item.status
     if status == "wrong":
-        return "CANNOT BE: " + ", ".join(dict.fromkeys(fault.code for fault in item.faults))
+        return "IMPOSSIBLE: " + ", ".join(dict.fromkeys(fault.code for fault in item.faults))
     if status == "doubtful":
         return "doubtful"
     if status == "missing":
@@ -102,22 +102,22 @@ def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> It
             names = said.pop((str(fault.location), fault.code), [])
             if names:
                 who = f"link '{names[0]}'" + f" and {len(names) - 1} more" * (len(names) > 1)
-                yield f"{fault.location}: {who}: {paint('cannot be', 'red')}: {fault.message}"
+                yield f"{fault.location}: {paint('error', 'red')}: {who}: {fault.message}"
         if item.proposal is not None:
             at = item.link.inertial.inertia if item.link.inertial else None
             if not item.faults and at is not None:
                 yield (
-                    f"{at.place}: link '{name}': {paint('doubtful', 'yellow')}: "
+                    f"{at.place}: {paint('warning', 'yellow')}: link '{name}': "
                     + _format_distance(item)
                 )
-            yield f"  probably meant: {item.proposal.sentence}"
+            yield f"  intended, probably: {item.proposal.sentence}"
             rounded = _round_noise(SpatialInertia(1.0, tensor=item.proposal.tensor))
             six = get_components(rounded.tensor)
             written = " ".join(f'{key}="{number_text(value)}"' for key, value in six.items())
             yield f"  <inertia {written}/>"
         elif item.faults and item.implied is not None and item.faults[-1].code != "unreadable":
             yield (
-                f"  its geometry implies, at {item.implied.mass:.6g} kg: "
+                f"  the geometry implies, at {item.implied.mass:.6g} kg: "
                 f"{_format_short(item.implied)}"
             )
         for note in item.notes:
@@ -125,7 +125,7 @@ def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> It
         if item.body is not None:
             kind = item.body.source
             for lack in item.body.lacks:
-                yield f"{lack.shape.place}: link '{name}': {kind} left out: {lack.reason}"
+                yield f"{lack.shape.place}: link '{name}': {kind} geometry ignored: {lack.reason}"
             for piece in item.body.pieces:
                 if not piece.reliable:
                     yield (
@@ -138,7 +138,7 @@ def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> It
 
 def _format_distance(item: LinkReview) -> str:
     ratio = " ".join(f"{value:.3g}" for value in item.comparison.ratio) if item.comparison else ""
-    return f"a body may have this inertia, but it is {ratio} times what the geometry implies"
+    return f"the inertia is possible, but {ratio} times what the geometry implies"
 
 
 def _round_noise(properties: SpatialInertia) -> SpatialInertia:
@@ -158,7 +158,7 @@ def summarize(reviews: Sequence[LinkReview]) -> str:
     counts = {
         label: sum(item.status == status for item in reviews)
         for status, label in (
-            ("wrong", "that cannot be"),
+            ("wrong", "impossible"),
             ("doubtful", "doubtful"),
             ("missing", "without inertial"),
             ("incomplete", "incomplete"),
@@ -169,7 +169,7 @@ def summarize(reviews: Sequence[LinkReview]) -> str:
     parts = [format_count(len(reviews), "link"), f"{written:.6g} kg written"]
     planned = math.fsum(item.mass or 0.0 for item in reviews)
     if not math.isclose(planned, written, rel_tol=1e-9, abs_tol=1e-12):
-        parts.append(f"{planned:.6g} kg wanted")
+        parts.append(f"{planned:.6g} kg assigned")
     frames = counts.pop("frame")
     parts += [f"{count} {label}" for label, count in counts.items() if count]
     parts += [format_count(frames, "frame")] if frames else []
