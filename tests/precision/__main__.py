@@ -48,7 +48,7 @@ this file. `python -m tests.precision` draws a sample: `--by finding` from all f
 users meet them; `--by rule` from the rules in turn, so that rare rules count as much as common
 ones. At most one finding of a rule and robot is drawn. `--only robots` leaves out test files of
 parsers, steps of lessons and objects without a moving joint (`tests/precision/robots.py`), where no
-reader can decide what should change. The samples were drawn before the rules were changed because of
+reader can decide what should change. The samples were drawn before rules were changed because of
 them. The collections contain test files of parsers and steps of lessons; the readers of seed 11235
 counted true findings there as noise (23 of 35), earlier readers did not.
 """

@@ -18,7 +18,7 @@ from ..mesh_cache import compute_once, get_outermost_points
 from ..overlap import tessellate_primitive_triangles
 from ..recording import Array
 from ..shapes import Shape, is_without_extent
-from ..solids import Solids, compute_hulls
+from ..solids import Solids, compute_hulls, find_outermost
 from ..state import StateSnapshot
 from .thresholds import Thresholds
 
@@ -225,7 +225,7 @@ def _build_collision_solid(robot: Robot, shape: Shape, collision: Collision) -> 
     if isinstance(geometry, Mesh):
         counts = tuple(map(len, shape.pieces))  # what is tried on bodies may have other pieces
         key = ("solids", geometry.filename, geometry.scale, counts)
-        return compute_once(robot, key, lambda: compute_hulls(shape.pieces))
+        return compute_hulls(compute_once(robot, key, lambda: find_outermost(shape.pieces)))
     return compute_hulls([tessellate_primitive_triangles(collision).reshape(-1, 3)])
 
 
@@ -247,7 +247,8 @@ def _make_visual_solid(robot: Robot, look: Visual) -> Solids:
         if points is None:
             return Solids([])
         key = ("look", geometry.filename, geometry.scale)
-        return compute_once(robot, key, lambda: compute_hulls([points])).transform(pose)
+        outermost = compute_once(robot, key, lambda: find_outermost([points]))
+        return compute_hulls(outermost).transform(pose)
     corners = get_shape_corners(robot, look)
     return Solids([]) if corners is None else compute_hulls([corners])
 
