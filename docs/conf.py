@@ -12,6 +12,7 @@ from pathlib import Path
 from sphinx.application import Sphinx
 
 from urdftool import __version__
+from urdftool.rules.old_names import RENAMED_RULES
 
 DOCS = Path(__file__).resolve().parent
 REPOSITORY = "https://github.com/urdftool/urdftool"
@@ -40,7 +41,11 @@ MENU = {
 }
 """Pages of the menu, by caption; files that do not exist are left out."""
 
-REDIRECTS = {"howto/strangers": "howto/untrusted-input", "house": "architecture"}
+REDIRECTS = {
+    "howto/strangers": "howto/untrusted-input",
+    "house": "architecture",
+    **{f"rules/{old}": f"rules/{new}" for old, new in RENAMED_RULES.items()},
+}
 """Old addresses of pages, and their new ones."""
 
 project = author = "urdftool"

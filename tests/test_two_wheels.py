@@ -9,7 +9,7 @@ from tests.conftest import FIXTURES
 
 ROBOT = FIXTURES / "robots" / "two_wheels" / "two_wheels.urdf"
 MISTAKES = {
-    "shape-in-millimetres",
+    "shape-in-millimeters",
     "undefined-material",
     "placeholder-inertia",
     "odd-link-without-collision",

@@ -70,7 +70,7 @@ def test_an_inertial_on_its_side(tmp_path):
 @pytest.mark.parametrize("shape", [BOX, MESH])
 def test_the_order_needs_no_shape(tmp_path, shape):
     found = of_link(tmp_path, 0.0333, 0.0283, 0.00833, 0, 0, 0, shape=shape)
-    assert 'iyy="0.0283" iyz="0" izz="0.00833"' in found["inertia-component-slip"]
+    assert 'iyy="0.0283" iyz="0" izz="0.00833"' in found["inertia-component-typo"]
 
 
 def test_what_nothing_explains_is_told_with_the_solid(tmp_path):

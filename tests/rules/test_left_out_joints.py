@@ -184,7 +184,7 @@ def test_a_slide_on_a_beam_of_its_length_is_in_meters(tmp_path, link):
             size = f"{length if name == link else 0.1} 0.1 0.1"
             shape = f'<visual><geometry><box size="{size}"/></geometry></visual>'
             inside = inside.replace(f'<link name="{name}"/>', f'<link name="{name}">{shape}</link>')
-        return _messages(tmp_path, inside, "prismatic-in-millimetres")
+        return _messages(tmp_path, inside, "prismatic-in-millimeters")
 
     assert not said(42)
     assert len(said(0.1)) == 1

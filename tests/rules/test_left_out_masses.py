@@ -183,4 +183,4 @@ def test_a_mesh_may_be_in_another_unit(tmp_path, scale, count):
         f"{visual.format(name, scale if name == 'e' else 1)}</geometry></visual></link>\n"
         for name in "abcde"
     ]
-    assert len(_messages(_robot(tmp_path, *links), "mesh-scale-out-of-line")) == count
+    assert len(_messages(_robot(tmp_path, *links), "mesh-scale-outlier")) == count

@@ -77,7 +77,7 @@ def test_expression_in_a_uri_is_not_looked_for(tmp_path):
     assert _found(tmp_path, "package://${name}/a.stl", "$(find arm)/a.stl") == []
 
 
-def test_the_size_of_a_mesh_in_millimetres_is_measured_whole(tmp_path):
+def test_the_size_of_a_mesh_in_millimeters_is_measured_whole(tmp_path):
     """Two small parts of many triangles, far from a single one that no sample has."""
     near = [struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 40, 0, 0, 0, 40, 0, 0)] * 5000
     far = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 544, 0, 0, 0, 40, 0, 0)
@@ -86,5 +86,5 @@ def test_the_size_of_a_mesh_in_millimetres_is_measured_whole(tmp_path):
     (tmp_path / "arm.stl").write_bytes(data)
     file = tmp_path / "robot.urdf"
     file.write_text(f'<robot name="r">{LINK.format(0, "arm.stl")}</robot>')
-    (finding,) = check(file, select=["mesh-in-millimetres"])
+    (finding,) = check(file, select=["mesh-in-millimeters"])
     assert "is 544 m long" in finding.message

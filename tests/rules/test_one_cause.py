@@ -45,7 +45,7 @@ def test_an_empty_prefix_is_one_finding(write):
 
 @pytest.mark.parametrize(
     ("rule", "kind"),
-    [("limit-in-degrees", "revolute"), ("prismatic-in-millimetres", "prismatic")],
+    [("limit-in-degrees", "revolute"), ("prismatic-in-millimeters", "prismatic")],
 )
 def test_joints_of_frames_at_the_root_may_go_far(write, rule, kind):
     limit = 'lower="-20" upper="20" effort="9" velocity="9"'

@@ -64,18 +64,16 @@ def test_joints_in_one_place(write, spread, count):
 
 
 def test_a_mass_that_its_inertia_goes_with_is_another_material(write):
-    text = (RULES / "mass-out-of-line" / "bad.urdf").read_text()
-    assert [f.name for f in check(write("bad.urdf", text), select=("mass-out-of-line",))] == [
-        "forearm"
-    ]
-    heavy = '<mass value="5"/> <!-- mass-out-of-line -->\n      <inertia ixx="0.0047" ixy="0" '
+    text = (RULES / "mass-outlier" / "bad.urdf").read_text()
+    assert [f.name for f in check(write("bad.urdf", text), select=("mass-outlier",))] == ["forearm"]
+    heavy = '<mass value="5"/> <!-- mass-outlier -->\n      <inertia ixx="0.0047" ixy="0" '
     assert heavy in text
     text = re.sub(
         r'(<mass value="5"/>.*\n *)<inertia.*/>',
         r'\1<inertia ixx="0.0235" ixy="0" ixz="0" iyy="0.0235" iyz="0" izz="0.003"/>',
         text,
     )
-    assert check(write("steel.urdf", text), select=("mass-out-of-line",)) == []
+    assert check(write("steel.urdf", text), select=("mass-outlier",)) == []
 
 
 VISUAL = '<visual><origin xyz="{}"/><geometry><mesh filename="arm.stl"/></geometry></visual>'

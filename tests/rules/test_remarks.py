@@ -61,7 +61,7 @@ def test_the_legs_of_a_gantry_are_as_far_apart_as_its_beam_is_long(write, length
     box = f'<visual><geometry><box size="1 {length} 1"/></geometry></visual>'
     robot = PAIR.replace('<link name="a"/>', f'<link name="a">{box}</link>')
     path = write("r.urdf", robot.format("", LIMIT).replace("<axis", '<origin xyz="0 15 0"/><axis'))
-    assert len(found(path, "prismatic-in-millimetres")) == count
+    assert len(found(path, "prismatic-in-millimeters")) == count
 
 
 def test_a_joint_that_was_removed_is_not_taken_for_one_of_the_same_arm(write):

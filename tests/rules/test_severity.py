@@ -178,7 +178,7 @@ def test_a_track_of_15_m_is_no_warning(write):
     track = JOINT.format("track", "prismatic", "a", "cart", "").replace('upper="1"', 'upper="15"')
     cart = INERTIAL.format("", "1", "0.01") + BOX.format("visual", "0.2")
     path = write("r.urdf", robot(LINK.format("a", ""), LINK.format("cart", cart), track))
-    assert levels(path, "prismatic-in-millimetres") == [("track", "info")]
+    assert levels(path, "prismatic-in-millimeters") == [("track", "info")]
 
 
 def test_only_robots_for_gazebo_are_asked_for_its_tags(write):

@@ -26,7 +26,7 @@ OTHERS = ("implausible-density", "inertia-below-geometry", "collision-much-small
 )
 def test_the_mass_tells_that_a_shape_is_in_millimeters(write, visual, right):
     path = write("r.urdf", ROBOT.format(mass=2, visual=visual, collision=visual))
-    seen, touches = check(path, select=("shape-in-millimetres", *OTHERS))
+    seen, touches = check(path, select=("shape-in-millimeters", *OTHERS))
     assert seen.message.endswith(f"; write {right}")
     assert touches.message.endswith(right)
 
@@ -34,7 +34,7 @@ def test_the_mass_tells_that_a_shape_is_in_millimeters(write, visual, right):
 def test_the_other_shape_tells_that_a_shape_of_a_link_without_mass_is_in_millimeters(write):
     shapes = {"visual": '<box size="300 200 80"/>', "collision": '<box size="0.2 0.3 0.08"/>'}
     path = write("r.urdf", ROBOT.format(mass=0, **shapes))
-    (finding,) = check(path, select=("shape-in-millimetres", *OTHERS))
+    (finding,) = check(path, select=("shape-in-millimeters", *OTHERS))
     assert finding.name == "base"
     assert "visual" in finding.message
 
@@ -50,7 +50,7 @@ def test_the_other_shape_tells_that_a_shape_of_a_link_without_mass_is_in_millime
 )
 def test_a_large_shape_may_be_meant(write, mass, shape):
     path = write("r.urdf", ROBOT.format(mass=mass, visual=shape, collision=shape))
-    assert check(path, select=("shape-in-millimetres",)) == []
+    assert check(path, select=("shape-in-millimeters",)) == []
 
 
 @pytest.mark.parametrize(("off", "found"), [(0.03, True), (0.01, False)])

@@ -74,7 +74,7 @@ def no_inertia(tree, name):
         part.remove(inertial)
 
 
-def collision_in_millimetres(tree, name):
+def collision_in_millimeters(tree, name):
     """The collision of a link as a box of its numbers in millimetres."""
     for geometry in link(tree, name).iterfind("collision/geometry"):
         for shape in list(geometry):

@@ -57,8 +57,8 @@ def test_a_massless_root_comes_before_what_follows_from_it(write, engine, librar
 
 
 def test_one_mass_several_times_too_large_is_seen():
-    verdict = _judged(FIXTURES / "rules" / "mass-out-of-line" / "bad.urdf", "pybullet")
-    (fault,) = [fault for fault in verdict.faults if fault.code == "mass-out-of-line"]
+    verdict = _judged(FIXTURES / "rules" / "mass-outlier" / "bad.urdf", "pybullet")
+    (fault,) = [fault for fault in verdict.faults if fault.code == "mass-outlier"]
     assert fault.fails
-    assert fault.rule == "mass-out-of-line"
+    assert fault.rule == "mass-outlier"
     assert fault.name in fault.message

@@ -50,12 +50,14 @@ def fix(
     """
     from ..lint.fix_run import fix_description
     from ..lint.outcome import Options
-    from ..lint.run import check_file
+    from ..lint.run import check_file, warn_of_renamed
     from ..lint.settings import Settings, check_selectors, check_targets
 
+    selected, ignored = None if select is None else list(select), list(ignore)
+    warn_of_renamed((*(selected or ()), *ignored), path, config)
     chosen = Settings(
-        select=None if select is None else check_selectors(select),
-        ignore=check_selectors(ignore),
+        select=None if selected is None else check_selectors(selected),
+        ignore=check_selectors(ignored),
         targets=check_targets(targets),
     )
     options = Options(chosen, args or {}, packages or {}, tuple(package_paths), config, fixes=True)

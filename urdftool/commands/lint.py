@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,6 +12,9 @@ from ..console import Console
 from .cache_options import add_cache_options, choose_cache_folder
 from .grouped_help import GroupedCommand
 from .options import add_gltf_option, add_jobs_option, add_package_options, split_arguments
+
+if TYPE_CHECKING:
+    from ..workspace import Workspace
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 _WITH_FIXES = ("full", "json", "sarif", "html")
@@ -147,7 +152,7 @@ def command(
     from .lint_report import OutputOptions, report
 
     if explain or list_rules:
-        return _show_rules(explain)
+        return _show_rules(console, explain)
     paths, arguments = split_arguments(words)
     if not paths:
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
@@ -162,6 +167,7 @@ def command(
         ignore=check_selectors(ignore),
         targets=check_targets(target),
     )
+    _warn_of_old_names(console, (*select, *extend_select, *ignore), files, workspace)
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):
             raise click.UsageError(f"{option} requires --fix or --diff")
@@ -189,11 +195,34 @@ def command(
     return report(console, [*reports, *excluded], settings, output)
 
 
-def _show_rules(explain: str | None) -> int:
+def _warn_of_old_names(
+    console: Console, selectors: Iterable[str], files: Iterable[str], workspace: Workspace
+) -> None:
+    """Print each old name of a rule or threshold in the options and configurations once."""
+    from ..configuration import find_configuration
+    from ..rules.old_names import find_old_names, find_old_rules
+
+    found = dict.fromkeys(find_old_rules(selectors))
+    tables = {
+        configuration.path: configuration.lint
+        for file in files
+        if (configuration := find_configuration(file, console.config, workspace)).lint
+    }
+    for old in found:
+        console.print_note(f"urdftool: {old.message}")
+    for path, table in tables.items():
+        for old in dict.fromkeys(find_old_names(table)):
+            console.print_note(f"{path}: {old.message}")
+
+
+def _show_rules(console: Console, explain: str | None) -> int:
     from ..report import rule_pages
+    from ..rules.old_names import find_old_rules
 
     if explain is None:
         click.echo(rule_pages.format_rule_list(), nl=False)
     else:
+        for old in find_old_rules([explain]):
+            console.print_note(f"urdftool: {old.message}")
         click.echo(rule_pages.format_page(explain), nl=False)
     return 0

@@ -96,7 +96,7 @@ FAULTS: Mapping[str, str] = MappingProxyType(
         "singular-inertia": "positivity",
         "inertia-not-positive-definite": "positivity",
         "inertia-triangle-inequality": "triangle",
-        "inertia-component-slip": "triangle",
+        "inertia-component-typo": "triangle",
         "inertia-off-by-power-of-ten": "triangle",
         "placeholder-inertia": "placeholder",
     }

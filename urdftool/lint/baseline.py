@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from ..errors import ConfigError
 from ..finding import Finding
+from ..rules.old_names import resolve_rule
 from .fingerprint import compute_fingerprint
 from .outcome import Outcome
 
@@ -113,6 +114,7 @@ def _read_entry(record: Any, number: int, path: str) -> tuple[Entry, int]:
     entry = Entry(*words, record["fingerprint"])
     if not all(isinstance(word, str) for word in entry):
         raise ConfigError(f"{fault}: all values but the count must be text", path=path)
+    entry = entry._replace(rule=resolve_rule(entry.rule))
     if isinstance(count, bool) or not isinstance(count, int) or count < 1:
         raise ConfigError(f"{fault}: the count must be at least 1", path=path)
     return entry, count

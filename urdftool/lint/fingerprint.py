@@ -6,6 +6,7 @@ import re
 
 from ..diagnostic import freeze
 from ..finding import Finding
+from ..rules.old_names import get_first_name
 
 Fact = tuple[object, ...]
 
@@ -29,17 +30,18 @@ _WORD = re.compile(rb"<?[\w:.-]+")
 
 
 def compute_fingerprint(finding: Finding) -> str:
-    """Return 16 hexadecimal digits of the rule, kind and name of the element, and its attributes.
+    """Compute 16 hexadecimal digits of the rule, kind and name of the element, and its attributes.
 
     Lines, whitespace and the order of attributes are ignored, so that edits elsewhere in the file
-    keep the fingerprint. That of a group covers its members, so a group with a new member is a new
-    finding.
+    keep the fingerprint, and a renamed rule counts by its first name. That of a group covers its
+    members, so a group with a new member is a new finding.
     """
     from hashlib import sha256
 
-    words = [finding.code, finding.kind, finding.name, *_get_source_attributes(finding)]
+    rule = get_first_name(finding.code)
+    words = [rule, finding.kind, finding.name, *_get_source_attributes(finding)]
     if finding.members:
-        words = [finding.code, *sorted(map(compute_fingerprint, finding.members))]
+        words = [rule, *sorted(map(compute_fingerprint, finding.members))]
     return sha256("\0".join(words).encode("utf-8", "surrogateescape")).hexdigest()[:16]
 
 

@@ -28,7 +28,7 @@ class Origin(NamedTuple):
     document: Document | None
 
 
-DOUBTED_SIZES = frozenset(("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line"))
+DOUBTED_SIZES = frozenset(("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier"))
 """Rules that question the size of a mesh; if one reports, no mass is computed from meshes."""
 
 

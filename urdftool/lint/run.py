@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from ..finding import Cause, Finding, Group, Site
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import applies_to
+from ..rules.old_names import find_old_names, find_old_rules
 from ..rules.rule import Problem, Rule
 from ..rules.table import APPLIES_TO, FIXES
 from ..source.description import Description, GltfUp, is_xacro, read_description
@@ -75,9 +77,10 @@ def check(
         SourceError: The file cannot be read.
         ConfigError: A rule, target or option is unknown.
     """
+    chosen, ignored = None if select is None else list(select), list(ignore)
     line = Settings(
-        select=None if select is None else check_selectors(select),
-        ignore=check_selectors(ignore),
+        select=None if chosen is None else check_selectors(chosen),
+        ignore=check_selectors(ignored),
         targets=check_targets(targets),
     )
     if isinstance(robot, Robot):
@@ -95,11 +98,28 @@ def check(
         report = check_file(robot, options)
         if report.error is not None:
             raise report.error
+    warn_of_renamed((*(chosen or ()), *ignored), report.path, config)
     if not grouped:
         return report.findings
     from .group import group
 
     return group(report.findings)
+
+
+def warn_of_renamed(selectors: Iterable[str], path: str | Path, config: str | None) -> None:
+    """Warn callers of the Python API of old names of rules and thresholds.
+
+    Args:
+        selectors: Rules named by the caller.
+        path: The description.
+        config: Configuration file; None uses the nearest one above the description.
+
+    Raises:
+        ConfigError: The configuration cannot be read.
+    """
+    table = find_configuration(path, config).lint
+    for old in dict.fromkeys([*find_old_rules(selectors), *find_old_names(table)]):
+        warnings.warn(old.message, DeprecationWarning, stacklevel=3)
 
 
 def check_file(path: str | Path, options: Options) -> Report:

@@ -13,6 +13,7 @@ from ..configuration import Configuration
 from ..diagnostic import Severity
 from ..errors import ConfigError
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
+from ..rules.old_names import resolve_rule, resolve_selectors, resolve_threshold
 from ..rules.rule import TARGETS, Rule
 from ..suggestions import find_nearest as nearest_name
 from ..suggestions import suggest_name
@@ -89,12 +90,14 @@ def _expand(selectors: Iterable[str]) -> set[str]:
 
 
 def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[str, ...]:
-    """Return selectors, split at commas.
+    """Return selectors, split at commas, with the present names of rules.
 
     Raises:
         ConfigError: A selector denotes no rule; the message suggests the nearest one.
     """
-    words = [word.strip() for text in selectors for word in text.split(",") if word.strip()]
+    words = resolve_selectors(
+        word.strip() for text in selectors for word in text.split(",") if word.strip()
+    )
     for word in words:
         prefix = word[:-1] if word.endswith("*") else None
         if word in FAMILY_OF or word in FAMILIES or word in ("all", "ALL", "*"):
@@ -106,7 +109,7 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
             path=path,
             data={"name": word, "suggestion": nearest_name(word, (*FAMILY_OF, *FAMILIES), 0.5)},
         )
-    return tuple(words)
+    return words
 
 
 def suggest_rule(word: str) -> str:
@@ -162,13 +165,14 @@ def read_settings(file: str | Path, configuration: Configuration, line: Settings
 def _from_table(table: Mapping[str, Any], path: str | None) -> Settings:
     lists: dict[str, list[str]] = {}
     thresholds: dict[str, Mapping[str, Any]] = {}
-    for key, value in table.items():
+    for written, value in table.items():
+        key = resolve_rule(written)
         if key in _LISTS:
             if not isinstance(value, list) or not all(isinstance(word, str) for word in value):
                 raise ConfigError(f"lint.{key} must be a list of names", path=path)
             lists[key] = value
         elif key in FAMILY_OF:
-            thresholds[key] = _read_thresholds(key, value, path)
+            thresholds[key] = {**thresholds.get(key, {}), **_read_thresholds(key, value, path)}
         elif key not in _KEYS:
             hint = suggest_word(key, (*_KEYS, *FAMILY_OF)) or f"; there are {', '.join(_KEYS)}"
             raise ConfigError(f"there is no option lint.{key}{hint}", path=path)
@@ -203,7 +207,7 @@ def _read_thresholds(name: str, table: object, path: str | None) -> dict[str, An
         raise ConfigError(f"lint.{name} must be a table of thresholds", path=path)
     found = {}
     for key, value in table.items():
-        parameter = key.replace("-", "_")
+        parameter = resolve_threshold(name, key).replace("-", "_")
         if parameter not in known:
             names = [k.replace("_", "-") for k in known]
             hint = suggest_word(key, names) or f"; it has {', '.join(names) or 'none'}"

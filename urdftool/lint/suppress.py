@@ -17,6 +17,7 @@ from ..diagnostic import Severity
 from ..errors import ConfigError
 from ..finding import Finding
 from ..rules import FAMILY_OF
+from ..rules.old_names import find_old_rules, resolve_selectors
 from ..source.document import Document
 from ..source.location import Place
 from .settings import check_selectors, suggest_word
@@ -31,7 +32,7 @@ class Suppression:
     """Suppression comment.
 
     Attributes:
-        names: Rules, prefixes and families named in it.
+        names: Rules, by their present names, prefixes and families named in it.
         place: Location of the comment.
         start: First byte to which it applies.
         end: Byte after the last to which it applies.
@@ -82,7 +83,9 @@ def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression],
             if match is None:
                 continue
             wrong.extend(_report_faults(match[2], place))
-            names = tuple(w.strip() for w in (match[2] or "").split(",") if w.strip())
+            names = resolve_selectors(
+                word.strip() for word in (match[2] or "").split(",") if word.strip()
+            )
             whole = bool(match[1])
             start, end = (
                 _get_covered_range(document, place) if not whole else (0, len(document.file.data))
@@ -99,7 +102,7 @@ def _report_unknown(word: str, place: Place) -> Finding:
 
 
 def _report_faults(names: str | None, place: Place) -> Iterator[Finding]:
-    """Yield findings on unknown rules, and on a comment without rules."""
+    """Yield findings on unknown and renamed rules, and on a comment without rules."""
     if not (names or "").strip():
         yield Finding(
             "unknown-rule",
@@ -120,6 +123,15 @@ def _report_faults(names: str | None, place: Place) -> Iterator[Finding]:
                 "comment",
                 data=error.data,
             )
+    for old in find_old_rules([names or ""]):
+        yield Finding(
+            "renamed-rule",
+            Severity.INFO,
+            old.message,
+            place,
+            "comment",
+            data={"name": old.old, "suggestion": old.new},
+        )
 
 
 def _get_covered_range(document: Document, comment: Place) -> tuple[int, int]:

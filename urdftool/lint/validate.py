@@ -81,7 +81,7 @@ _PHYSICS = tuple(
         Requirement,
         (
             *("zero-inertia", "inertia-not-positive-definite", "inertia-triangle-inequality"),
-            *("inertia-component-slip", "inertia-off-by-power-of-ten"),
+            *("inertia-component-typo", "inertia-off-by-power-of-ten"),
         ),
     )
 )
@@ -116,9 +116,9 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("inertia-exceeds-geometry"),
             Requirement("radius-of-gyration"),
             Requirement("implausible-density", _make_conditions(is_too_large=(True,))),
-            Requirement("mass-out-of-line"),
-            Requirement("mesh-in-millimetres"),
-            Requirement("shape-in-millimetres"),
+            Requirement("mass-outlier"),
+            Requirement("mesh-in-millimeters"),
+            Requirement("shape-in-millimeters"),
         ),
         "inertia": (
             Requirement("negative-mass"),

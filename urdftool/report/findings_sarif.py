@@ -14,6 +14,7 @@ from ..finding import Finding
 from ..lint.fingerprint import compute_fingerprint
 from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF, get_rule
+from ..rules.old_names import get_first_name
 from ..source.location import Call, Place
 from .findings import NOT_CHECKED
 from .findings_words import (
@@ -76,6 +77,8 @@ def _build_rule(name: str) -> dict[str, Any]:
     from .rule_pages import format_page, remove_markup
 
     rule = get_rule(name)
+    if (first := get_first_name(name)) != name:
+        record["deprecatedIds"] = [first]
     return record | {
         "shortDescription": {"text": remove_markup(rule.fact)},
         "help": {"text": format_page(name)},

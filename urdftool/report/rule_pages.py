@@ -9,6 +9,7 @@ from ..errors import ConfigError
 from ..lint.settings import suggest_rule
 from ..rules import FAMILY_OF, get_all_rules, get_rule
 from ..rules.effect_sources import get_effect_source
+from ..rules.old_names import resolve_rule
 from ..rules.rule import Rule
 from ..rules.table import FIXES
 
@@ -32,9 +33,13 @@ def format_rule_list() -> str:
 def format_page(name: str) -> str:
     """Format a rule's page as plain text.
 
+    Args:
+        name: Present or old name of the rule.
+
     Raises:
         ConfigError: There is no such rule.
     """
+    name = resolve_rule(name)
     if name not in FAMILY_OF:
         raise ConfigError(f"no rule is called '{name}'{suggest_rule(name)}")
     rule = get_rule(name)

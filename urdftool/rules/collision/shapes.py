@@ -178,7 +178,7 @@ def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
         "mujoco": "takes the numbers of a collision as meters; ignores a visual by default",
     },
 )
-def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
+def shape_in_millimeters(robot: Robot) -> Iterator[Problem]:
     """A primitive shape is a thousand times too large: its lengths are in millimeters.
 
     URDF lengths are in meters. Shapes above ten meters may be intended; it is reported if
@@ -208,7 +208,7 @@ def _divide_by_thousand(text: str | None) -> str:
     return " ".join(f"{float(word) / 1000:.12g}" for word in (text or "").split())
 
 
-@shape_in_millimetres.fix(UNSAFE)
+@shape_in_millimeters.fix(UNSAFE)
 def write_lengths_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
     """Write a thousandth of each length."""
     element = find_element(problem)

@@ -12,8 +12,8 @@ from ..mesh.link_extents import get_extents
 from ..rule import WARNING, Problem, rule
 from .tensors import get_tensors, is_zero
 
-DENSER, DENSEST, FILLED, FITS, OTHERS = 3.0, 1.2, 0.35, 3.0, 4.0
-"""Thresholds of :func:`mass_out_of_line`."""
+DENSITY_RATIO, MAX_DENSITY_RATIO, MOMENT_RATIO, FIT_FACTOR, MIN_LINKS = 3.0, 1.2, 0.35, 3.0, 4.0
+"""Thresholds of :func:`mass_outlier`."""
 
 _THINNEST = 0.002
 """Length [m] below which a bounding box counts as flat, without a density."""
@@ -30,14 +30,14 @@ class _Body(NamedTuple):
 
 
 @rule(WARNING, effects={"mujoco, pybullet, pinocchio": "take it as written"})
-def mass_out_of_line(
+def mass_outlier(
     robot: Robot,
     *,
-    denser: float = DENSER,
-    densest: float = DENSEST,
-    filled: float = FILLED,
-    fits: float = FITS,
-    others: float = OTHERS,
+    density_ratio: float = DENSITY_RATIO,
+    max_density_ratio: float = MAX_DENSITY_RATIO,
+    moment_ratio: float = MOMENT_RATIO,
+    fit_factor: float = FIT_FACTOR,
+    min_links: float = MIN_LINKS,
 ) -> Iterator[Problem]:
     """One mass is several times too large, compared with the other links and its own inertia.
 
@@ -45,12 +45,15 @@ def mass_out_of_line(
     denser than the others and its inertia is too small for its mass, by the same factor. A mass
     that is wrong together with its inertia looks like another material, and is not reported.
 
-    All of this must hold: the density in the bounding box is at least ``denser`` times the median
-    of the other links and ``densest`` times their maximum; the moments of inertia, relative to a
-    solid box, are less than ``filled`` times the median of the others; the density that fits the
-    inertia is within a factor ``fits`` of the others; and there are at least ``others`` links.
+    All of this must hold: the density in the bounding box is at least ``density_ratio`` times the
+    median of the other links and ``max_density_ratio`` times their maximum; the moments of inertia,
+    relative to a solid box, are less than ``moment_ratio`` times the median of the others; the
+    density that fits the inertia is within a factor ``fit_factor`` of the others; and there are
+    more than ``min_links`` links.
     """
-    found = find_outlier(robot, denser, densest, filled, fits, others)
+    found = find_outlier(
+        robot, density_ratio, max_density_ratio, moment_ratio, fit_factor, min_links
+    )
     if found is None:
         return
     link = found.link
@@ -76,18 +79,18 @@ class Outlier(NamedTuple):
 
 def find_outlier(
     robot: Robot,
-    denser: float = DENSER,
-    densest: float = DENSEST,
-    filled: float = FILLED,
-    fits: float = FITS,
-    others: float = OTHERS,
+    density_ratio: float = DENSITY_RATIO,
+    max_density_ratio: float = MAX_DENSITY_RATIO,
+    moment_ratio: float = MOMENT_RATIO,
+    fit_factor: float = FIT_FACTOR,
+    min_links: float = MIN_LINKS,
 ) -> Outlier | None:
     """Find the one link of a robot whose mass is several times too large.
 
-    The arguments are those of :func:`mass_out_of_line`.
+    The arguments are those of :func:`mass_outlier`.
     """
     bodies = list(_get_bodies(robot))
-    if len(bodies) <= others:
+    if len(bodies) <= min_links:
         return None
     body = max(bodies, key=lambda one: one.density)
     rest = [one for one in bodies if one is not body]
@@ -95,11 +98,13 @@ def find_outlier(
     usual_filled = median(one.filled for one in rest)
     usual = median(one.density * one.filled for one in rest)
     factor = body.density / usual_density
-    if factor < denser or body.density < densest * max(one.density for one in rest):
+    if factor < density_ratio or body.density < max_density_ratio * max(
+        one.density for one in rest
+    ):
         return None
-    if not 0.3 < usual_filled < 2 or body.filled > filled * usual_filled:
+    if not 0.3 < usual_filled < 2 or body.filled > moment_ratio * usual_filled:
         return None  # the others are placeholders, or the inertia fits the mass
-    if not 1 / fits < body.density * body.filled / usual < fits:
+    if not 1 / fit_factor < body.density * body.filled / usual < fit_factor:
         return None
     return Outlier(body.link, factor, body.link.mass * body.filled / usual_filled)
 

@@ -224,7 +224,7 @@ def implausible_mass(
     of_motion=True,
     group="robot",
     caused_by=(
-        *("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line"),
+        *("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier"),
         "collision-much-larger-than-visual",
     ),
 )

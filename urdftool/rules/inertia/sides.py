@@ -29,7 +29,7 @@ _CHECKING = "gz, gazebo-classic, mujoco, drake"
     of_motion=True,
     caused_by=(
         *("zero-mass", "zero-inertia", "singular-inertia", "placeholder-inertia"),
-        *("inertia-component-slip", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
+        *("inertia-component-typo", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
         *("inertia-triangle-inequality", "inertia-not-positive-definite"),
     ),
 )

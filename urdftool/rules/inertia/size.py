@@ -28,7 +28,7 @@ from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
 from .tensors import get_tensors, is_accepted, is_positive, is_zero
 
-SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
+SIZE_IN_DOUBT = ("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier")
 _SINGULAR = 1e-9  # the part of the largest moment that counts as zero
 _CHECKING = "gz, gazebo-classic, mujoco, drake"
 _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
@@ -262,7 +262,7 @@ def inertia_below_geometry(
         if mass <= 0 or is_zero(six, mass) or not is_positive(six):
             continue
         if heavy is not None and link is heavy.link:
-            continue  # mass-out-of-line reports it
+            continue  # mass-outlier reports it
         if mass < part * sum(other.mass for other, _ in find_attached_links(robot, link)):
             continue
         box = reach.get_link_box(link)

@@ -367,7 +367,7 @@ def tiny_moving_inertia(
     *,
     smallest: float = 1e-7,
     lightest: float = 1e-3,
-    step: float = 0.001,
+    timestep: float = 0.001,
 ) -> Iterator[Problem]:
     """A joint moves a very small inertia with too much damping or effort for the time step.
 
@@ -382,7 +382,8 @@ def tiny_moving_inertia(
     I is the inertia about the joint axis of everything below the joint, in series with that of
     everything above it; for a prismatic joint the mass. Joints below ``smallest`` [kg·m²] or
     ``lightest`` [kg] are reported if their effort limit moves them over their whole range, or one
-    revolution, within one ``step`` [s], and with the target pybullet if their damping is too large.
+    revolution, within one ``timestep`` [s], and with the target pybullet if their damping is too
+    large.
     """
     poses: dict[str, Pose] | None = None
     whole: dict[str, list[Link]] = {}
@@ -406,19 +407,20 @@ def tiny_moving_inertia(
         reach = min(upper - lower, math.inf if slides else 2 * math.pi)
         unit, force, way = ("kg", "N", "m") if slides else ("kg·m²", "N·m", "rad")
         quantity = "mass" if slides else "inertia"
-        thrown = effort * step**2 / inertia
-        if "pybullet" in targets and damping * step > 2 * inertia:
-            least = damping * step / 2
+        thrown = effort * timestep**2 / inertia
+        if "pybullet" in targets and damping * timestep > 2 * inertia:
+            least = damping * timestep / 2
             lowered = "damping"
             why = (
-                f"its damping {damping:g} makes it oscillate in PyBullet at {step * 1e3:g} ms steps"
+                f"its damping {damping:g} makes it oscillate in PyBullet at {timestep * 1e3:g} ms "
+                "steps"
             )
         elif 0 < reach < thrown:
-            least = effort * step**2 / reach
+            least = effort * timestep**2 / reach
             lowered = "effort limit"
             why = (
                 f"its effort limit of {effort:g} {force} moves it by {thrown:.2g} {way} within a "
-                f"time step of {step * 1e3:g} ms"
+                f"time step of {timestep * 1e3:g} ms"
             )
         else:
             continue

@@ -33,7 +33,7 @@ _GAZEBO = "gz, gazebo-classic"
     },
     of_motion=True,
 )
-def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
+def inertia_component_typo(robot: Robot) -> Iterator[Problem]:
     """The six components of an inertia are in the wrong order.
 
     URDF lists the tensor row by row: ixx ixy ixz iyy iyz izz. Other programs write the three
@@ -83,7 +83,7 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@inertia_component_slip.fix(UNSAFE)
+@inertia_component_typo.fix(UNSAFE)
 @inertia_off_by_power_of_ten.fix(UNSAFE)
 def write_without_slip(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the intended tensor."""

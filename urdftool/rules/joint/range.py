@@ -250,7 +250,7 @@ def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal |
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take meters",
     },
 )
-def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
+def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
     """A limit of a prismatic joint, or the distance of a joint from its parent, is above 10 m.
 
     Lengths are in meters. Numbers in millimeters make the robot a thousand times too large. A joint
@@ -290,7 +290,7 @@ _FAR, _FARTHEST = 100.0, 1e4
 """Numbers between these are lengths in millimeters, and no placeholders for no limit."""
 
 
-@prismatic_in_millimetres.fix(UNSAFE)
+@prismatic_in_millimeters.fix(UNSAFE)
 def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
     """Divide the lengths by 1000."""
     found = find_attribute(problem)

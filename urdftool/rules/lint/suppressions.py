@@ -6,7 +6,7 @@ import re
 
 from ...finding import Finding
 from ..fix import FixContext, Proposal, Span, safe, write_inside
-from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 
 APPLIES_TO = ()
 
@@ -51,3 +51,20 @@ def write_suggested_rule(finding: Finding, context: FixContext) -> Proposal | No
     """Write the suggested rule."""
     right = finding.data.get("suggestion", "")
     return write_inside(finding, finding.data["name"], right) if right else None
+
+
+@rule(INFO)
+def renamed_rule() -> tuple[Problem, ...]:
+    """A comment names a rule by its old name.
+
+    The comment still suppresses the rule. In the next release the old name will be unknown, and
+    the comment will suppress nothing.
+    """
+    return ()
+
+
+@renamed_rule.fix(SAFE, of_file=True)
+def write_new_name(finding: Finding, context: FixContext) -> Proposal | None:
+    """Write the present name of the rule."""
+    data = finding.data
+    return write_inside(finding, data["name"], data["suggestion"], harmless=True)

@@ -94,7 +94,7 @@ def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
         "mujoco, pybullet, pinocchio": "take the numbers of the file as meters",
     },
 )
-def mesh_in_millimetres(
+def mesh_in_millimeters(
     robot: Robot, description: Description, *, largest: float = 10.0
 ) -> Iterator[Problem]:
     """A mesh is larger than ``largest`` [m]: its file is probably in millimeters.
@@ -114,11 +114,11 @@ def mesh_in_millimetres(
             yield _report_large_mesh(use, length, largest)
 
 
-@mesh_in_millimetres.full
+@mesh_in_millimeters.full
 def report_every_mesh_in_millimeters(robot: Robot) -> Iterator[Problem]:
     """Report each link with a mesh that is too large; only robots with a description have any."""
     description = robot.source
-    largest = mesh_in_millimetres.thresholds["largest"]
+    largest = mesh_in_millimeters.thresholds["largest"]
     seen: set[tuple[str, str]] = set()
     for use in get_mesh_uses(robot, description) if description is not None else ():
         length = _compute_largest(use) if (use.link.name, use.uri) not in seen else None
@@ -145,7 +145,7 @@ def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
     )
 
 
-@mesh_in_millimetres.fix(UNSAFE)
+@mesh_in_millimeters.fix(UNSAFE)
 def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | None:
     """Scale the file by 0.001 in all its uses, if none of them has a scale."""
     uses = find_uses(problem, context)
@@ -327,7 +327,7 @@ def _format_scale(scale: tuple[float, ...]) -> str:
         "urdfdom, gz, gazebo-classic, pybullet": "take the scale as written",
     },
 )
-def mesh_scale_out_of_line(
+def mesh_scale_outlier(
     robot: Robot, description: Description, *, several: float = 4
 ) -> Iterator[Problem]:
     """The scale of one mesh differs by a power of ten from all others of the robot.
@@ -335,7 +335,7 @@ def mesh_scale_out_of_line(
     The meshes of a robot usually come from one program in one unit. If ``several`` or more files
     of a format have one scale and a single one differs by a power of ten, a zero was lost. A factor
     of 1000 is not reported, because such a file is in another unit (meters or millimeters);
-    ``mesh-in-millimetres`` and ``mesh-scaled-twice`` report files whose size shows a wrong one.
+    ``mesh-in-millimeters`` and ``mesh-scaled-twice`` report files whose size shows a wrong one.
     """
     formats: dict[str, dict[str, MeshUse]] = {}
     for use in get_mesh_uses(robot, description):

@@ -22,13 +22,13 @@ from ..rule import INFO, Problem, rule
         "mujoco": "integrates damping implicitly: the joint is slow",
     },
 )
-def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Problem]:
+def stiff_joint_damping(robot: Robot, *, timestep: float = 0.001) -> Iterator[Problem]:
     """A joint's damping is too large for its inertia and the time step.
 
     A damper removes d·Δt/I of the speed in each step. If that is more than twice the speed, an
     explicit integrator overshoots, and more so with each step. I is the inertia about the joint
-    axis of everything below the joint, in series with that of everything above it; ``step`` [s] is
-    Δt. PyBullet begins to oscillate at this inertia, within 1 %; MuJoCo integrates damping
+    axis of everything below the joint, in series with that of everything above it; ``timestep``
+    [s] is Δt. PyBullet begins to oscillate at this inertia, within 1 %; MuJoCo integrates damping
     implicitly.
     """
     poses = link_poses(robot)
@@ -37,14 +37,15 @@ def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Proble
         if joint.type not in MOVABLE or not damping or joint.child not in poses:
             continue
         inertia = compute_joint_inertia(robot, joint, poses)
-        if inertia > 0 and damping * step > 2 * inertia and joint.dynamics is not None:
+        if inertia > 0 and damping * timestep > 2 * inertia and joint.dynamics is not None:
             unit = "kg" if joint.type == "prismatic" else "kg·m²"
             yield Problem(
                 joint,
                 f"damping {damping:g} of joint '{joint.name}' is too large for its {inertia:.3g} "
-                f"{unit}: at {step * 1000:g} ms steps it must be below {2 * inertia / step:.3g}",
+                f"{unit}: at {timestep * 1000:g} ms steps it must be below "
+                f"{2 * inertia / timestep:.3g}",
                 at=joint.dynamics,
-                data={"damping": damping, "highest": 2 * inertia / step, "inertia": inertia},
+                data={"damping": damping, "highest": 2 * inertia / timestep, "inertia": inertia},
             )
 
 

@@ -36,15 +36,15 @@ KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         ),
         "impossible-inertia": (
             *("zero-inertia", "inertia-not-positive-definite", "inertia-triangle-inequality"),
-            *("inertia-component-slip", "inertia-off-by-power-of-ten", "incomplete-inertial"),
+            *("inertia-component-typo", "inertia-off-by-power-of-ten", "incomplete-inertial"),
         ),
         "inertia-too-large": (
             *("placeholder-inertia", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
             "radius-of-gyration",
         ),
         "too-dense": ("implausible-density",),
-        "mass-out-of-line": ("mass-out-of-line",),
-        "too-large": ("mesh-in-millimetres", "shape-in-millimetres"),
+        "mass-outlier": ("mass-outlier",),
+        "too-large": ("mesh-in-millimeters", "shape-in-millimeters"),
     }
 )
 """Rules whose findings a kind of verdict consists of, the one that says most first."""
@@ -190,7 +190,7 @@ _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
         "impossible-inertia": _explain_tensor,
         "inertia-too-large": _explain_size,
         "too-dense": _explain_density,
-        "mass-out-of-line": _explain_moving_body,
+        "mass-outlier": _explain_moving_body,
         "too-large": _explain_scale,
     }
 )
