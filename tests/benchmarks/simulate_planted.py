@@ -84,13 +84,13 @@ JOINED = [
     ),
 ]
 FAULTS: list[tuple[str, str, list[Any], set[str]]] = [
-    ("no collision on a wheel or foot", "no_collision", WHEELS, {"no-contact-shape"}),
+    ("no collision on a wheel or foot", "no_collision", WHEELS, {"missing-contact-geometry"}),
     ("identity inertia", "identity_inertia", SMALL, {"inertia-too-large"}),
     ("mass times 1000", "thousandfold_mass", SMALL, {"too-dense"}),
     ("meshes in millimetres", "millimetres", MESHES, {"too-large"}),
     ("no friction on a slope", "no_friction", SLOPED, {"slid"}),
     ("no inertia of the base", "no_inertia", ROOTS, {"no-mass"}),
-    ("collision in the neighbour", "overlapping", JOINED, {"parts-collide"}),
+    ("collision in the neighbour", "overlapping", JOINED, {"interpenetration"}),
 ]
 
 

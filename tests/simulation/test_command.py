@@ -105,7 +105,7 @@ def test_a_robot_that_collides_with_a_flat_box_alone_falls(urdftool, write):
     flat = BOX.replace('<box size="0.4 0.3 0.2"/>', '<box size="0 1 1"/>')
     result = urdftool("simulate", write("r.urdf", flat), "--duration", "1")
     assert result.code == 1
-    assert "nothing-touches" in result.out
+    assert "no-collision-geometry" in result.out
     assert "size of a <box> in a collision of link 'a' is 0 1 1" in result.out
     assert "it is left out" in result.out
 

@@ -267,7 +267,7 @@ def test_a_weak_p_sags_as_far_as_statics_says(arm, write, engine):
     expected = brentq(lambda q: 20 * q - 2 * 9.81 * 0.5 * math.cos(q), 0, 2)
     assert run.recording.positions[-1, 0] == pytest.approx(expected, rel=0.01)
     assert abs(run.recording.efforts[-1, 0]) == pytest.approx(20 * expected, rel=0.01)
-    (fault,) = (fault for fault in verdict.faults if fault.code == "sags")
+    (fault,) = (fault for fault in verdict.faults if fault.code == "joint-drift")
     assert fault.fails
     assert "to hold it takes 9.81 N·m" in fault.cause
     assert "i does nothing without an i_clamp" in fault.cause

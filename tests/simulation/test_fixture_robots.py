@@ -10,7 +10,7 @@ ROBOTS = FIXTURES / "robots"
 
 def test_mira_without_collision_and_inertia_is_said_to_have_none():
     verdict = simulated(ROBOTS / "mira_description" / "urdf" / "mira_geometric.urdf")
-    assert {"nothing-touches", "no-mass"} <= kinds(verdict)
+    assert {"no-collision-geometry", "no-mass"} <= kinds(verdict)
 
 
 @pytest.mark.parametrize("name", ["mira", "mira_simple_collisions_inertias"])

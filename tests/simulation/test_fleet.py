@@ -130,7 +130,7 @@ def test_a_folder_is_one_table(fleet):
         "robots/mira_geometric.urdf",
     ]
     assert "stands" in lines[0]
-    assert "nothing-touches" in lines[1]
+    assert "no-collision-geometry" in lines[1]
     assert lines[2] == "3 robots: 1 stand, 1 do not stand, 1 skipped"
 
 

@@ -75,7 +75,7 @@ def _inside(write, text, one, other):
     (fault,) = [
         fault
         for fault in verdict.faults
-        if fault.code == "parts-collide" and one in fault.message and other in fault.message
+        if fault.code == "interpenetration" and one in fault.message and other in fault.message
     ]
     return fault
 
@@ -111,4 +111,4 @@ def test_other_parts_do_not(write, text, one, other):
 
 def test_a_gripper_of_a_mechanism_stands(write):
     text = GRIPPER.format(inner=_follows("outer", 1))
-    assert "parts-collide" not in kinds(simulated(write("robot.urdf", text), fixed_base=True))
+    assert "interpenetration" not in kinds(simulated(write("robot.urdf", text), fixed_base=True))

@@ -221,4 +221,4 @@ def test_a_joint_with_equal_limits_is_read_as_it_is_written(write):
     assert run.recording.read_back == []
     assert run.recording.positions.shape[1] == 1
     assert np.abs(run.recording.positions).max() < 0.01
-    assert "read-otherwise" not in kinds(judge(robot, run))
+    assert "engine-readback-mismatch" not in kinds(judge(robot, run))

@@ -49,7 +49,7 @@ def joined(verdict):
     return {
         fault.name
         for fault in verdict.faults
-        if fault.code == "parts-collide" and fault.fails and "collision of '" in fault.cause
+        if fault.code == "interpenetration" and fault.fails and "collision of '" in fault.cause
     }
 
 

@@ -62,12 +62,18 @@ def test_the_page_of_configuration_lists_them():
 @pytest.mark.parametrize(
     ("table", "said"),
     [
-        ({"sag-turns": 1}, "simulate has no threshold 'sag-turns'; did you mean 'sag-turn'?"),
+        (
+            {"joint-drift-turns": 1},
+            "simulate has no threshold 'joint-drift-turns'; did you mean 'joint-drift-turn'?",
+        ),
         ({"xyzzy": 1}, "simulate has no threshold 'xyzzy'; docs/configuration.md lists them"),
-        ({"sag-turn": "1"}, "simulate.sag-turn must be a number"),
-        ({"sag-turn": True}, "simulate.sag-turn must be a number"),
-        ({"sag-turn": -1}, "simulate.sag-turn must be above zero and finite"),
-        ({"sag-turn": float("nan")}, "simulate.sag-turn must be above zero and finite"),
+        ({"joint-drift-turn": "1"}, "simulate.joint-drift-turn must be a number"),
+        ({"joint-drift-turn": True}, "simulate.joint-drift-turn must be a number"),
+        ({"joint-drift-turn": -1}, "simulate.joint-drift-turn must be above zero and finite"),
+        (
+            {"joint-drift-turn": float("nan")},
+            "simulate.joint-drift-turn must be above zero and finite",
+        ),
         ({"arm-joints": 2.5}, "simulate.arm-joints must be a whole number"),
     ],
 )

@@ -74,7 +74,7 @@ def command(
     from .load_tolerant import load_tolerant
     from .simulate_control import apply_controllers
     from .simulate_fleet import Fleet, simulate_fleet
-    from .simulate_one import read_configured_thresholds, simulate_one
+    from .simulate_one import print_old_thresholds, read_configured_thresholds, simulate_one
     from .simulate_options import make_settings
     from .simulate_outputs import Outputs, check_output
 
@@ -99,6 +99,7 @@ def command(
         with terminate_gracefully():
             return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
     thresholds = read_configured_thresholds(console, paths[0])
+    print_old_thresholds(console, paths)
     with (
         terminate_gracefully(),
         EngineProcess(get_library(engines[0])) as child,  # which starts meanwhile

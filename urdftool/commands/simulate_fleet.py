@@ -97,11 +97,13 @@ def simulate_fleet(
     from ..report import simulate_fleet as report
     from ..simulation import verdict  # noqa: F401 -- forked workers then have it
     from ..simulation.fleet import PATIENCE, run_in_parallel
+    from .simulate_one import print_old_thresholds
 
     console = fleet.console
     found = find_descriptions(paths)
     if not found:
         raise click.UsageError(explain_nothing_found(paths))
+    print_old_thresholds(console, found)
     limit = len(fleet.engines) * fleet.settings.time_limit + PATIENCE
     rows = {}
     with Progress(console, "robots") as progress:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import click
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 def read_configured_thresholds(console: Console, path: str) -> Thresholds:
     """Read the thresholds of the configuration that applies to a description.
 
+    Old names of thresholds are accepted; :func:`print_old_thresholds` warns of them.
+
     Raises:
         ConfigError: A threshold is unknown, or not a number greater than zero.
     """
@@ -31,6 +34,20 @@ def read_configured_thresholds(console: Console, path: str) -> Thresholds:
 
     configuration = find_configuration(path, console.config)
     return read_thresholds(configuration.simulate, configuration.path)
+
+
+def print_old_thresholds(console: Console, paths: Iterable[str]) -> None:
+    """Print a warning for each old name of a threshold in the configurations of descriptions."""
+    from ..configuration import find_configuration
+    from ..simulation.old_names import find_old_thresholds
+    from ..workspace import Workspace
+
+    workspace = Workspace()
+    found = (find_configuration(path, console.config, workspace) for path in paths)
+    tables = {configuration.path: configuration.simulate for configuration in found}
+    for path, table in tables.items():
+        for message in find_old_thresholds(table):
+            console.print_note(f"{path}: {message}")
 
 
 def simulate_and_judge(

@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
+from ..simulation.old_names import OLD_KINDS
 from .counted import format_count
 from .findings import Painter, escape_controls
 from .json_text import format_json, replace_non_finite
@@ -221,6 +222,7 @@ def _build_fault(fault: Fault) -> dict[str, Any]:
     place = fault.location
     return {
         "kind": fault.code,
+        "old_kind": OLD_KINDS.get(fault.code),
         "fails": fault.fails,
         "message": fault.message,
         "cause": fault.cause or None,

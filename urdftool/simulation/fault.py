@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..diagnostic import Diagnostic, Severity, make_deprecated_name
+from .old_names import OLD_KINDS
 
 FALLEN = frozenset(
     {
-        *("nothing-touches", "blew-up", "fell-through", "not-settled", "tipped-over", "leans"),
-        *("slid", "sank-in", "sags", "collapsed", "unstable-gains", "unsupported"),
+        *("no-collision-geometry", "diverged", "fell-through", "not-settled", "tipped-over"),
+        *("leans", "slid", "ground-penetration", "joint-drift", "collapsed", "unstable-gains"),
+        "unsupported",
     }
 )
 """Kinds of failures of the run; the others are errors in the file of a robot that stands."""
@@ -36,8 +39,13 @@ class Fault(Diagnostic):
     cause: str = ""
     rule: str = ""
 
-    kind = make_deprecated_name("kind", "code")
     place = make_deprecated_name("place", "location")
+
+    @property
+    def kind(self) -> str:
+        """Return the code by its old name; deprecated."""
+        warnings.warn("'kind' is now 'code', with new names", DeprecationWarning, stacklevel=2)
+        return OLD_KINDS.get(self.code, self.code)
 
     @property
     def fails(self) -> bool:

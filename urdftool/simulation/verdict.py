@@ -52,7 +52,15 @@ def judge(robot: Robot, run: Run) -> Verdict:
 
 
 _CONSEQUENCES = frozenset(
-    {"blew-up", "fell-through", "tipped-over", "leans", "slid", "sank-in", "not-settled"}
+    {
+        "diverged",
+        "fell-through",
+        "tipped-over",
+        "leans",
+        "slid",
+        "ground-penetration",
+        "not-settled",
+    }
 )
 """Kinds of what a free root without mass may do, whatever else the file says."""
 

@@ -47,7 +47,7 @@ def _report_starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
             if run.bodies.fixed_base and contact.one in run.bodies.bodies[0].links:
                 continue
             yield Fault(
-                "starts-in-floor",
+                "spawn-penetration",
                 Severity.ERROR,
                 f"link '{contact.one}' starts {contact.depth:.3g} m deep in the floor",
                 robot.link[contact.one].place,
@@ -64,7 +64,7 @@ def _report_ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
     deepest = max(grounded, key=lambda contact: contact.depth, default=None)
     if deepest is not None and deepest.depth > _get_ground_depth(run):
         yield Fault(
-            "sank-in",
+            "ground-penetration",
             Severity.ERROR,
             f"link '{deepest.one}' sank {deepest.depth:.3g} m into the floor",
             robot.link[deepest.one].place,
@@ -106,7 +106,7 @@ def _report_missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
             if least < highest:
                 where = "on" if least > -gap else f"{-least:.3g} m below"
                 yield Fault(
-                    "no-contact-shape",
+                    "missing-contact-geometry",
                     Severity.ERROR,
                     f"link '{name}' is {where} the floor and has no <collision> to touch it with",
                     robot.link[name].place,
@@ -143,7 +143,7 @@ def _report_submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
                     (points.max(axis=0) - points.min(axis=0)).max()
                 )
                 yield Fault(
-                    "no-contact-shape",
+                    "missing-contact-geometry",
                     Severity.ERROR,
                     f"link '{name}' is seen {-low:.3g} m below the floor, and its <collision> does "
                     "not reach it",
@@ -176,7 +176,7 @@ def _report_unlike_copies(robot: Robot, run: Run, state: FinalState) -> Iterator
             twin = None if look is None else feet.get(look)
             if twin is not None:
                 yield Fault(
-                    "no-contact-shape",
+                    "missing-contact-geometry",
                     Severity.ERROR,
                     f"link '{name}' has no <collision>, and '{twin}', which looks the same, stands "
                     "on the floor with one",

@@ -16,7 +16,7 @@ from ..control import POSITION, VELOCITY, Control
 from ..fault import Fault
 from ..rigid_bodies import RigidBodyJoint
 from ..run import Run
-from .joints import compute_needed_effort, get_sag_bound
+from .joints import compute_needed_effort, get_drift_bound
 
 
 def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
@@ -113,11 +113,11 @@ def _is_oscillating(run: Run, column: int, joint: RigidBodyJoint) -> bool:
     if not np.isfinite(positions).all():
         return True
     bounds = run.thresholds
-    least = bounds.shake_turn
+    least = bounds.oscillation_turn
     if joint.kind == "prismatic":
-        least = bounds.shake_slide * max(run.bodies.size, 1e-3)
+        least = bounds.oscillation_slide * max(run.bodies.size, 1e-3)
     turns = int((np.diff(np.sign(rates)) != 0).sum())
-    return turns >= bounds.shake_reversals and float(np.ptp(positions)) > least
+    return turns >= bounds.oscillation_reversals and float(np.ptp(positions)) > least
 
 
 def _report_too_weak(
@@ -126,7 +126,7 @@ def _report_too_weak(
     pid, recording = control.pid, run.recording
     assert pid is not None
     target, now = recording.targets[joint.name], float(recording.positions[-1, column])
-    bound = get_sag_bound(joint, run)
+    bound = get_drift_bound(joint, run)
     if abs(now - target) <= bound:
         return
     length, force = ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
@@ -150,7 +150,7 @@ def _report_too_weak(
         elif not pid.i:
             parts.append("or an i with an i_clamp above that")
     yield _report_fault(
-        "sags",
+        "joint-drift",
         f"joint '{joint.name}' is to be at {target:.3g} {length}, and controller "
         f"'{control.controller}' leaves it at {now:.3g} {length}",
         control,

@@ -68,7 +68,7 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         when = "at the start" if snapshot is run.start else "at rest"
         named = beside[0] if beside else contact.one
         yield Fault(
-            "parts-collide",
+            "interpenetration",
             Severity.ERROR if fails else Severity.INFO,
             f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
             (robot.link[named].collisions[0] if beside else robot.link[named]).place,

@@ -27,7 +27,7 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     if not recording.joints:
         return
     if recording.ended != "lost" and not state.fell:
-        sagging = list(_report_sagging(robot, run, state))
+        sagging = list(_report_joint_drift(robot, run, state))
         yield from sagging
         yield from _report_beyond_limits(robot, run)
         yield from _report_misled_mimics(robot, run)
@@ -80,12 +80,12 @@ def _make_joint(robot: Robot, name: str) -> Joint:
     return robot.joint[name]
 
 
-def get_sag_bound(joint: RigidBodyJoint, run: Run) -> float:
+def get_drift_bound(joint: RigidBodyJoint, run: Run) -> float:
     """Return how far a held joint may be off its target [rad, m]."""
     bounds = run.thresholds
     if joint.kind == "prismatic":
-        return bounds.sag_slide * max(run.bodies.size, 1e-3)
-    return bounds.sag_turn
+        return bounds.joint_drift_slide * max(run.bodies.size, 1e-3)
+    return bounds.joint_drift_turn
 
 
 def _limit_bound(joint: RigidBodyJoint, run: Run) -> float:
@@ -100,13 +100,13 @@ def _collect_units(joint: RigidBodyJoint) -> tuple[str, str]:
     return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
 
 
-def _report_sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+def _report_joint_drift(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     recording = run.recording
     for column, joint in enumerate(run.bodies.joints):
         if joint.name not in recording.targets or is_driven(run.settings.controls, joint.name):
             continue
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
-        if not abs(now - target) > get_sag_bound(joint, run):
+        if not abs(now - target) > get_drift_bound(joint, run):
             continue
         if state.settled is not None and _rolls(run, column):
             continue  # it was set down so, or slid; whether it stands does not depend on it
@@ -130,7 +130,7 @@ def _report_sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault
             why = f"it uses {abs(used):.4g} of the {allowed:.4g} {force} that it may: "
             why += _explain_why_idle(run, column)
         yield Fault(
-            "sags",
+            "joint-drift",
             Severity.ERROR,
             f"joint '{joint.name}' is held at {target:.3g} {length} and "
             f"{'is' if state.settled is None else 'came to rest'} at {now:.3g} {length}",

@@ -28,7 +28,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         name = _format_fastest_link(run)
         gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "beyond all bounds"
         yield Fault(
-            "blew-up",
+            "diverged",
             Severity.ERROR,
             f"it blew up: its energy grew {gain} at {_time_of_most_energy(recording):.2f} s, "
             f"most of it in link '{name}'",

@@ -18,6 +18,7 @@ from typing import Any
 
 from ...errors import ConfigError
 from ...suggestions import suggest_name
+from ..old_names import RENAMED_THRESHOLDS
 from ..rigid_bodies import TENSOR_ROUNDING
 
 
@@ -71,7 +72,8 @@ class Thresholds:
     # --- why a robot does not come to rest --------------------------------------------------------
 
     yield_turn: float = 0.05
-    """How far a turning joint is off its target that yields [rad]. Source: as ``sag_turn``."""
+    """How far a turning joint is off its target that yields [rad]. Source: as
+    ``joint_drift_turn``."""
     yield_slide: float = 0.05
     """How far a sliding joint is off its target that yields [m]. Source: chosen."""
     moving_rate: float = 1e-3
@@ -124,7 +126,8 @@ class Thresholds:
     """Distance of joints that act as one, over the extent of the smaller body [1]. Source: chosen;
     universal and ball joints are written as joints at one point."""
     overlap_turn: float = 0.05
-    """How far a joint turned that took parts into each other [rad]. Source: as ``sag_turn``."""
+    """How far a joint turned that took parts into each other [rad]. Source: as
+    ``joint_drift_turn``."""
     overlap_slide: float = 0.05
     """How far a joint slid that took parts into each other [m]. Source: chosen."""
     mechanism_variation: float = 0.25
@@ -172,9 +175,9 @@ class Thresholds:
 
     # --- joints -----------------------------------------------------------------------------------
 
-    sag_turn: float = 0.05
+    joint_drift_turn: float = 0.05
     """How far a held turning joint may be off its target [rad]. Source: chosen; 50 mm at 1 m."""
-    sag_slide: float = 0.05
+    joint_drift_slide: float = 0.05
     """How far a held sliding joint may be off its target [size]. Source: chosen."""
     limit_turn: float = 0.02
     """How far a turning joint may be beyond a limit [rad]. Source: chosen; limits are soft."""
@@ -189,17 +192,18 @@ class Thresholds:
     collapse_share: float = 0.01
     """How far one joint moves what it carries, to be the cause [size]. Source: chosen."""
     collapse_turn: float = 0.05
-    """How far a joint turned that gave way [rad]. Source: as ``sag_turn``."""
+    """How far a joint turned that gave way [rad]. Source: as
+    ``joint_drift_turn``."""
     collapse_slide: float = 0.05
     """How far a joint slid that gave way [size]. Source: chosen."""
 
     # --- controllers ------------------------------------------------------------------------------
 
-    shake_reversals: int = 4
+    oscillation_reversals: int = 4
     """Changes of direction in the last second of a joint that shakes [1]. Source: chosen."""
-    shake_turn: float = 0.01
+    oscillation_turn: float = 0.01
     """Peak to peak, of a turning joint [rad]. Source: chosen."""
-    shake_slide: float = 0.01
+    oscillation_slide: float = 0.01
     """Peak to peak, of a sliding joint [size]. Source: chosen."""
     saturated_effort: float = 0.98
     """The part of its effort limit that a saturated controller uses [1]. Source: physics; it is
@@ -256,7 +260,8 @@ def read_thresholds(table: Mapping[str, Any], path: str | None = None) -> Thresh
     """Read the ``simulate`` table of a configuration file.
 
     Args:
-        table: Values by threshold name, with ``-`` for ``_``; the others keep their defaults.
+        table: Values by present or old threshold name, with ``-`` for ``_``; the others keep
+            their defaults.
         path: The file, for messages.
 
     Raises:
@@ -265,7 +270,7 @@ def read_thresholds(table: Mapping[str, Any], path: str | None = None) -> Thresh
     types = {field.name: type(field.default) for field in fields(Thresholds)}
     found: dict[str, Any] = {}
     for key, value in table.items():
-        name = key.replace("-", "_")
+        name = RENAMED_THRESHOLDS.get(key, key).replace("-", "_")
         if name not in types:
             raise ConfigError(
                 f"simulate has no threshold '{key}'{_format_hint(key, types)}", path=path

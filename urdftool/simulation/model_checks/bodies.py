@@ -27,7 +27,7 @@ def check_read_back(robot: Robot, run: Run, known: set[str]) -> Iterator[Fault]:
             continue
         part = robot.link.get(difference.name) or robot.joint.get(difference.name)
         yield Fault(
-            "read-otherwise",
+            "engine-readback-mismatch",
             Severity.ERROR,
             f"{difference.what} of {difference.kind} '{difference.name}' is {difference.said} in "
             f"the file, and the engine took {difference.got}",

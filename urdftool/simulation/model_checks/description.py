@@ -28,7 +28,7 @@ from .mass_distribution import compute_mass_share, slows_link
 
 KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "nothing-touches": ("missing-collision",),
+        "no-collision-geometry": ("missing-collision",),
         "no-extent": ("non-positive-dimension",),
         "no-mass": (
             *("zero-mass", "massless-root-body", "massless-moving-body"),
@@ -98,7 +98,7 @@ def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
 def _make_fault(kind: str, about: Described, cause: str) -> Fault:
     finding = about.finding
     is_remark = kind in REMARKS
-    if kind == "nothing-touches":
+    if kind == "no-collision-geometry":
         is_remark = about.run.bodies.fixed_base
     return Fault(
         kind,
@@ -184,7 +184,7 @@ def _explain_density(about: Described) -> str | None:
 
 _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
     {
-        "nothing-touches": _explain_always,
+        "no-collision-geometry": _explain_always,
         "no-extent": _explain_extent,
         "no-mass": _explain_mass,
         "impossible-inertia": _explain_tensor,
