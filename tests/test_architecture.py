@@ -70,7 +70,6 @@ PLACES = {
     "xacro": (),  # source/xacro_hooks.py loads a copy
     "lxml": ("formats/",),
     "trimesh": ("geometry/",),
-    "collada": ("geometry/",),
     "scipy": ("geometry/", "inertia/", "collision/"),
     "manifold3d": ("geometry/hull.py", "simulation/solids.py"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),

@@ -113,7 +113,6 @@ def test_every_version_of_python_has_a_classifier():
         (("collision", ARM, "-o", "OUT.urdf"), "scipy", "mesh"),
         (("collision", "mesh", CUBE, "-o", "OUT.stl"), "scipy", "mesh"),
         (("inertia", "mesh", CUBE, "--mass", "1"), "scipy", "mesh"),
-        (("export", "mjcf", DAE, "-o", "OUT"), "pycollada", "mesh"),
         (("graph", ARM, "-o", "OUT.svg"), "pygraphviz", "draw"),
         (("view", ARM, "--contact-sheet", "OUT.png"), "Pillow", "draw"),
         (("view", ARM, "--picture", "OUT.png"), "Pillow", "draw"),
@@ -150,6 +149,7 @@ def test_a_missing_library_is_one_message(tmp_path, words, library, extra):
         ("inertia", "box", "--mass", "1", "--size", "1", "1", "1"),
         ("lint", ARM, "--exit-zero"),
         ("export", "sdf", DAE, "-o", "OUT"),
+        ("export", "mjcf", DAE, "-o", "OUT"),
         ("export", "mjcf", ARM, "-o", "OUT"),
         ("--version", "-v"),
     ],
@@ -177,11 +177,12 @@ def test_lint_names_the_rules_it_skipped(tmp_path):
         assert "nonconvex-collision-mesh" in without([], "lint", FORK, cwd=tmp_path).stdout
 
 
-def test_a_fix_without_its_library_is_reported(tmp_path):
-    words = ("lint", DAE, "--fix", "--unsafe-fixes", "--diff", "--select", "dae-as-collision")
+def test_a_collada_mesh_is_converted_without_an_extra(tmp_path):
+    words = ("lint", DAE, "--fix", "--unsafe-fixes", "--fix-meshes", "--diff")
+    words += ("--select", "dae-as-collision")
     done = without(extras.EXTRA_OF, *words, cwd=tmp_path)
-    assert "pycollada" in done.stderr
-    assert "broke" not in done.stderr
+    assert ".stl" in done.stdout
+    assert "requires" not in done.stderr
 
 
 def test_the_report_of_an_engine_that_has_no_wheel_here(monkeypatch):

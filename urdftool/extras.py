@@ -9,7 +9,6 @@ from .errors import MissingDependency
 EXTRA_OF = {
     "scipy": "mesh",
     "manifold3d": "mesh",
-    "collada": "mesh",
     "coacd": "mesh",
     "pygraphviz": "draw",
     "PIL": "draw",
@@ -21,7 +20,7 @@ EXTRA_OF = {
 }
 """Extra that installs each optional library, by import name."""
 
-DISTRIBUTION_OF = {"collada": "pycollada", "PIL": "Pillow", "matplotlib": "Matplotlib"}
+DISTRIBUTION_OF = {"PIL": "Pillow", "matplotlib": "Matplotlib"}
 """Names on the package index that differ from the import name."""
 
 

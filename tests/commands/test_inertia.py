@@ -218,7 +218,7 @@ LIGHT = """
 import sys
 from urdftool import cli
 cli.call(sys.argv[1:])
-print("LOADED", *(n for n in ("trimesh", "scipy", "collada", "numpy", "rich", "lxml")
+print("LOADED", *(n for n in ("trimesh", "scipy", "numpy", "rich", "lxml")
                   if n in sys.modules))
 """
 

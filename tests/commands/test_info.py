@@ -39,7 +39,6 @@ def test_one_table(urdftool, monkeypatch):
     )
 
 
-@pytest.mark.library("collada")
 def test_meshes_are_read(urdftool):
     found = facts(urdftool, MIRA)
     assert found["triangles"]["visuals"] == sum(

@@ -2,7 +2,8 @@
 
 This package imports nothing by itself; its modules are:
 
-- ``load``: ``load_mesh`` for every format, with ``stl``, ``obj``, ``ply``, ``collada``, ``gltf``;
+- ``load``: ``load_mesh`` for every format, with ``stl``, ``obj``, ``ply``, ``collada`` (and its
+  ``collada_scene``, ``collada_materials``) and ``gltf`` (and its ``gltf_file``);
 - ``mesh``: its result, ``Mesh`` with ``Part``;
 - ``stl_header``: kind and claimed size of an STL file, without numpy;
 - ``convex_points``: the extreme points of a mesh, read without its faces;

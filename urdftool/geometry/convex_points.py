@@ -4,9 +4,6 @@
 inside it change neither the bounding box nor the distance between two hulls. So this module reads
 positions directly from the bytes and keeps the extreme ones in about a hundred directions. Units
 and axes are those of :func:`load.load_mesh`.
-
-COLLADA and glTF have their own readers here: pycollada stores positions as 32-bit floats, and
-importing trimesh takes longer than all of ``lint``.
 """
 
 from __future__ import annotations
@@ -170,15 +167,15 @@ def directions() -> list[Vector]:
 
 
 def _dae(path: Path) -> Points | None:
-    from .collada_points import read_collada_points
+    from .collada import read_points
 
-    return read_collada_points(path)
+    return read_points(path)
 
 
 def _gltf(path: Path, gltf_up: GltfUp) -> Points | None:
-    from .gltf_points import read_gltf_points
+    from .gltf import read_points
 
-    return read_gltf_points(path, gltf_up)
+    return read_points(path, gltf_up)
 
 
 def _ply(path: Path) -> Points | None:

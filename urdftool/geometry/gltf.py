@@ -9,24 +9,29 @@ read glTF. This reader rotates it, as the standard requires, unless the user dec
 
 from __future__ import annotations
 
-import json
-import os
 import struct
-from base64 import b64decode
-from io import BytesIO
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from urllib.parse import unquote
 
 import numpy as np
 
 from ..errors import MeshError
-from .mesh import MeshNote, Piece, Reading
+from .gltf_file import GltfFile
+from .mesh import Array, Faces, MeshNote, Piece, Points, Reading
+from .points import IDENTITY, transform_points
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
 
-_UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+MAX_DEPTH = 256
+"""Largest depth of nested nodes, which may form a cycle in a damaged file."""
+
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_UPRIGHT: Array = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+)
 
 _NOTES = {
     "y": "Y is up in a glTF file and was turned to Z, as RViz does since 2025; `--gltf-up z` keeps "
@@ -44,109 +49,178 @@ def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
         gltf_up: Up axis of the file; ``y`` is rotated to Z.
 
     Raises:
-        MeshError: The file is malformed, or a buffer or an image is missing.
+        MeshError: The file is malformed or compressed, or a buffer or an image is missing.
     """
-    import trimesh
-
-    try:
-        looks, stream = _looks(path)
-        scene = trimesh.load_scene(
-            stream,
-            file_type=path.suffix.lower()[1:],
-            process=False,
-            resolver=trimesh.resolvers.FilePathResolver(str(path)),
-        )
-    # the parser raises arbitrary exceptions for malformed files
-    except Exception as error:
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise MeshError(
-            f"the glTF file cannot be read ({reason}); export or fetch it again, with its buffers "
-            "beside it and without Draco compression",
-            path=path,
-        ) from error
-    turn = _UPRIGHT if gltf_up == "y" else np.eye(3)
-    pieces = []
-    for node in scene.graph.nodes_geometry:
-        matrix, name = scene.graph[node]
-        geometry = scene.geometry[name]
-        if not isinstance(geometry, trimesh.Trimesh):
-            continue
-        linear = turn @ matrix[:3, :3]
-        vertices = np.asarray(geometry.vertices, dtype=np.float64) @ linear.T + turn @ matrix[:3, 3]
-        faces = np.array(geometry.faces, dtype=np.int64)
-        if np.linalg.det(linear) < 0:
-            faces = faces[:, ::-1].copy()
-        material = getattr(geometry.visual, "material", None)
-        texture, image = looks.get(str(getattr(material, "name", "")), (None, None))
-        points = getattr(geometry.visual, "uv", None)
-        uv = None
-        whole = not faces.size or faces.max() < len(vertices)  # load.py rejects others
-        if points is not None and len(points) == len(vertices) and whole:
-            uv = np.asarray(points, dtype=np.float64)[faces]
-        pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture, image, uv))
+    with _raise_mesh_errors(path):
+        file = GltfFile(path)
+        file.check_references()
+        pieces = [
+            _make_piece(file, mesh, primitive, matrix)
+            for mesh, primitive, matrix in _find_primitives(file, gltf_up)
+        ]
     return Reading(pieces, [MeshNote("gltf-axes", _NOTES[gltf_up])])
 
 
-def _rgba(material: Any) -> tuple[float, float, float, float] | None:
-    factor = getattr(material, "baseColorFactor", None)
-    if factor is None:
-        return None
-    values = np.asarray(factor)
-    scale = 255.0 if values.dtype.kind in "iu" else 1.0
-    red, green, blue, alpha = (float(value) / scale for value in values[:4])
-    return red, green, blue, alpha
+def read_points(path: Path, gltf_up: GltfUp = "y") -> Points | None:
+    """Read the corners of the scene's triangles [m], shape (n, 3); None if there are none.
+
+    Compressed positions are replaced by the corners of the box that the file declares.
+
+    Args:
+        path: The file.
+        gltf_up: Up axis of the file; ``y`` is rotated to Z.
+
+    Raises:
+        MeshError: The file is malformed, or a buffer is missing.
+    """
+    with _raise_mesh_errors(path):
+        file = GltfFile(path)
+        found = [
+            transform_points(_read_used_points(file, primitive), matrix)
+            for _, primitive, matrix in _find_primitives(file, gltf_up)
+        ]
+    return np.concatenate(found) if found else None
 
 
-Image = tuple[Path | None, bytes | None]
-"""Path of an image file, or the content of an embedded image."""
+@contextmanager
+def _raise_mesh_errors(path: Path) -> Iterator[None]:
+    """Raise a MeshError for any error that a damaged file causes."""
+    try:
+        yield
+    except (
+        *(ValueError, LookupError, TypeError, AttributeError, ArithmeticError),
+        *(RecursionError, MemoryError, struct.error),
+    ) as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise MeshError(
+            f"the glTF file cannot be read ({reason}); export or fetch it again, with its buffers "
+            "in its folder and without Draco compression",
+            path=path,
+        ) from error
 
 
-def _looks(path: Path) -> tuple[dict[str, Image], BytesIO]:
-    """Return the base color images by material, and the file with materials renamed to indices."""
-    data = path.read_bytes()
-    binary = data[:4] == b"glTF"
-    rest = b""
-    if binary:
-        (length,) = struct.unpack_from("<I", data, 12)
-        rest = data[20 + length :]
-    tree = json.loads(data[20 : 20 + length] if binary else data)
-    _check_files(tree, path)
-    looks: dict[str, Image] = {}
-    for number, material in enumerate(tree.get("materials", ())):
-        material["name"] = str(number)
-        base = material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
-        source = tree["textures"][base["index"]].get("source") if base is not None else None
-        if source is not None:
-            looks[str(number)] = _image(tree, tree["images"][source], path, rest)
-    text = json.dumps(tree).encode()
-    if not binary:
-        return looks, BytesIO(text)
-    text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A)
-    return looks, BytesIO(head + text + rest)
-
-
-def _check_files(tree: dict[str, Any], path: Path) -> None:
-    """Raise ValueError if a referenced file is missing, a device or a pipe."""
-    for thing in (*tree.get("buffers", ()), *tree.get("images", ())):
-        uri = str(thing.get("uri", "data:"))
-        if not uri.startswith("data:") and not os.path.isfile(path.parent / unquote(uri)):
-            raise ValueError(f"there is no file '{uri}' beside it")
-
-
-def _image(tree: dict[str, Any], image: dict[str, Any], path: Path, rest: bytes) -> Image:
-    uri = str(image.get("uri", ""))
-    if uri.startswith("data:"):
-        return None, b64decode(uri.partition(",")[2])
-    if uri:
-        return path.parent / unquote(uri), None
-    view = tree["bufferViews"][image["bufferView"]]
-    start = view.get("byteOffset", 0)
-    buffer = tree["buffers"][view["buffer"]].get("uri")
-    if buffer is None:  # the binary chunk, after its header
-        content = rest[8:]
-    elif buffer.startswith("data:"):
-        content = b64decode(buffer.partition(",")[2])
+def _find_primitives(file: GltfFile, gltf_up: GltfUp) -> Iterator[tuple[Any, Any, Array]]:
+    """Yield the triangle meshes of the scene: mesh, primitive and pose, shape (4, 4)."""
+    nodes = file.tree.get("nodes", [])
+    scenes = file.tree.get("scenes")
+    if scenes:
+        roots = scenes[file.tree.get("scene", 0)].get("nodes", ())
     else:
-        content = (path.parent / unquote(buffer)).read_bytes()
-    return None, content[start : start + view["byteLength"]]
+        children = {child for node in nodes for child in node.get("children", ())}
+        roots = [number for number in range(len(nodes)) if number not in children]
+    top = _UPRIGHT if gltf_up == "y" else IDENTITY
+    waiting = [(root, top, 0) for root in reversed(roots)]
+    walked: set[tuple[int, int]] = set()
+    while waiting:
+        number, above, depth = waiting.pop()
+        if depth > MAX_DEPTH or number < 0:
+            raise ValueError(f"nodes more than {MAX_DEPTH} deep, or node {number}")
+        node = nodes[number]
+        matrix = above @ _make_matrix(node)
+        if "mesh" in node:
+            mesh = file.tree["meshes"][node["mesh"]]
+            for primitive in mesh["primitives"]:
+                if primitive.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP, _FAN):
+                    yield mesh, primitive, matrix
+        for child in reversed(node.get("children", ())):
+            if (number, child) not in walked:  # a child of two nodes does not conform
+                walked.add((number, child))
+                waiting.append((child, matrix, depth + 1))
+
+
+def _make_matrix(node: Any) -> Array:
+    """Return the pose and scale of a node in its parent, shape (4, 4)."""
+    matrix: Array = IDENTITY.copy()
+    if "matrix" in node:
+        matrix = np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+        matrix[3] = IDENTITY[3]
+    if node.keys() & {"rotation", "scale", "translation"}:
+        local: Array = IDENTITY.copy()
+        rotation = _make_rotation(node.get("rotation", (0.0, 0.0, 0.0, 1.0)))
+        local[:3, :3] = rotation * np.array(node.get("scale", (1.0, 1.0, 1.0)), dtype=np.float64)
+        local[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+        matrix = matrix @ local
+    return matrix
+
+
+def _make_rotation(quaternion: Any) -> Array:
+    """Return the matrix of a quaternion x y z w, which need not be of unit length."""
+    values = np.array(quaternion, dtype=np.float64)
+    length = float(np.linalg.norm(values))
+    x, y, z, w = values / length if length else (0.0, 0.0, 0.0, 1.0)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def _make_piece(file: GltfFile, mesh: Any, primitive: Any, matrix: Array) -> Piece:
+    """Read the triangles and the material of a primitive, placed in the scene."""
+    file.check_not_compressed(primitive)
+    vertices = file.read_accessor(primitive["attributes"]["POSITION"]).astype(np.float64)
+    faces = _read_faces(file, primitive, len(vertices))
+    if np.linalg.det(matrix[:3, :3]) < 0:
+        faces = np.ascontiguousarray(faces[:, ::-1])
+    rgba, texture, image = None, None, None
+    if "material" in primitive:
+        rgba, (texture, image) = file.read_material(primitive["material"])
+    points = transform_points(vertices, matrix)
+    uv = _read_texture_coordinates(file, primitive, faces, len(vertices))
+    return Piece(points, faces, str(mesh.get("name", "")), rgba, texture, image, uv)
+
+
+def _read_faces(file: GltfFile, primitive: Any, count: int) -> Faces:
+    """Read the corners of the triangles, rows of the vertices, shape (m, 3)."""
+    rows: Faces = np.arange(count, dtype=np.int64)
+    if "indices" in primitive:
+        rows = file.read_accessor(primitive["indices"]).astype(np.int64).ravel()
+    mode = primitive.get("mode", _TRIANGLES)
+    if mode == _TRIANGLES:
+        return rows.reshape(-1, 3)
+    faces = np.stack([rows[:-2], rows[1:-1], rows[2:]], axis=1)
+    if mode == _FAN:
+        faces[:, 0] = rows[0]
+    else:
+        faces[1::2] = faces[1::2, ::-1]
+    return faces
+
+
+def _read_texture_coordinates(
+    file: GltfFile, primitive: Any, faces: Faces, count: int
+) -> Points | None:
+    """Read the texture coordinates of each corner, shape (m, 3, 2), from the lower left.
+
+    Returns:
+        None if there are none, or not one for each vertex.
+    """
+    if "material" not in primitive or "TEXCOORD_0" not in primitive["attributes"]:
+        return None
+    points = file.read_accessor(primitive["attributes"]["TEXCOORD_0"]).astype(np.float64)
+    damaged = faces.size and (faces.min() < 0 or faces.max() >= count)
+    if len(points) != count or damaged:  # load.py rejects such faces
+        return None
+    points[:, 1] = 1.0 - points[:, 1]
+    uv: Points = points[faces]
+    return uv
+
+
+def _read_used_points(file: GltfFile, primitive: Any) -> Points:
+    """Read the vertices that triangles use; the corners of the declared box if compressed."""
+    number = primitive["attributes"]["POSITION"]
+    if file.is_compressed(primitive):
+        accessor = file.tree["accessors"][number]
+        return _make_box_corners(accessor["min"], accessor["max"])
+    points = file.read_accessor(number).astype(np.float64)
+    faces = _read_faces(file, primitive, len(points))
+    is_used = np.zeros(len(points), dtype=bool)
+    is_used[faces[(faces >= 0) & (faces < len(points))]] = True
+    return points if is_used.all() else points[is_used]
+
+
+def _make_box_corners(low: Any, high: Any) -> Points:
+    """Return the eight corners of a box, shape (8, 3)."""
+    ends = list(zip(low, high, strict=True))
+    return np.array([[float(ends[axis][k >> axis & 1]) for axis in range(3)] for k in range(8)])

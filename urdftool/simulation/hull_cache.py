@@ -17,7 +17,7 @@ from ..storage import DiskCache, cache_key
 Cloud = tuple[Points, Faces]
 """Points (n, 3) and triangles (m, 3) of them, which may be none."""
 
-_VERSION = 1
+_VERSION = 2
 """To be raised whenever the same file gives something else."""
 
 
