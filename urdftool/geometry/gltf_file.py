@@ -61,7 +61,7 @@ class GltfFile:
     def _find_file(self, uri: str) -> Path:
         file = self.path.parent / unquote(uri)
         if not os.path.isfile(file):  # reading a device or a pipe would not end
-            raise ValueError(f"file '{uri}' does not exist")
+            raise ValueError(f"'{uri}' is not a file")
         return file
 
     def _read_view(self, number: int) -> bytes:

@@ -8,7 +8,6 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
-from ..simulation.old_names import OLD_KINDS
 from .counted import format_count
 from .findings import Painter, escape_controls
 from .json_text import format_json, replace_non_finite
@@ -222,7 +221,7 @@ def _build_fault(fault: Fault) -> dict[str, Any]:
     place = fault.location
     return {
         "kind": fault.code,
-        "old_kind": OLD_KINDS.get(fault.code),
+        "old_kind": fault.old_kind,
         "fails": fault.fails,
         "message": fault.message,
         "cause": fault.cause or None,

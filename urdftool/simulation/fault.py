@@ -48,6 +48,11 @@ class Fault(Diagnostic):
         return OLD_KINDS.get(self.code, self.code)
 
     @property
+    def old_kind(self) -> str | None:
+        """Return the old name of the code; None if it has not changed."""
+        return OLD_KINDS.get(self.code)
+
+    @property
     def fails(self) -> bool:
         """Tell whether the robot does not stand because of it; otherwise it is a remark."""
         return self.severity is Severity.ERROR
