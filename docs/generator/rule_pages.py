@@ -10,9 +10,8 @@ from pathlib import Path
 
 from urdftool.diagnostic import Severity
 from urdftool.report.file_diff import format_file_diff
-from urdftool.report.rule_pages import get_facts
+from urdftool.report.rule_pages import get_effect_source, get_facts
 from urdftool.rules import get_all_rules, get_rule
-from urdftool.rules.effect_sources import get_effect_source
 from urdftool.rules.rule import TARGETS, Rule
 from urdftool.rules.table import FIXES, RULES
 

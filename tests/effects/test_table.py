@@ -5,8 +5,8 @@ import re
 
 import pytest
 
+from urdftool.report.rule_pages import get_effect_source
 from urdftool.rules import get_all_rules
-from urdftool.rules.effect_sources import get_effect_source
 
 from . import table
 from .__main__ import as_text

@@ -149,9 +149,9 @@ def test_gazebo_keeps_the_axes_so_the_pose_turns_what_is_turned(urdftool, parts,
 
 
 def test_verification_sees_a_mesh_that_is_not_turned(urdftool, parts, monkeypatch):
-    from urdftool.formats.sdf import visuals
+    from urdftool.formats.sdf import links
 
-    monkeypatch.setattr(visuals, "undo_axis_conversion", lambda t, link, part: part)
+    monkeypatch.setattr(links, "undo_axis_conversion", lambda t, link, part: part)
     done = urdftool("export", "sdf", "y.urdf", "-o", "out", "--verify")
     assert done.code == 1
     assert "visuals" in done.out

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.report.line_diff import format_unified_lines
+from urdftool.report.file_diff import format_unified_lines
 
 FEW = st.lists(st.sampled_from(["<link>\n", "</link>\n", "a\n", "b\n", "c\n"]), max_size=30)
 

@@ -2,10 +2,9 @@
 
 Modules are imported separately (this package imports nothing):
 
-- ``differences``: ``compare``, the entry point;
+- ``differences``: ``compare``, the entry point, with the differences of joints and renames;
 - ``change``: ``Change``, its result;
-- ``links``, ``joints``, ``extensions``: differences of these parts;
-- ``renames``: detection of renamed links and joints;
-- ``closeness``: equality of numbers, poses and tensors;
+- ``links``, ``mechanisms``, ``extensions``: differences of these parts;
+- ``tolerance``: equality of numbers, poses and tensors;
 - ``revision``: descriptions at a git revision.
 """

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
-from ..model.elements import Joint, Link, Material, Robot
+from ..model.elements import Joint, Link, Material, Robot, Vector
+from ..model.pose import compute_norm, make_pose
 from .change import Change
 from .extensions import compare_extensions
-from .joints import compare_joints
-from .links import link_changes
+from .links import describe_pose, link_changes
 from .mechanisms import compare_mechanisms
-from .renames import find_renames
-from .tolerance import TOLERANCE
+from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 
 
 def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Change]:
@@ -85,3 +84,149 @@ def _collect_materials(robot: Robot) -> dict[str, Material]:
         if material.color is not None or material.texture is not None:
             found.setdefault(material.name, material)
     return found
+
+
+SameLink = Callable[[Link, Link], bool]
+SameJoint = Callable[[Joint, Joint], bool]
+
+
+def find_renames(
+    a: Robot, b: Robot, same_link: SameLink, same_joint: SameJoint
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the new names of renamed links and of renamed joints, by old names.
+
+    A link is renamed if a new link has the same parent and is equal, and so is its parent joint. A
+    joint is renamed if an equal new joint connects the same links.
+
+    Args:
+        a: The first robot.
+        b: The second robot.
+        same_link: Tells whether two links are equal except for their names.
+        same_joint: Tells whether two joints are equal except for their names and links.
+    """
+    links: dict[str, str] = {}
+    joints: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in a.tree.order:
+        if name in b.link:
+            continue
+        joint = a.tree.get_parent_joint(name)
+        for other, link in _list_replacements(a, b, name, joint, links):
+            if link.name in a.link or link.name in taken or not same_link(a.link[name], link):
+                continue
+            if joint is None or other is None:
+                if joint is not other:
+                    continue
+            elif not same_joint(joint, other):
+                continue
+            links[name] = link.name
+            taken.add(link.name)
+            break
+    for joint in a.joints:
+        ends = links.get(joint.parent, joint.parent), links.get(joint.child, joint.child)
+        if joint.name in b.joint:
+            continue
+        for other in b.tree.joints_of_child.get(ends[1], []):
+            new = other.name not in a.joint and other.name not in joints.values()
+            if new and other.parent == ends[0] and same_joint(joint, other):
+                joints[joint.name] = other.name
+                break
+    return links, joints
+
+
+def _list_replacements(
+    a: Robot, b: Robot, name: str, joint: Joint | None, links: dict[str, str]
+) -> Iterator[tuple[Joint | None, Link]]:
+    """Yield joints and links of the second robot with the same parent as a link of the first."""
+    if joint is None:
+        yield from ((None, link) for link in b.tree.roots)
+        return
+    parent = links.get(joint.parent, joint.parent)
+    below = b.tree.get_child_joints(parent)
+    for other in sorted(below, key=lambda other: other.name != joint.name):
+        if other.child in b.link:
+            yield other, b.link[other.child]
+
+
+_X: Vector = (1.0, 0.0, 0.0)
+
+
+def compare_joints(
+    a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
+    """Yield the differences of a joint.
+
+    Args:
+        a: The joint in the first robot.
+        b: The joint in the second.
+        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        renamed: New names of links and joints by old names.
+    """
+
+    def change(
+        what: str, before: object, after: object, unit: str = "", remark: str = ""
+    ) -> Change:
+        part = getattr(b, what.partition(" ")[0], None)
+        place = getattr(part, "place", None) or b.place
+        return Change("joint", b.name, what, before, after, unit, remark, place)
+
+    for what in ("type", "parent", "child"):
+        before, after = getattr(a, what), getattr(b, what)
+        if (before if what == "type" else renamed.get(before, before)) != after:
+            yield change(what, before, after)
+    one, two = make_pose(a.origin), make_pose(b.origin)
+    if not is_same_pose(one, two, tolerance):
+        yield change("origin", describe_pose(one), describe_pose(two), "", format_motion(one, two))
+    if a.has_axis and b.has_axis:
+        x, y = _get_axis(a), _get_axis(b)
+        if not are_close(x, y, max(tolerance, 1e-12)):
+            opposite = are_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
+            yield change("axis", x, y, "", "opposite direction" if opposite else "")
+    yield from _compare_numbers(a, b, tolerance, renamed)
+
+
+def _get_axis(joint: Joint) -> Vector:
+    """Return the axis, normalized unless it is zero."""
+    x, y, z = joint.axis.xyz if joint.axis is not None else _X
+    length = compute_norm((x, y, z)) or 1.0
+    return x / length, y / length, z / length
+
+
+def _compare_numbers(
+    a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
+    slides = b.type == "prismatic"
+    here, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
+    units = {
+        "limit": {"lower": here, "upper": here, "effort": force, "velocity": rate},
+        "dynamics": {
+            "damping": "N·s/m" if slides else "N·m·s/rad",
+            "friction": force,
+            "armature": "kg" if slides else "kg·m²",
+            "stiffness": "N/m" if slides else "N·m/rad",
+            "spring_reference": here,
+        },
+        "mimic": {"joint": "", "multiplier": "", "offset": here},
+        "safety_controller": {
+            "soft_lower_limit": here,
+            "soft_upper_limit": here,
+            "k_position": "",
+            "k_velocity": "",
+        },
+        "calibration": {"rising": here, "falling": here, "reference_position": here},
+    }
+    for part, properties in units.items():
+        one, two = getattr(a, part), getattr(b, part)
+        place = b.place if two is None else two.place
+        for name, unit in properties.items():
+            before = None if one is None else getattr(one, name)
+            after = None if two is None else getattr(two, name)
+            if part == "limit" and name in ("lower", "upper") and a.is_limited and b.is_limited:
+                before, after = before or 0.0, after or 0.0  # default of readers
+            if isinstance(before, str) or isinstance(after, str):
+                same = renamed.get(before or "", before) == after
+            else:
+                same = close(before, after, tolerance)
+            if not same:
+                what = f"{part.replace('_', ' ')} {name.replace('_', ' ')}"
+                yield Change("joint", b.name, what, before, after, unit, "", place)

@@ -8,6 +8,6 @@ This package imports nothing by itself; its modules are:
 - ``png_file``: ``encode_png``, from pixels to a file;
 - ``contact_sheet``: every joint at both limits;
 - ``gif_file``: animations; ``text``: text on pictures;
-- ``gather``, ``normals``, ``materials``, ``texture``: appearance of surfaces;
-- ``raster``, ``clip``, ``scene``, ``light``, ``ground``, ``visibility``: rendering.
+- ``load_geometry``, ``detail``, ``normals``, ``materials``, ``texture``: appearance of surfaces;
+- ``raster``, ``clip``, ``scene``, ``shading``, ``visibility``: rendering.
 """

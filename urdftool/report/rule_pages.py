@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import inspect
+import json
 import re
+from pathlib import Path
 
 from ..errors import ConfigError
 from ..lint.settings import suggest_rule
 from ..rules import FAMILY_OF, get_all_rules, get_rule
-from ..rules.effect_sources import get_effect_source
 from ..rules.old_names import resolve_rule
 from ..rules.rule import Rule
 from ..rules.table import FIXES
@@ -74,3 +75,21 @@ def get_facts(rule: Rule) -> list[tuple[str, str]]:
     for threshold, default in rule.thresholds.items():
         found.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
     return found
+
+
+def _load_sources() -> dict[str, dict[str, str]]:
+    text = (Path(__file__).parents[1] / "rules" / "effect_sources.json").read_text("utf-8")
+    return json.loads(text)  # type: ignore[no-any-return]
+
+
+def get_effect_source(rule: str, readers: str) -> str:
+    """Get the evidence for the effect of a rule on readers.
+
+    Args:
+        rule: Name of the rule, such as ``zero-axis``.
+        readers: The key of the effect, such as ``mujoco, drake``.
+
+    Returns:
+        Such as ``run: MuJoCo 4.0.0`` or ``source: REPOSITORY FILE``; empty if there is none.
+    """
+    return _load_sources().get(rule, {}).get(readers, "")

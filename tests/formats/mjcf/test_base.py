@@ -220,10 +220,10 @@ def test_contacts_of_a_free_base_have_elliptic_cones(write, base, cone):
 )
 def test_real_robots(path, free):
     from tests.conftest import CORPUS
-    from urdftool.formats.mjcf.base import decide_base
     from urdftool.formats.mjcf.home import choose_home_positions
     from urdftool.formats.mjcf.shape_box import ShapeBoxes
     from urdftool.formats.mjcf.structure import create_structure
+    from urdftool.formats.mjcf.write import decide_base
     from urdftool.formats.written import Written
     from urdftool.model.load import load
 

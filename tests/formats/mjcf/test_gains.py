@@ -6,7 +6,7 @@ import pytest
 
 from urdftool.errors import ConfigError
 from urdftool.formats.common.actuator_config import read_actuator_config
-from urdftool.formats.mjcf.gains import PART, TIMESTEP, position_gain
+from urdftool.formats.mjcf.actuator import PART, TIMESTEP, position_gain
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf

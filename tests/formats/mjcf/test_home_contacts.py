@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from urdftool.api.export import export_mjcf, measure_overlap
-from urdftool.formats.mjcf.srdf_near import find_srdf_files
+from urdftool.formats.mjcf.write import find_srdf_files
 from urdftool.model.load import load
 
 from .robots import INERTIAL, export, joint, link, robot, rules, tree

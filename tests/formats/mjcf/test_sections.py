@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.formats.defects import Refused
-from urdftool.formats.mjcf.colors import color_name
+from urdftool.formats.mjcf.model import color_name
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, rules, tree
 

@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.formats.check import is_faithful
-from urdftool.formats.mjcf.gazebo_colors import COLORS
+from urdftool.formats.mjcf.material import COLORS
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf

@@ -3,7 +3,7 @@
 import re
 
 from tests.conftest import ROOT
-from urdftool.formats.sdf.losses import LOSSES
+from urdftool.formats.sdf.mapping import LOSSES
 from urdftool.formats.sdf.page import insert_mapping
 
 PAGE = ROOT / "docs" / "formats" / "sdf.md"

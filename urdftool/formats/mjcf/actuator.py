@@ -1,6 +1,6 @@
 """Actuators: from transmissions, ros2_control and drive plugins, or one kind for every joint.
 
-URDF has no gains; ``gains`` chooses them, and an actuator configuration file overrides them.
+URDF has no gains; this module chooses them, and an actuator configuration file overrides them.
 Position servos are critically damped for the inertia that the joint moves (``dampratio``).
 """
 
@@ -18,7 +18,6 @@ from ..written import Written
 from .digits import format_numbers_text, number_text
 from .drives import get_plugin_drives
 from .equality import follows
-from .gains import PART, TIMESTEP, Gain, choose_velocity_gain, position_gain
 from .joint import get_effort
 from .options import Actuators
 from .structure import Structure, get_bounds, get_locked_at
@@ -226,3 +225,59 @@ def _build_element(
             bound = effort / abs(drive.reduction)
             element.set("ctrlrange", format_numbers_text((-bound, bound)))
     return element
+
+
+TIMESTEP = 0.002
+"""Physics time step [s] for which gains are bounded: MuJoCo's default."""
+
+PART = 0.25
+"""Maximum position gain as a fraction of M/Δt²."""
+
+POSITION_GAIN = {"hinge": 10.0, "slide": 100.0}
+"""Ratio of position gain to effort limit [1/rad or 1/m]: full effort at 0.1 rad or 1 cm."""
+
+VELOCITY_GAIN = 10.0
+"""Ratio of velocity gain to effort/velocity: full effort at a tenth of the velocity limit."""
+
+PLAIN_GAIN = {
+    "position": {"hinge": 100.0, "slide": 1000.0},
+    "velocity": {"hinge": 10.0, "slide": 100.0},
+}
+"""Gains for joints without an effort limit."""
+
+
+@dataclass(frozen=True)
+class Gain:
+    """A gain, and whether the inertia bounds it."""
+
+    value: float
+    is_bounded: bool
+
+
+def position_gain(kind: str, effort: float | None, inertia: float) -> Gain:
+    """Choose the gain of a position servo [N·m/rad or N/m].
+
+    Args:
+        kind: ``hinge`` or ``slide``.
+        effort: The effort limit [N·m or N], if any.
+        inertia: The inertia that the joint moves, with its armature [kg·m² or kg].
+    """
+    wanted = effort * POSITION_GAIN[kind] if effort else PLAIN_GAIN["position"][kind]
+    most = PART * inertia / TIMESTEP**2
+    if wanted <= most or most <= 0:
+        return Gain(wanted, is_bounded=False)
+    return Gain(float(f"{most:.3g}"), is_bounded=True)
+
+
+def choose_velocity_gain(kind: str, effort: float | None, velocity: float) -> Gain:
+    """Choose the gain of a velocity servo [N·m·s/rad or N·s/m].
+
+    Args:
+        kind: ``hinge`` or ``slide``.
+        effort: The effort limit [N·m or N], if any.
+        velocity: The velocity limit [rad/s or m/s]; 0 for none.
+    """
+    wanted = PLAIN_GAIN["velocity"][kind]
+    if effort and velocity:
+        wanted = effort * VELOCITY_GAIN / velocity
+    return Gain(wanted, is_bounded=False)

@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.pose import Pose, quaternion_from_rotation
+from ..common.naming import UniqueNames
 from ..written import Written
-from .actuator import build_actuator_section
+from .actuator import Drive, build_actuator_section
 from .base_sensors import add_base_sensors
 from .body import build_body_tree, fill_bodies
-from .colors import create_share_colors
 from .contact import build_contact_section
 from .defaults import build_default_section
-from .digits import number_text
+from .digits import format_numbers_text, number_text
 from .document import assemble, report_losses
 from .equality import build_equality_section
 from .extension import apply_extension
+from .frame import simplify_quaternion
 from .fuse import fuse_links
 from .gazebo import report_gazebo_losses
 from .home import Home
 from .home_contacts import exclude_overlapping
+from .joint import PLANAR_SUFFIXES
 from .joint_inertia import compute_joint_inertias
 from .joint_settings import apply_settings, choose_joint_settings
-from .keyframe import build_keyframe_section
 from .light import put_lights
 from .link_inertia import LinkInertia
 from .material import Materials
@@ -195,3 +199,95 @@ def _report_controller_losses(robot: Robot, written: Written) -> None:
                     name=joint.name,
                     severity=Severity.INFO,
                 )
+
+
+PLAIN: dict[tuple[float, ...], str] = {
+    (0, 0, 0): "black",
+    (1, 1, 1): "white",
+    (1, 0, 0): "red",
+    (0, 1, 0): "green",
+    (0, 0, 1): "blue",
+    (1, 1, 0): "yellow",
+    (0, 1, 1): "cyan",
+    (1, 0, 1): "magenta",
+}
+
+
+def create_share_colors(world: etree._Element, materials: list[etree._Element]) -> None:
+    """Create a material for each color of two or more visual geoms.
+
+    Args:
+        world: ``<worldbody>``, whose geoms are modified.
+        materials: Elements of ``<asset>``, to which the materials are appended.
+    """
+    geoms = [g for g in world.iter("geom") if g.get("class") == "visual" and g.get("rgba")]
+    counts = Counter(geom.get("rgba", "") for geom in geoms)
+    names = UniqueNames(tuple(m.get("name", "") for m in materials if m.tag == "material"))
+    named: dict[str, str] = {}
+    for geom in geoms:
+        rgba = geom.get("rgba", "")
+        if counts[rgba] < 2:
+            continue
+        if rgba not in named:
+            named[rgba] = names.take(color_name(rgba))
+            materials.append(etree.Element("material", name=named[rgba], rgba=rgba))
+        del geom.attrib["rgba"]
+        geom.set("material", named[rgba])
+
+
+def color_name(rgba: str) -> str:
+    """Name a color: a plain word, the percentage of a gray, or its hexadecimal digits."""
+    red, green, blue, alpha = (min(max(float(part), 0.0), 1.0) for part in rgba.split())
+    name = PLAIN.get((red, green, blue))
+    if name is None and red == green == blue:
+        name = f"gray{round(100 * red)}"
+    if name is None:
+        name = "color_" + "".join(f"{round(255 * part):02x}" for part in (red, green, blue))
+    return name if alpha == 1 else f"{name}_alpha{round(100 * alpha)}"
+
+
+def build_keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> etree._Element:
+    """Build ``<keyframe>`` with the key ``home``, whose controls hold the joints in place."""
+    section = etree.Element("keyframe")
+    key = etree.SubElement(section, "key", name="home")
+    qpos = _get_positions(structure, home)
+    if qpos:
+        key.set("qpos", format_numbers_text(qpos))
+    if drives:
+        key.set(
+            "ctrl",
+            format_numbers_text(
+                home.positions.get(drive.joint.name, 0.0) if drive.kind == "position" else 0.0
+                for drive in drives
+            ),
+        )
+    return section
+
+
+def _get_positions(structure: Structure, home: Home) -> list[float]:
+    """Return ``qpos`` in MuJoCo's order: nested free bodies come after the root's tree."""
+    first = _collect_free(home.pose) if structure.free else []
+    later: list[float] = []
+    torn: set[str] = set()
+    for joint in structure.moving:
+        kind = structure.get_kind(joint)
+        if kind == "free":
+            values = _collect_free(home.floating[joint.name])
+        elif kind == "ball":
+            values = [1.0, 0.0, 0.0, 0.0]
+        elif kind == "planar":
+            values = [0.0] * len(PLANAR_SUFFIXES)
+        else:
+            values = [home.positions.get(joint.name, 0.0)]
+        nested = joint.parent in torn
+        if (kind == "free" and not structure.in_world) or nested:
+            torn.update((joint.child, *structure.robot.tree.list_descendants(joint.child)))
+            later += values
+        else:
+            first += values
+    return first + later
+
+
+def _collect_free(pose: Pose) -> list[float]:
+    turn = simplify_quaternion(quaternion_from_rotation(pose.rotation)) or (1.0, 0.0, 0.0, 0.0)
+    return [*pose.translation, *turn]

@@ -5,9 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
-from ...rules.gazebo.block_values import describe_required_keyword_value, get_kind, get_value
+from ...model.read import number, parse_numbers
+from ...rules.gazebo.block_values import (
+    describe_required_keyword_value,
+    get_kind,
+    get_value,
+    is_value_of_kind,
+)
+from ...rules.gazebo.keywords import is_true
 from ...source.document import Element
-from ..common.gazebo_blocks import read_value
+from ..common.numbers import format_numbers_text, number_text
 from .body_sensors import is_body_sensor
 from .keywords import (
     COLLISION_KEYWORDS,
@@ -192,3 +199,19 @@ def _report_untouchable(t: Translation, link: Link) -> None:
         first = next(e for e in block_elements(t.robot, link) if e.tag in given)
         text = f"link '{link.name}' has no collision, so its {', '.join(given)} have no effect"
         t.report_note("contact", text, first, link)
+
+
+def read_value(kind: str, text: str) -> str | None:
+    """Return the text of a value, or None if it is not of the kind.
+
+    Args:
+        kind: The kind: ``number``, ``count``, ``vector`` (3 numbers) or ``flag``.
+        text: The text of the source.
+    """
+    if not is_value_of_kind(kind, text):
+        return None
+    if kind == "flag":
+        return "true" if is_true(text) else "false"
+    if kind == "vector":
+        return format_numbers_text(parse_numbers(text, 3) or ())
+    return number_text(number(text) or 0.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from ...diagnostic import Severity
 from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import (
@@ -12,10 +14,10 @@ from ...mechanics.tensor import (
     make_diagonal_tensor,
     measure_consistency,
 )
-from ...model.elements import Link, Part
+from ...model.elements import Link, Part, Vector
 from ...model.pose import Pose
+from ..common.inertia_repair import repair_tensor
 from ..common.numbers import number_text
-from .inertia_repair import CLEAR, repair_inertia
 from .plan import EXACT, ROUNDING, get_excess
 from .pose import set_origin, set_pose
 from .translation import Translation
@@ -121,3 +123,33 @@ def _report_dissolved(t: Translation, link: Link) -> None:
             member,
             member,
         )
+
+
+CLEAR = 1e-6
+"""Margin of a repaired tensor, relative to its largest moment, so that every reader accepts it."""
+
+
+def repair_inertia(t: Translation, name: str) -> tuple[SymmetricTensor, str]:
+    """Repair the inertia tensor of a body.
+
+    Args:
+        t: The export.
+        name: The link that owns the body.
+
+    Returns:
+        The tensor about the center of mass, along the axes of the link [kg·m²], and a description
+        of the method for a message.
+    """
+    members = t.plan.members[name]
+
+    def measure_box() -> Vector | None:
+        from ..common.extent import compute_box_size  # numpy, only for bodies that need it
+
+        return compute_box_size(t.robot, ((t.robot.link[m], t.plan.in_owner[m]) for m in members))
+
+    return repair_tensor(
+        t.options.fix_inertia,
+        t.plan.mass[name],
+        measure_box,
+        lift=partial(find_nearest_consistent, margin=CLEAR),
+    )

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from ...model.elements import Link
-from .collisions import add_collision
-from .extensions import link_extensions
+from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere, Visual
+from ...model.pose import Pose, make_pose, rpy_from_rotation
+from ...source.document import Element
+from .extensions import link_extensions, list_values, merge_elements
 from .frames import place
+from .gltf import undo_axis_conversion
 from .inertials import add_inertial
+from .keywords import COLLISION_KEYWORDS
+from .materials import add_material
 from .sensors import add_sensors
 from .shape_names import choose_shape_names
+from .shapes import add_geometry, is_writable, set_place
 from .translation import Translation
-from .visuals import add_visual
-from .xml import Node, add
+from .xml import Node, add, get_or_create
 
 
 def link(model: Node, t: Translation, part: Link) -> None:
@@ -31,3 +35,84 @@ def link(model: Node, t: Translation, part: Link) -> None:
         add_sensors(node, t, member)
     for member in members:
         link_extensions(node, t, member)
+
+
+def add_collision(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
+    """Add a collision; before SDF 1.8 a capsule becomes three shapes."""
+    if not is_writable(t, link, part):
+        return
+    if isinstance(part.geometry, Capsule) and not t.options.is_at_least("1.8"):
+        t.report_note(
+            "capsule",
+            f"SDF {t.options.sdf_version} has no capsule; exported as a cylinder and two spheres",
+            part.geometry,
+            link,
+        )
+        for suffix, piece in _collect_pieces(part, part.geometry):
+            _add_one(node, t, link, piece, name + suffix)
+        return
+    _add_one(node, t, link, part, name)
+
+
+def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
+    part = undo_axis_conversion(t, link, part)
+    made = add(node, "collision", name=name)
+    set_place(made, t, link, part.origin)
+    assert part.geometry is not None
+    add_geometry(made, t, part.geometry)
+    for tag, text in list_values(t, link, COLLISION_KEYWORDS).items():
+        get_or_create(made, COLLISION_KEYWORDS[tag].path).text = text
+    merge_elements(made, t, link, "collision")
+
+
+def _collect_pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
+    pose = make_pose(part.origin)
+    element = part.element
+
+    def placed(z: float) -> Origin:
+        moved = pose @ Pose(translation=(0.0, 0.0, z))
+        return Origin(element, moved.translation, rpy_from_rotation(moved.rotation))
+
+    tube = Cylinder(_build_tagged(capsule, "cylinder"), capsule.radius, capsule.length)
+    ball = Sphere(_build_tagged(capsule, "sphere"), capsule.radius)
+    half = capsule.length / 2
+    return [
+        ("", Collision(element, None, part.origin, tube)),
+        ("_top", Collision(element, None, placed(half), ball)),
+        ("_bottom", Collision(element, None, placed(-half), ball)),
+    ]
+
+
+def _build_tagged(capsule: Capsule, tag: str) -> Element:
+    e = capsule.element
+    return Element(tag, {}, e.parent, e.file, e.start, e.calls)
+
+
+def add_visual(node: Node, t: Translation, link: Link, part: Visual, name: str) -> None:
+    """Add a visual; before SDF 1.8 a capsule becomes a cylinder of its full length."""
+    if not is_writable(t, link, part):
+        return
+    part = undo_axis_conversion(t, link, part)
+    made = add(node, "visual", name=name)
+    set_place(made, t, link, part.origin)
+    shape = part.geometry
+    if isinstance(shape, Capsule) and not t.options.is_at_least("1.8"):
+        t.report_loss(
+            "capsule",
+            (
+                f"SDF {t.options.sdf_version} has no capsule; exported as a cylinder of its full "
+                "length"
+            ),
+            shape,
+            link,
+        )
+        e = shape.element
+        tube = Element("cylinder", {}, e.parent, e.file, e.start, e.calls)
+        shape = Cylinder(tube, shape.radius, shape.length + 2 * shape.radius)
+    assert shape is not None
+    add_geometry(made, t, shape)
+    add_material(made, t, link, part)
+    retro = list_values(t, link, COLLISION_KEYWORDS).get("laserRetro")
+    if retro is not None and not t.options.classic:
+        add(made, "laser_retro", retro)
+    merge_elements(made, t, link, "visual")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import PurePath
 
 from lxml import etree
 
+from ...finding import Finding
 from ...lint.validate import validate
-from ...model.elements import Robot
+from ...mechanics.spatial_inertia import link_inertia
+from ...model.elements import Link, Mesh, Robot
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -16,21 +19,20 @@ from ..common.force_fallbacks import (
     report_passed_defects,
     report_tree_defects,
 )
+from ..common.missing_files import create_missing_mesh
 from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL as STRUCTURAL
-from ..defects import refuse
+from ..defects import make_defect, refuse
 from ..written import Written
-from .config import write_config
-from .defects import report_inertia_defects, report_mesh_defects
 from .joint_settings import choose_joint_settings
-from .mesh_files import find_meshes
+from .mesh_files import MeshFiles, find_meshes
 from .model import add_model
 from .names import get_model_name, make_names
 from .options import MODEL, Options
-from .plan import make_plan
+from .plan import ROUNDING, Plan, get_excess, make_plan
 from .translation import Translation
 from .world import add_world
-from .xml import Node, serialize_document
+from .xml import Node, add, serialize_document
 
 WORLD_FILE = "world.sdf"
 NAMES_FILE = "names.json"
@@ -114,3 +116,60 @@ def _report_names(t: Translation) -> None:
         why = "a joint has that name too" if both else "SDF does not allow the name"
         text = f"{kind} '{old}' is '{new}' in SDF, since {why}"
         t.report_loss("name", text, part, part)
+
+
+def write_config(name: str, options: Options) -> bytes:
+    """Write the file.
+
+    Args:
+        name: Name of the model.
+        options: Options of the export.
+    """
+    root = etree.Element("model")
+    add(root, "name", name)
+    add(root, "version", "1.0")
+    add(root, "sdf", MODEL, version=options.sdf_version)
+    author = add(root, "author")
+    add(author, "name", "urdftool")
+    add(root, "description", f"{name}, exported from its URDF")
+    return serialize_document(root)
+
+
+def report_mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
+    """Report meshes that are missing or cannot be read, each once."""
+    seen = set()
+    for link, shape in robot.shapes:
+        mesh = shape.geometry
+        if isinstance(mesh, Mesh) and not meshes.is_known(mesh) and mesh.filename not in seen:
+            seen.add(mesh.filename)
+            refused = meshes.refused.get(mesh.filename)
+            if not refused:
+                yield create_missing_mesh(robot, link, mesh)
+                continue
+            text = f"mesh '{mesh.filename}' of link '{link.name}' cannot be used: {refused}"
+            place = mesh.element.locate_attribute("filename")
+            yield make_defect("corrupt-mesh", text, place, "link", link.name)
+
+
+def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
+    """Report bodies whose inertia is physically inconsistent, with all that is lumped into them."""
+    for owner, mass in plan.mass.items():
+        short = get_excess(mass)
+        if mass.mass <= 0 or short <= ROUNDING:
+            continue
+        members = [robot.link[name] for name in plan.members[owner]]
+        worst = max(members, key=_compute_own_shortfall)
+        inertia = worst.inertial and (worst.inertial.inertia or worst.inertial)
+        yield make_defect(
+            "inertia-triangle-inequality",
+            f"inertia of link '{worst.name}' is physically inconsistent: its largest principal "
+            f"moment exceeds the sum of the others by {short:.0%}",
+            (inertia or worst).place,
+            "link",
+            worst.name,
+            "--fix-inertia lift, balance or box changes it",
+        )
+
+
+def _compute_own_shortfall(link: Link) -> float:
+    return get_excess(link_inertia(link))
