@@ -15,6 +15,7 @@ from .progress import Progress
 
 if TYPE_CHECKING:
     from ..drawing.camera import Camera
+    from ..drawing.png_file import Image
     from ..drawing.shapes import Shapes
     from ..model.elements import Robot
 
@@ -176,7 +177,7 @@ def write_pictures(
         OutputError: A file cannot be written.
     """
     from ..drawing.picture import SIZE, draw
-    from ..drawing.png_file import encode_png
+    from ..drawing.picture_cache import draw_or_read, read_size
     from ..drawing.shapes import read_robot_shapes
     from ..errors import ModelError
     from ..model.files import list_sources
@@ -209,9 +210,13 @@ def write_pictures(
         )
     seen_from = None if camera is None else _make_camera(camera)
     if picture is not None:
-        image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
-        write_picture(encode_png(image), picture, robot)
-        console.print_note(f"wrote {picture}, {image.shape[1]} × {image.shape[0]} pixels")
+        facts = [sorted(poses.items()), camera, size or SIZE]
+        data = draw_or_read(
+            shapes, facts, lambda: draw(shapes, poses, camera=seen_from, size=size or SIZE)
+        )
+        write_picture(data, picture, robot)
+        width, height = read_size(data)
+        console.print_note(f"wrote {picture}, {width} × {height} pixels")
     if contact_sheet is not None:
         _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
     return 1 if shapes.problems or nowhere else 0
@@ -250,7 +255,7 @@ def _write_sheet(
         list_shown_links,
         list_sweeps,
     )
-    from ..drawing.png_file import encode_png
+    from ..drawing.picture_cache import draw_or_read, read_size
     from ..errors import ModelError
 
     sweeps = list_sweeps(robot, shown=list_shown_links(shapes))
@@ -266,10 +271,34 @@ def _write_sheet(
             f"the contact sheet of {len(sweeps)} joints has {layout.width} × {layout.height} "
             f"pixels, more than {_MAX_SHEET:,}; choose a smaller --size"
         )
-    with Progress(console, "joints") as progress:
-        image = draw_contact_sheet(
-            robot, shapes, positions=positions, camera=camera, cell=cell, progress=progress
-        )
-    write_picture(encode_png(image), target, robot)
+
+    def draw() -> Image:
+        with Progress(console, "joints") as progress:
+            return draw_contact_sheet(
+                robot, shapes, positions=positions, camera=camera, cell=cell, progress=progress
+            )
+
+    view = None if camera is None else [camera.azimuth, camera.elevation, camera.distance]
+    data = draw_or_read(shapes, [*_describe_joints(robot), positions, view, cell], draw)
+    write_picture(data, target, robot)
     count = f"{len(sweeps)} joint{'s' if len(sweeps) > 1 else ''}"
-    console.print_note(f"wrote {target}, {count}, {image.shape[1]} × {image.shape[0]} pixels")
+    width, height = read_size(data)
+    console.print_note(f"wrote {target}, {count}, {width} × {height} pixels")
+
+
+def _describe_joints(robot: Robot) -> list[object]:
+    """Describe the kinematics of a robot and its names, for the key of a picture."""
+    from ..model.kinematics import get_limits
+    from ..model.pose import make_pose
+
+    return [
+        robot.name,
+        *(
+            [
+                joint.name, joint.type, joint.parent, joint.child, make_pose(joint.origin),
+                joint.axis and joint.axis.xyz, get_limits(joint), joint.thread_pitch,
+                joint.mimic and (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset),
+            ]
+            for joint in robot.joints
+        ),
+    ]  # fmt: skip
