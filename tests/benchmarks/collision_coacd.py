@@ -23,7 +23,7 @@ import numpy as np
 
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import ReferenceSurface, measure
-from urdftool.collision.piece import mesh_piece
+from urdftool.collision.piece import make_mesh_piece
 from urdftool.collision.surface import read_surface
 from urdftool.geometry.load import load_mesh
 
@@ -47,7 +47,7 @@ np.savez(sys.argv[2], seconds=seconds, processor=processor, pieces=len(parts), *
 
 def apart(one, other, size):
     distances = [
-        Surface(a, spread(a, 80_000)).distance(spread(b, 20_000).points).max()
+        Surface(a, spread(a, 80_000)).measure_distance(spread(b, 20_000).points).max()
         for a, b in ((one, other), (other, one))
     ]
     return max(distances) / size
@@ -77,7 +77,7 @@ def by_default(surface, made):
                 return None
         with np.load(made) as found:
             count = int(found["pieces"])
-            pieces = [mesh_piece(found[f"v{k}"], found[f"f{k}"]) for k in range(count)]
+            pieces = [make_mesh_piece(found[f"v{k}"], found[f"f{k}"]) for k in range(count)]
             return float(found["processor"]), float(found["seconds"]), pieces
 
 
@@ -93,7 +93,7 @@ def by_ours(path):
         seconds, processor = time.perf_counter() - begin, used_time() - used
         files = sorted(made.parent.glob("made_*.obj")) or [made]
         meshes = [load_mesh(file) for file in files]
-        return processor, seconds, [mesh_piece(mesh.vertices, mesh.faces) for mesh in meshes]
+        return processor, seconds, [make_mesh_piece(mesh.vertices, mesh.faces) for mesh in meshes]
 
 
 def used_time():

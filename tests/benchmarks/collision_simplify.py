@@ -19,13 +19,13 @@ from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.surface import read_surface
 from urdftool.errors import UrdftoolError
-from urdftool.geometry.topology import edges_of
+from urdftool.geometry.topology import find_edges
 
 
 def apart(one: np.ndarray, other: np.ndarray, size: float) -> float:
     """The two-sided Hausdorff distance of triangles, relative to a size."""
     distances = [
-        Surface(a, spread(a, 80_000)).distance(spread(b, 20_000).points).max()
+        Surface(a, spread(a, 80_000)).measure_distance(spread(b, 20_000).points).max()
         for a, b in ((one, other), (other, one))
     ]
     return float(max(distances)) / size
@@ -36,7 +36,7 @@ def closed(vertices: np.ndarray, faces: np.ndarray) -> bool:
     _, number = np.unique(np.round(vertices, 12), axis=0, return_inverse=True)
     merged = number.reshape(-1)[faces]
     sound = (merged != np.roll(merged, 1, axis=1)).all(axis=1)
-    return bool(edges_of(merged[sound]).cycle)
+    return bool(find_edges(merged[sound]).cycle)
 
 
 def main(words: list[str]) -> None:

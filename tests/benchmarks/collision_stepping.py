@@ -22,8 +22,8 @@ from statistics import median
 
 import numpy as np
 
-from urdftool.collision.mesh_files import mesh_bytes
-from urdftool.collision.piece import mesh_piece
+from urdftool.collision.mesh_files import encode_mesh
+from urdftool.collision.piece import make_mesh_piece
 from urdftool.collision.surface import read_surface
 from urdftool.model.elements import Mesh
 from urdftool.model.load import load
@@ -91,7 +91,7 @@ def of_one_link(mesh: Path, folder: Path) -> Path:
     """A robot of one link with the inertia of the mesh's box, at 1 kg."""
     surface = read_surface(mesh)
     stl = folder / "part.stl"
-    stl.write_bytes(mesh_bytes([mesh_piece(surface.vertices, surface.faces)], ".stl"))
+    stl.write_bytes(encode_mesh([make_mesh_piece(surface.vertices, surface.faces)], ".stl"))
     x, y, z = np.ptp(surface.vertices, axis=0) ** 2 / 12
     centre = " ".join(f"{v:.6g}" for v in surface.vertices.mean(axis=0))
     robot = folder / "part.urdf"
@@ -121,8 +121,8 @@ def with_visuals_as_collisions(source: Path, target: Path, *, concave: bool) -> 
             )
             triangles += len(surface.faces)
             name = f"{link.name}_{number}.stl".replace("/", "_")
-            piece = mesh_piece(surface.vertices, surface.faces)
-            (target.parent / name).write_bytes(mesh_bytes([piece], ".stl"))
+            piece = make_mesh_piece(surface.vertices, surface.faces)
+            (target.parent / name).write_bytes(encode_mesh([piece], ".stl"))
             collision = etree.SubElement(element, "collision", attributes)
             if visual.origin is not None:
                 etree.SubElement(collision, "origin", dict(visual.origin.element.attributes))
@@ -203,7 +203,7 @@ def rows(path: Path, options: list[str]) -> list[str]:
 
 def height_of(robot: Path) -> float:
     """A height [m] of the root at which all of it is above the ground."""
-    from urdftool.collision.check import shape_pieces
+    from urdftool.collision.check import convert_shape
     from urdftool.model.kinematics import link_poses
 
     read = load(robot)
@@ -211,8 +211,8 @@ def height_of(robot: Path) -> float:
     for link in read.links:
         pose = link_poses(read)[link.name]
         for visual in link.visuals:
-            for piece in shape_pieces(read, visual):
-                placed = piece.posed(np.array(pose.rotation), np.array(pose.translation))
+            for piece in convert_shape(read, visual):
+                placed = piece.transform(np.array(pose.rotation), np.array(pose.translation))
                 low = min(low, float(placed.vertices[:, 2].min()))
     return 0.01 - low
 

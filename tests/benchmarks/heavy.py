@@ -99,9 +99,9 @@ def _subjects() -> Iterator[tuple[str, Path, tuple[float, float, float], Any]]:
 def _heaviest(path: Path) -> tuple[str, Path, tuple[float, float, float], Any] | None:
     """The link of one visual mesh with most triangles, with its collision in the mesh's frame."""
     import urdftool
-    from urdftool.collision.check import shape_pieces
-    from urdftool.collision.convex import hull
-    from urdftool.collision.piece import mesh_piece
+    from urdftool.collision.check import convert_shape
+    from urdftool.collision.convex import compute_hull
+    from urdftool.collision.piece import make_mesh_piece
     from urdftool.errors import UrdftoolError
     from urdftool.geometry.load import load_mesh
     from urdftool.model.elements import Mesh
@@ -116,7 +116,7 @@ def _heaviest(path: Path) -> tuple[str, Path, tuple[float, float, float], Any] |
         try:
             file = Path(robot.source.resolve(mesh.filename))
             count = len(load_mesh(file).faces)
-            pieces = [piece for shape in link.collisions for piece in shape_pieces(robot, shape)]
+            pieces = [piece for shape in link.collisions for piece in convert_shape(robot, shape)]
         except UrdftoolError:
             continue
         if not pieces or (best is not None and count <= best[0]):
@@ -124,7 +124,9 @@ def _heaviest(path: Path) -> tuple[str, Path, tuple[float, float, float], Any] |
         back = np.array(pose.rotation).T
         shift = -back @ np.array(pose.translation)
         placed = [
-            (p if p.is_primitive else mesh_piece(*hull(p.vertices))).posed(back, shift)
+            (p if p.is_primitive else make_mesh_piece(*compute_hull(p.vertices))).transform(
+                back, shift
+            )
             for p in pieces
         ]
         best = count, (f"{path.stem} {link.name}", file, mesh.scale, placed)
@@ -133,16 +135,16 @@ def _heaviest(path: Path) -> tuple[str, Path, tuple[float, float, float], Any] |
 
 def _lines(target: Any, surface: Any, vendor: Any, folder: Path) -> Iterator[Line]:
     from urdftool.collision.choose import choose
-    from urdftool.collision.convex import hull
-    from urdftool.collision.piece import mesh_piece
+    from urdftool.collision.convex import compute_hull
+    from urdftool.collision.piece import make_mesh_piece
     from urdftool.collision.settings import Settings
 
     for side, quality in (("auto", "balanced"), ("auto, tight", "tight")):
         begin = time.process_time()
-        choice = choose(surface, Settings().changed({"quality": quality}))
+        choice = choose(surface, Settings().replace_some({"quality": quality}))
         yield _line(side, time.process_time() - begin, target, choice.pieces)
     begin = time.process_time()
-    whole = [mesh_piece(*hull(surface.vertices))]
+    whole = [make_mesh_piece(*compute_hull(surface.vertices))]
     yield _line("one hull", time.process_time() - begin, target, whole)
     if vendor:
         yield _line("vendor's", None, target, vendor)
@@ -164,7 +166,7 @@ def _line(side: str, seconds: float | None, target: Any, pieces: Any) -> Line:
 
 
 def _coacd(surface: Any, folder: Path) -> tuple[float, Any] | None:
-    from urdftool.collision.piece import mesh_piece
+    from urdftool.collision.piece import make_mesh_piece
 
     from .collision_coacd import DEFAULT
 
@@ -178,13 +180,15 @@ def _coacd(surface: Any, folder: Path) -> tuple[float, Any] | None:
     except subprocess.SubprocessError:
         return None
     with np.load(made) as found:
-        pieces = [mesh_piece(found[f"v{k}"], found[f"f{k}"]) for k in range(int(found["pieces"]))]
+        pieces = [
+            make_mesh_piece(found[f"v{k}"], found[f"f{k}"]) for k in range(int(found["pieces"]))
+        ]
         return float(found["processor"]), pieces
 
 
 def _vhacd(surface: Any, folder: Path) -> tuple[float, Any] | None:
-    from urdftool.collision.convex import hull
-    from urdftool.collision.piece import mesh_piece
+    from urdftool.collision.convex import compute_hull
+    from urdftool.collision.piece import make_mesh_piece
     from urdftool.geometry.load import load_mesh
 
     given, made = folder / "given.obj", folder / "made.obj"
@@ -202,7 +206,10 @@ def _vhacd(surface: Any, folder: Path) -> tuple[float, Any] | None:
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     mesh = load_mesh(made)
-    pieces = [mesh_piece(*hull(mesh.vertices[np.unique(mesh.part_faces(p))])) for p in mesh.parts]
+    pieces = [
+        make_mesh_piece(*compute_hull(mesh.vertices[np.unique(mesh.get_part_faces(p))]))
+        for p in mesh.parts
+    ]
     return used, pieces
 
 

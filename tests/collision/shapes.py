@@ -4,7 +4,7 @@ import struct
 
 import numpy as np
 
-from urdftool.collision.piece import primitive
+from urdftool.collision.piece import make_primitive
 
 SIZES = {
     "box": (0.3, 0.2, 0.1),
@@ -41,7 +41,7 @@ def finer(vertices, faces):
 def noisy(kind, size, *, noise=0.0, seed=0, rotation=None, centre=(0, 0, 0)):
     """A primitive as a fine mesh whose points are off by some part of its size."""
     rng = np.random.default_rng(seed)
-    piece = primitive(kind, size, np.eye(3) if rotation is None else rotation, centre)
+    piece = make_primitive(kind, size, np.eye(3) if rotation is None else rotation, centre)
     vertices, faces = piece.vertices, piece.faces
     while len(faces) < 3000:
         vertices, faces = finer(vertices, faces)

@@ -7,23 +7,23 @@ from tests.collision.shapes import finer, l_profile, noisy
 from tests.conftest import FIXTURES
 from urdftool.collision import cut, decompose
 from urdftool.collision.choose import choose
-from urdftool.collision.convex import hull, planes
+from urdftool.collision.convex import compute_hull, compute_planes
 from urdftool.collision.cut import Cutter
-from urdftool.collision.decompose import solid_of
+from urdftool.collision.decompose import make_solid
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import ReferenceSurface
 from urdftool.collision.merge import Joiner
-from urdftool.collision.piece import mesh_piece, primitive
-from urdftool.collision.remesh import Layer, Outside, common, remesh
+from urdftool.collision.piece import make_mesh_piece, make_primitive
+from urdftool.collision.remesh import Layer, Outside, compute_remesh, intersect
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare, read_surface
-from urdftool.geometry.topology import edges_of
+from urdftool.geometry.topology import find_edges
 
 
 def soup():
     """Two boxes through each other, one of them without a lid, and a loose triangle."""
     one, faces = noisy("box", (0.3, 0.2, 0.1))
-    other = primitive("box", (0.1, 0.1, 0.3), np.eye(3), (0.05, 0, 0))
+    other = make_primitive("box", (0.1, 0.1, 0.3), np.eye(3), (0.05, 0, 0))
     loose = np.array([[0.2, 0.2, 0], [0.25, 0.2, 0], [0.2, 0.25, 0.0]])
     points = np.concatenate([one, other.vertices, loose])
     more = other.faces[2:] + len(one)
@@ -33,11 +33,11 @@ def soup():
 
 def test_what_is_made_of_any_mesh_is_closed_and_near_to_it():
     surface = soup()
-    vertices, faces = remesh(Layer(surface.corners))
-    edges = edges_of(faces)
+    vertices, faces = compute_remesh(Layer(surface.corners))
+    edges = find_edges(faces)
     assert (edges.forward == 1).all()
     assert (edges.backward == 1).all()
-    off = Surface(surface.corners, spread(surface.corners, 40_000)).distance(vertices)
+    off = Surface(surface.corners, spread(surface.corners, 40_000)).measure_distance(vertices)
     assert off.max() < 0.005 * surface.size
     corners = vertices[faces]
     volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
@@ -46,37 +46,37 @@ def test_what_is_made_of_any_mesh_is_closed_and_near_to_it():
 
 def test_one_closed_body_is_cut_as_it_is():
     surface = prepare(*l_profile())
-    assert (solid_of(ReferenceSurface(surface)).vertices == surface.vertices).all()
+    assert (make_solid(ReferenceSurface(surface)).vertices == surface.vertices).all()
 
 
 def test_what_a_solid_and_a_box_have_in_common():
-    solid = primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))
-    other = primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0.1, 0, 0))
-    vertices, _ = common(solid.corners, other.vertices, other.faces)
+    solid = make_primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))
+    other = make_primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0.1, 0, 0))
+    vertices, _ = intersect(solid.corners, other.vertices, other.faces)
     assert vertices.min(axis=0) == pytest.approx((0, -0.1, -0.1), abs=0.004)
     assert vertices.max(axis=0) == pytest.approx((0.1, 0.1, 0.1), abs=0.004)
-    away = primitive("box", (0.1, 0.1, 0.1), np.eye(3), (1, 0, 0))
-    assert common(solid.corners, away.vertices, away.faces) is None
+    away = make_primitive("box", (0.1, 0.1, 0.1), np.eye(3), (1, 0, 0))
+    assert intersect(solid.corners, away.vertices, away.faces) is None
 
 
 def test_the_distance_outside_is_read_from_a_grid():
-    sphere = primitive("sphere", (0.1,), np.eye(3), (0, 0, 0))
+    sphere = make_primitive("sphere", (0.1,), np.eye(3), (0, 0, 0))
     points = np.array([[0, 0, 0], [0.05, 0, 0], [0.105, 0, 0], [0, 0, 0.103]])
-    found = Outside(Layer(sphere.corners)).distance(points)
+    found = Outside(Layer(sphere.corners)).measure_distance(points)
     assert found == pytest.approx([0, 0, 0.005, 0.003], abs=0.001)
 
 
 def test_pieces_are_joined_where_their_hull_is_near_enough():
     surface = prepare(*l_profile())
     boxes = [
-        primitive("box", (0.05, 0.05, 0.1), np.eye(3), (0.025 + 0.05 * k, 0.025, 0.05))
+        make_primitive("box", (0.05, 0.05, 0.1), np.eye(3), (0.025 + 0.05 * k, 0.025, 0.05))
         for k in range(4)
     ] + [
-        primitive("box", (0.05, 0.05, 0.1), np.eye(3), (0.025, 0.075 + 0.05 * k, 0.05))
+        make_primitive("box", (0.05, 0.05, 0.1), np.eye(3), (0.025, 0.075 + 0.05 * k, 0.05))
         for k in range(3)
     ]
-    pieces = [mesh_piece(box.vertices, box.faces) for box in boxes]
-    joined = Joiner(ReferenceSurface(surface)).joined(pieces, 0.003)
+    pieces = [make_mesh_piece(box.vertices, box.faces) for box in boxes]
+    joined = Joiner(ReferenceSurface(surface)).join(pieces, 0.003)
     assert len(joined) == 2
     covered = np.concatenate([piece.vertices for piece in joined])
     assert np.ptp(covered, axis=0) == pytest.approx((0.2, 0.2, 0.1))
@@ -89,8 +89,8 @@ def bent(parts):
     for angle in angles:
         c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
-        box = primitive("box", (0.04, 0.05, 0.05), turn, (0.2 * c, 0.2 * s, 0))
-        found.append(mesh_piece(box.vertices, box.faces))
+        box = make_primitive("box", (0.04, 0.05, 0.05), turn, (0.2 * c, 0.2 * s, 0))
+        found.append(make_mesh_piece(box.vertices, box.faces))
     return found
 
 
@@ -100,7 +100,7 @@ def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monk
     corners = np.concatenate([box.corners for box in boxes])
     surface = prepare(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
     monkeypatch.setattr(cut, "decompose", lambda *_, **__: boxes)
-    monkeypatch.setattr(cut, "divided", lambda *_, **__: [])
+    monkeypatch.setattr(cut, "divide", lambda *_, **__: [])
     counts, errors = [], []
     for most in (1000, 100, 40):
         settings = Settings(method="coacd", max_triangles=most)
@@ -116,7 +116,7 @@ def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monk
 def slotted():
     """A block of 0.2 × 0.1 × 0.1 with a slot, 0.02 wide and 0.08 deep; and its hull."""
     boxes = [
-        primitive("box", size, np.eye(3), centre)
+        make_primitive("box", size, np.eye(3), centre)
         for size, centre in (
             ((0.2, 0.1, 0.02), (0, 0, 0.01)),
             ((0.09, 0.1, 0.08), (-0.055, 0, 0.06)),
@@ -127,19 +127,19 @@ def slotted():
     surface = prepare(corners, np.arange(len(corners)).reshape(-1, 3))
     return (
         surface,
-        mesh_piece(*hull(surface.vertices)),
-        [mesh_piece(b.vertices, b.faces) for b in boxes],
+        make_mesh_piece(*compute_hull(surface.vertices)),
+        [make_mesh_piece(b.vertices, b.faces) for b in boxes],
     )
 
 
 def test_a_piece_that_buries_a_slot_is_cut_again(monkeypatch):
     surface, whole, parts = slotted()
-    monkeypatch.setattr(cut, "divided", lambda *_, **__: parts)
+    monkeypatch.setattr(cut, "divide", lambda *_, **__: parts)
     target = ReferenceSurface(surface)
     cutter = Cutter(target, Settings(method="coacd"))
-    assert max(cut.excess_of_each(target, [whole])) < 0.012  # it hardly sticks out
-    assert cutter._recut([whole], 0.012) == parts
-    assert cutter._recut([whole], 0.06) == [whole]
+    assert max(cut.compute_excess_of_each(target, [whole])) < 0.012  # it hardly sticks out
+    assert cutter._cut_again([whole], 0.012) == parts
+    assert cutter._cut_again([whole], 0.06) == [whole]
 
 
 @pytest.mark.slow
@@ -152,7 +152,7 @@ def test_all_runs_on_a_mesh_share_one_time_limit(monkeypatch):
         return [whole.vertices]
 
     monkeypatch.setattr(decompose, "run_child", slow)
-    monkeypatch.setattr(decompose, "_children_time", lambda: float(len(limits)))
+    monkeypatch.setattr(decompose, "_measure_children_time", lambda: float(len(limits)))
     cutter = Cutter(ReferenceSurface(surface), Settings(method="coacd", time_limit=0.5))
     pieces, _ = cutter.cut(0.012, 0.012)
     assert limits == [0.5]  # what was left did not do for another
@@ -222,20 +222,20 @@ def test_the_pieces_do_not_hang_on_the_number_of_cores():
 )
 def test_an_older_coacd_works_with_one_thread(monkeypatch, version, threads):
     monkeypatch.setattr("importlib.metadata.version", lambda name: version)
-    assert decompose.threads_of(4) == threads
+    assert decompose.choose_threads(4) == threads
 
 
 def test_widening_cells_is_a_dilation():
     from scipy import ndimage
 
-    from urdftool.collision.remesh import widened
+    from urdftool.collision.remesh import widen
 
     cells = np.random.default_rng(0).random((9, 7, 8)) > 0.95
     whole = np.ones((3, 3, 3), dtype=bool)
-    assert (widened(cells, 2) == ndimage.binary_dilation(cells, whole, iterations=2)).all()
+    assert (widen(cells, 2) == ndimage.binary_dilation(cells, whole, iterations=2)).all()
 
 
 def test_planes_are_told_once_each():
-    vertices, faces = hull(np.array(list(np.ndindex(2, 2, 2)), dtype=float))
+    vertices, faces = compute_hull(np.array(list(np.ndindex(2, 2, 2)), dtype=float))
     assert len(faces) == 12
-    assert len(planes(vertices, faces)) == 6
+    assert len(compute_planes(vertices, faces)) == 6

@@ -8,9 +8,9 @@ from urdftool.collision.choose import choose
 from urdftool.collision.cuts import PlaneCutter
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import ReferenceSurface
-from urdftool.collision.outline import TRIANGLES, outline
+from urdftool.collision.outline import TRIANGLES, compute_outline
 from urdftool.collision.partition import clip
-from urdftool.collision.piece import primitive
+from urdftool.collision.piece import make_primitive
 from urdftool.collision.settings import QUALITIES, Settings
 from urdftool.collision.surface import prepare
 
@@ -25,7 +25,9 @@ def housing():
 def stairs(count):
     """Boxes of increasing height side by side."""
     made = [
-        primitive("box", (0.05, 0.1, 0.03 * (k + 1)), np.eye(3), (0.05 * k, 0, 0.015 * (k + 1)))
+        make_primitive(
+            "box", (0.05, 0.1, 0.03 * (k + 1)), np.eye(3), (0.05 * k, 0, 0.015 * (k + 1))
+        )
         for k in range(count)
     ]
     corners = np.concatenate([box.corners for box in made]).reshape(-1, 3)
@@ -35,24 +37,24 @@ def stairs(count):
 def test_the_outline_is_near_and_without_interior():
     surface = housing()
     target = ReferenceSurface(surface)
-    vertices, faces = outline(target)
+    vertices, faces = compute_outline(target)
     assert len(faces) <= TRIANGLES
     assert np.abs(vertices).max(axis=0) == pytest.approx((0.15, 0.1, 0.05), abs=0.003)
     assert (np.linalg.norm(vertices, axis=1) > 0.045).all()
     found = Surface(vertices[faces], spread(vertices[faces], 20_000))
-    assert found.distance(target.exterior_samples).max() < 0.02 * surface.size
+    assert found.measure_distance(target.exterior_samples).max() < 0.02 * surface.size
 
 
 def test_a_sheet_without_thickness_remains():
     a, b, c = np.array([[0, 0, 0], [0.3, 0, 0], [0, 0.3, 0.0]])
     surface = prepare(np.array([a, b, c, b + c]), np.array([[0, 1, 2], [1, 3, 2]]))
-    vertices, faces = outline(ReferenceSurface(surface))
+    vertices, faces = compute_outline(ReferenceSurface(surface))
     assert np.ptp(vertices, axis=0) == pytest.approx((0.3, 0.3, 0.0), abs=0.01)
     assert len(faces) > 10
 
 
 def test_clipping_keeps_what_is_below_the_plane():
-    box = primitive("box", (2.0, 2.0, 2.0), np.eye(3), (0, 0, 0))
+    box = make_primitive("box", (2.0, 2.0, 2.0), np.eye(3), (0, 0, 0))
     plane = np.array([0.6, 0, 0.8, 0.2])
     points, faces = clip(box.vertices, box.faces, plane)
     assert (points @ plane[:3] - plane[3]).max() == pytest.approx(0, abs=1e-12)
@@ -108,7 +110,7 @@ def test_a_flat_surface_has_no_part():
 
 
 def test_a_quality_brings_its_limits_unless_they_are_given():
-    fast = Settings().changed({"quality": "fast"})
+    fast = Settings().replace_some({"quality": "fast"})
     assert (fast.max_error, fast.most) == (0.08, 4)
     assert Settings().most == 16
-    assert Settings().changed({"quality": "tight", "max_error": 0.1}).max_error == 0.1
+    assert Settings().replace_some({"quality": "tight", "max_error": 0.1}).max_error == 0.1

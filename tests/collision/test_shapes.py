@@ -5,14 +5,14 @@ import pytest
 
 from tests.collision.shapes import SIZES, finer, l_profile, noisy, turned
 from urdftool.collision.choose import choose
-from urdftool.collision.convex import capped_hull, planes, signed_distance
+from urdftool.collision.convex import compute_capped_hull, compute_planes, measure_plane_distance
 from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import to_triangles
 from urdftool.collision.measure import ReferenceSurface, measure
-from urdftool.collision.piece import mesh_piece, primitive
+from urdftool.collision.piece import make_mesh_piece, make_primitive
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare
-from urdftool.geometry.topology import edges_of
+from urdftool.geometry.topology import find_edges
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,7 @@ def test_auto_finds_the_primitive_again(kind, noise):
     (piece,) = choice.pieces
     assert (choice.method, piece.kind) == ("primitive", kind)
     assert sorted(piece.size) == pytest.approx(sorted(SIZES[kind]), rel=0.01)
-    assert piece.centre == pytest.approx((0.1, -0.2, 0.3), abs=1e-3)
+    assert piece.center == pytest.approx((0.1, -0.2, 0.3), abs=1e-3)
     assert choice.measures.error < 0.011
     assert choice.measures.volume_ratio == pytest.approx(1, abs=0.02)
 
@@ -56,12 +56,12 @@ def test_the_distance_to_a_triangle_is_exact():
 
 def test_a_box_that_is_too_large_is_measured_as_such():
     target = ReferenceSurface(prepare(*noisy("box", (0.2, 0.2, 0.2))))
-    larger = primitive("box", (0.22, 0.2, 0.2), np.eye(3), (0, 0, 0))
+    larger = make_primitive("box", (0.22, 0.2, 0.2), np.eye(3), (0, 0, 0))
     found = measure(target, [larger])
     assert found.hausdorff == pytest.approx(0.01, rel=0.02)
     assert found.volume_ratio == pytest.approx(1.1, rel=1e-6)
     assert found.outside == 0
-    smaller = primitive("box", (0.18, 0.2, 0.2), np.eye(3), (0, 0, 0))
+    smaller = make_primitive("box", (0.18, 0.2, 0.2), np.eye(3), (0, 0, 0))
     assert measure(target, [smaller]).outside == pytest.approx(1 / 3, abs=0.1)
 
 
@@ -70,7 +70,7 @@ def test_what_is_enclosed_is_not_measured():
     inner, more = noisy("sphere", (0.05,))
     both = prepare(np.concatenate([outer, inner]), np.concatenate([faces, more + len(outer)]))
     found = measure(
-        ReferenceSurface(both), [primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))]
+        ReferenceSurface(both), [make_primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))]
     )
     assert found.error < 4e-3
     assert found.enclosed == pytest.approx(0.0314 / (0.24 + 0.0314), abs=0.01)
@@ -79,8 +79,8 @@ def test_what_is_enclosed_is_not_measured():
 def test_two_pieces_of_a_bracket_leave_nothing_out():
     surface = prepare(*l_profile())
     legs = [
-        primitive("box", (0.2, 0.05, 0.1), np.eye(3), (0.1, 0.025, 0.05)),
-        primitive("box", (0.05, 0.15, 0.1), np.eye(3), (0.025, 0.125, 0.05)),
+        make_primitive("box", (0.2, 0.05, 0.1), np.eye(3), (0.1, 0.025, 0.05)),
+        make_primitive("box", (0.05, 0.15, 0.1), np.eye(3), (0.025, 0.125, 0.05)),
     ]
     found = measure(ReferenceSurface(surface), legs)
     assert found.error < 4e-3
@@ -89,31 +89,35 @@ def test_two_pieces_of_a_bracket_leave_nothing_out():
 
 
 def test_pieces_that_coincide_are_measured():
-    box = primitive("box", (0.2, 0.1, 0.1), np.eye(3), (0, 0, 0))
+    box = make_primitive("box", (0.2, 0.1, 0.1), np.eye(3), (0, 0, 0))
     target = ReferenceSurface(prepare(box.vertices, box.faces))
-    twice = [mesh_piece(box.vertices, box.faces)] * 2
-    twins = [mesh_piece(box.vertices * 1.1, box.faces), mesh_piece(box.vertices * 1.1, box.faces)]
+    twice = [make_mesh_piece(box.vertices, box.faces)] * 2
+    twins = [
+        make_mesh_piece(box.vertices * 1.1, box.faces),
+        make_mesh_piece(box.vertices * 1.1, box.faces),
+    ]
     assert measure(target, twice).hausdorff == pytest.approx(0, abs=1e-9)
     corner = 0.1 * float(np.linalg.norm((0.2, 0.1, 0.1))) / 2
     assert measure(target, twins).hausdorff == pytest.approx(corner, rel=0.1)
 
 
 def test_a_capped_hull_keeps_to_its_vertices_and_to_its_tolerance():
-    points = primitive("sphere", (1.0,), np.eye(3), (0, 0, 0)).vertices
-    vertices, faces = capped_hull(points, 24)
+    points = make_primitive("sphere", (1.0,), np.eye(3), (0, 0, 0)).vertices
+    vertices, faces = compute_capped_hull(points, 24)
     assert len(vertices) <= 24
-    assert edges_of(faces).cycle
-    vertices, faces = capped_hull(points, 500, 0.05)
-    assert signed_distance(points, planes(vertices, faces)).max() <= 0.05
+    assert find_edges(faces).cycle
+    vertices, faces = compute_capped_hull(points, 500, 0.05)
+    assert measure_plane_distance(points, compute_planes(vertices, faces)).max() <= 0.05
 
 
 def test_simplified_stays_closed():
     vertices, faces = noisy("sphere", (0.1,), noise=0.0005)
     fewer, triangles = decimate(vertices, faces, 200)
     assert len(triangles) <= 200
-    assert edges_of(triangles).cycle
+    assert find_edges(triangles).cycle
     error = measure(
-        ReferenceSurface(prepare(vertices, faces)), [mesh_piece(fewer, triangles, convex=False)]
+        ReferenceSurface(prepare(vertices, faces)),
+        [make_mesh_piece(fewer, triangles, convex=False)],
     )
     assert error.error < 0.03
 

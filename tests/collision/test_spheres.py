@@ -37,7 +37,7 @@ def test_all_of_the_exterior_is_covered(number, excess, most):
     faces = surface.faces if exterior is None else exterior
     points, ends = sampled(surface.vertices[faces], 100_000, 5)
     points = np.concatenate([points, ends])
-    off = [np.linalg.norm(points - piece.centre, axis=1) - piece.size[0] for piece in choice.pieces]
+    off = [np.linalg.norm(points - piece.center, axis=1) - piece.size[0] for piece in choice.pieces]
     assert np.min(off, axis=0).max() <= 0
     if most is None:
         assert choice.measures.collision_to_visual <= (excess + 0.002) * surface.size

@@ -12,9 +12,9 @@ import pytest
 
 from tests.collision.shapes import l_profile, noisy, stl, turned
 from tests.commands.test_collision import robot
-from urdftool.collision.compute import Task, attempt
+from urdftool.collision.compute import Task, try_compute
 from urdftool.collision.parallel import compute_all
-from urdftool.collision.piece import primitive
+from urdftool.collision.piece import make_primitive
 from urdftool.collision.settings import Settings
 from urdftool.errors import UrdftoolError
 from urdftool.storage import DiskCache
@@ -25,7 +25,7 @@ HULL = Settings(method="hull")
 def dies(task, cores=1):
     if task.path.name == "bad.stl":
         os.kill(os.getpid(), signal.SIGKILL)
-    return attempt(task, cores)
+    return try_compute(task, cores)
 
 
 def test_a_worker_that_is_killed_is_said_and_the_others_are_done(tmp_path, monkeypatch):
@@ -33,7 +33,7 @@ def test_a_worker_that_is_killed_is_said_and_the_others_are_done(tmp_path, monke
 
     for name in ("good", "bad", "fine"):
         (tmp_path / f"{name}.stl").write_bytes(stl(*l_profile()) + name.encode())
-    monkeypatch.setattr(parallel, "attempt", dies)
+    monkeypatch.setattr(parallel, "try_compute", dies)
     tasks = [Task(tmp_path / f"{name}.stl", settings=HULL) for name in ("bad", "good", "fine")]
     found = compute_all(tasks, DiskCache(None), jobs=2)
     assert isinstance(found[tasks[0]], UrdftoolError)
@@ -64,7 +64,7 @@ def test_a_full_disk_leaves_no_half_file(write):
 def bodies(count):
     rng = np.random.default_rng(0)
     boxes = [
-        primitive("box", (0.02, 0.03, 0.04), turned(rng), rng.uniform(-0.5, 0.5, 3))
+        make_primitive("box", (0.02, 0.03, 0.04), turned(rng), rng.uniform(-0.5, 0.5, 3))
         for _ in range(count)
     ]
     points = np.concatenate([box.vertices for box in boxes])

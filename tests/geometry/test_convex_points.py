@@ -12,8 +12,8 @@ from tests.conftest import FIXTURES
 from urdftool.errors import MeshError
 from urdftool.geometry.convex_points import (
     ConvexPoints,
-    extreme_points,
     read_convex_points,
+    select_extreme_points,
     support_function_of,
 )
 from urdftool.geometry.load import load_mesh
@@ -42,7 +42,7 @@ def test_box_of_a_mesh_that_is_scaled_turned_and_moved(rotation):
     found = read_convex_points(FIXTURES / "meshes" / "instances.dae")
     mesh = load_mesh(FIXTURES / "meshes" / "instances.dae", (2.0, -1.0, 0.5))
     corners = mesh.vertices[mesh.faces].reshape(-1, 3) @ np.array(rotation).T + (1, 2, 3)
-    box = found.box((2.0, -1.0, 0.5), rotation, (1.0, 2.0, 3.0))
+    box = found.compute_box((2.0, -1.0, 0.5), rotation, (1.0, 2.0, 3.0))
     np.testing.assert_allclose(box, (corners.min(axis=0), corners.max(axis=0)), atol=1e-6)
 
 
@@ -86,7 +86,7 @@ def test_few_of_many_points_reach_nearly_as_far(count):
     rng = np.random.default_rng(0)
     points = rng.normal(size=(count, 3))
     points *= (3, 2, 1) / np.linalg.norm(points, axis=1, keepdims=True)
-    kept = np.array(extreme_points(points))
+    kept = np.array(select_extreme_points(points))
     assert len(kept) < 200
     ways = rng.normal(size=(300, 3))
     far, near = (points @ ways.T).max(axis=0), (kept @ ways.T).max(axis=0)

@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from urdftool.geometry.hull import convex_hull, hull_surface
+from urdftool.geometry.hull import compute_convex_hull, extract_hull_surface
 
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 
@@ -23,15 +23,15 @@ def signed_volume(corners, faces):
 
 def test_points_inside_are_left_out():
     points = np.concatenate([CUBE, 0.1 + 0.8 * np.random.default_rng(0).random((500, 3))])
-    hull = convex_hull(points)
-    corners, faces = hull_surface(hull)
+    hull = compute_convex_hull(points)
+    corners, faces = extract_hull_surface(hull)
     assert sorted(map(tuple, corners)) == sorted(map(tuple, CUBE))
     assert len(faces) == 12
     assert hull.volume() == pytest.approx(1.0)
 
 
 def test_triangles_are_counter_clockwise_seen_from_outside():
-    corners, faces = hull_surface(convex_hull(CUBE - 7))
+    corners, faces = extract_hull_surface(compute_convex_hull(CUBE - 7))
     assert signed_volume(corners, faces) == pytest.approx(1.0)
 
 
@@ -48,16 +48,16 @@ def test_triangles_are_counter_clockwise_seen_from_outside():
     ],
 )
 def test_what_has_no_volume_has_no_hull(points):
-    assert convex_hull(points) is None
+    assert compute_convex_hull(points) is None
 
 
 @pytest.mark.parametrize("size", [1e-6, 1e-3, 1e6])
 def test_size_does_not_matter(size):
-    assert convex_hull(CUBE * size).volume() == pytest.approx(size**3)
+    assert compute_convex_hull(CUBE * size).volume() == pytest.approx(size**3)
 
 
 def test_a_thin_plate_has_a_hull():
-    assert convex_hull(CUBE * [1, 1, 1e-5]).volume() == pytest.approx(1e-5)
+    assert compute_convex_hull(CUBE * [1, 1, 1e-5]).volume() == pytest.approx(1e-5)
 
 
 @settings(max_examples=100, deadline=None)
@@ -71,9 +71,9 @@ def test_as_large_as_that_of_qhull(seed, count, stretch, rounded):
     points = np.random.default_rng(seed).normal(size=(count, 3)) * [1, 1, stretch]
     if rounded:
         points = points.round(1)
-    hull = convex_hull(points)
+    hull = compute_convex_hull(points)
     assume(hull is not None)
-    corners, faces = hull_surface(hull)
+    corners, faces = extract_hull_surface(hull)
     other = ConvexHull(points)
     near = 1e-6 * np.ptp(points) * other.area
     assert hull.volume() == pytest.approx(other.volume, rel=1e-9, abs=near)
@@ -84,10 +84,10 @@ def test_as_large_as_that_of_qhull(seed, count, stretch, rounded):
 
 SURFACE = """
 import hashlib, numpy as np
-from urdftool.geometry.hull import convex_hull, hull_surface
+from urdftool.geometry.hull import compute_convex_hull, extract_hull_surface
 points = np.random.default_rng(5).normal(size=(30000, 3))
 points /= np.linalg.norm(points, axis=1)[:, None]
-corners, faces = hull_surface(convex_hull(points))
+corners, faces = extract_hull_surface(compute_convex_hull(points))
 print(len(corners), hashlib.sha256(corners.tobytes() + faces.tobytes()).hexdigest())
 """
 

@@ -61,7 +61,7 @@ def test_obj_has_objects_colours_polygons_and_relative_indices():
     assert (left.name, left.rgba, left.texture) == ("left", (1.0, 0.0, 0.0, 0.5), None)
     assert right.rgba == (0.5, 0.25, 0.125, 1.0)
     assert right.texture == FIXTURES / "textures" / "wood.png"
-    assert mesh.vertices[mesh.part_faces(right)][..., 0].min() == pytest.approx(2.5)
+    assert mesh.vertices[mesh.get_part_faces(right)][..., 0].min() == pytest.approx(2.5)
     assert measure_surface(mesh.vertices, mesh.faces).volume == pytest.approx(2.0)
 
 
@@ -70,7 +70,7 @@ def test_obj_has_objects_colours_polygons_and_relative_indices():
 def test_texture_coordinates_lie_on_their_corners(name, mirror):
     mesh = load_mesh(FIXTURES / name, (mirror, 1, 1))
     front, sides = mesh.parts
-    corners = mesh.vertices[mesh.part_faces(front)]
+    corners = mesh.vertices[mesh.get_part_faces(front)]
     np.testing.assert_allclose(front.uv[..., 0], corners[..., 0] * mirror, atol=1e-9)
     np.testing.assert_allclose(front.uv[..., 1], corners[..., 2], atol=1e-9)
     assert sides.uv is None

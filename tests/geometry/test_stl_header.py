@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.geometry.stl import stl_bounds
+from urdftool.geometry.stl import compute_stl_bounds
 from urdftool.geometry.stl_header import is_lfs_pointer, read_stl_header
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
@@ -33,12 +33,12 @@ def test_kind(name, kind, triangles, solid, agrees):
 
 
 def test_bounds():
-    low, high = stl_bounds(FIXTURES / "millimetres.stl")
+    low, high = compute_stl_bounds(FIXTURES / "millimetres.stl")
     assert low == (-100, -50, -25)
     assert high == (100, 50, 25)
-    assert stl_bounds(FIXTURES / "nan.stl") is None
-    assert stl_bounds(FIXTURES / "cube_ascii.stl") is None
-    assert stl_bounds(FIXTURES / "truncated.stl") is not None
+    assert compute_stl_bounds(FIXTURES / "nan.stl") is None
+    assert compute_stl_bounds(FIXTURES / "cube_ascii.stl") is None
+    assert compute_stl_bounds(FIXTURES / "truncated.stl") is not None
 
 
 def test_lfs_pointer():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
-from urdftool.geometry.surface import hull_volume, measure_surface, read_surface
+from urdftool.geometry.surface import compute_hull_volume, measure_surface, read_surface
 
 
 @pytest.mark.parametrize(
@@ -44,5 +44,5 @@ def test_a_damaged_file_has_no_surface():
 
 
 def test_hull_of_a_cube_is_the_cube():
-    assert hull_volume(FIXTURES / "meshes" / "cube.stl") == pytest.approx(1.0)
-    assert hull_volume(FIXTURES / "meshes" / "flat.stl") is None
+    assert compute_hull_volume(FIXTURES / "meshes" / "cube.stl") == pytest.approx(1.0)
+    assert compute_hull_volume(FIXTURES / "meshes" / "flat.stl") is None

@@ -6,7 +6,7 @@ import pytest
 from urdftool.geometry.load import load_mesh
 from urdftool.geometry.mesh import Mesh, Part
 from urdftool.geometry.tessellate import tessellate
-from urdftool.geometry.thin import SMALL_FILE, ThinMeshes, content_key, thin
+from urdftool.geometry.thin import SMALL_FILE, ThinMeshes, compute_content_key, merge_in_cells
 from urdftool.inertia.bodies import get_cached_mesh_body, integrate_mesh_body
 from urdftool.storage import DiskCache
 
@@ -40,7 +40,7 @@ def heavy(tmp_path):
 def test_no_vertex_moves_by_more_than_the_diagonal_of_a_cell(tmp_path):
     vertices, faces = wavy(200)
     cell = 0.01
-    found = thin(as_mesh(tmp_path, vertices, faces), cell)
+    found = merge_in_cells(as_mesh(tmp_path, vertices, faces), cell)
     assert len(found.faces) < len(faces) / 4
     from scipy.spatial import cKDTree
 
@@ -58,11 +58,11 @@ def test_parts_keep_their_faces(tmp_path):
         Part("low", 0, half, (1, 0, 0, 1)),
         Part("high", half, len(faces) - half, (0, 1, 0, 1), uv=uv),
     )
-    found = thin(as_mesh(tmp_path, vertices, faces, parts), 0.01)
+    found = merge_in_cells(as_mesh(tmp_path, vertices, faces, parts), 0.01)
     low, high = found.parts
     assert (low.first, high.first, high.first + high.count) == (0, low.count, len(found.faces))
-    assert found.vertices[found.part_faces(low)][..., 0].mean() < -0.03
-    assert found.vertices[found.part_faces(high)][..., 0].mean() > 0.03
+    assert found.vertices[found.get_part_faces(low)][..., 0].mean() < -0.03
+    assert found.vertices[found.get_part_faces(high)][..., 0].mean() > 0.03
     assert len(high.uv) == high.count
     assert (np.diff(high.uv[:, 0, 0]) > 0).all()
 
@@ -88,9 +88,9 @@ def test_fine_pictures_have_all_triangles(heavy, tmp_path):
 def test_materials_belong_to_the_content(tmp_path):
     path = tmp_path / "a.obj"
     path.write_text("mtllib a.mtl\n")
-    before = content_key(path)
+    before = compute_content_key(path)
     (tmp_path / "a.mtl").write_text("newmtl red\n")
-    assert content_key(path) != before
+    assert compute_content_key(path) != before
 
 
 def test_mass_properties_are_kept_by_content(heavy, tmp_path, monkeypatch):

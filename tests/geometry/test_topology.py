@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from urdftool.geometry.load import load_mesh
-from urdftool.geometry.topology import body_labels, merge_vertices, unit_suspicion, weld
+from urdftool.geometry.topology import explain_unit_suspicion, label_bodies, merge_vertices, weld
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
 
@@ -25,7 +25,7 @@ def test_edges_and_bodies(name, closed, bodies):
     mesh = load_mesh(FIXTURES / name)
     _, faces, edges = weld(mesh.vertices, mesh.faces)
     assert (edges.closed, edges.cycle) == (closed, closed)
-    assert body_labels(len(faces), edges).max() + 1 == bodies
+    assert label_bodies(len(faces), edges).max() + 1 == bodies
 
 
 def test_zero_and_minus_zero_are_one_point():
@@ -44,6 +44,6 @@ def test_rounded_copies_are_welded_where_that_closes_the_surface():
 
 
 def test_unit_suspicion():
-    assert unit_suspicion(200.0).code == "mesh-in-millimeters"
-    assert unit_suspicion(0.0002).code == "mesh-scaled-twice"
-    assert unit_suspicion(0.3) is None
+    assert explain_unit_suspicion(200.0).code == "mesh-in-millimeters"
+    assert explain_unit_suspicion(0.0002).code == "mesh-scaled-twice"
+    assert explain_unit_suspicion(0.3) is None

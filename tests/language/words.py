@@ -66,39 +66,37 @@ VERBS = frozenset(
         r"\w+",
         """
         abort accept accumulate add adjust advance align allow anchor announce append apply
-        approximate ask assemble assert assign attach average begin bind blank blend block
-        blur bound build cache call cap cast change check choose clamp clear clip close
-        cluster collect color combine compact compare compile complete compose compress
-        compute concatenate configure connect consider construct convert copy correct count
-        couple cover create cut decide decimate declare decode decompose decorate
-        deduplicate delete describe deserialize detach detect determine diagnose diagonalize
-        digest disable discard dissolve distribute divide download draw drive drop dump edit
-        emit enable encode end enforce enlarge ensure enter enumerate escape estimate
-        evaluate exchange exclude execute exit expand explain export expose express extend
-        extract feed fetch fill filter find finish fit fix flatten flip flood fold follow
-        forbid force forget format freeze fuse gather generate get give group grow guard
-        guess halve handle hash hide highlight hold identify ignore implement import include
-        increment indent index infer inherit initialize insert inspect install integrate
-        interpolate intersect invert invoke iterate join judge keep kill label launch lay
-        leave let lift light limit link list load localize locate lock log look lower lump
-        make map mark mask match materialize measure memoize merge mirror mix move multiply
-        name narrow negate nest normalize notify number observe offer offset open order
-        orient overlay override overwrite pack pad paint pair parse partition pass pause
-        peek perform pick pickle place plan plot poll position precompute prefetch prefix
-        prepare prepend preserve print probe process produce project propagate propose prove
-        provide prune publish pull push put qualify quantize query quote raise rank read
-        rebuild receive recenter recognize recompute record redirect reduce refer refine
-        refit refresh refuse register reject relate release reload remove rename render
-        repair repeat replace report represent request require reset resize resolve restore
-        restrict resume retag retrieve return reuse reverse review rewrite rotate round
+        approximate ask assemble assert assign attach average begin bind blank blend block blur
+        bound build cache call canonicalize cap cast change check choose clamp clear clip close
+        cluster collect color combine compact compare compile complete compose compress compute
+        concatenate configure connect consider construct convert copy correct count couple cover
+        create cut decide decimate declare decode decompose decorate deduplicate delete describe
+        deserialize detach detect determine diagnose diagonalize digest disable discard dissolve
+        distribute divide download draw drive drop dump edit emit enable encode end enforce enlarge
+        ensure enter enumerate escape estimate evaluate exchange exclude execute exit expand explain
+        export expose express extend extract feed fetch fill filter find finish fit fix flatten flip
+        flood fold follow forbid force forecast forget format freeze fuse gather generate get give
+        group grow guard guess halve handle hash hide highlight hold identify ignore implement
+        import include increment indent index infer inherit initialize insert inspect install
+        integrate interpolate intersect invert invoke iterate join judge keep kill label launch lay
+        leave let lift light limit link list load localize locate lock log look lower lump make map
+        mark mask match materialize measure memoize merge mirror mix move multiply name narrow
+        negate nest normalize notify number observe offer offset open order orient overlay override
+        overwrite pack pad paint pair parse partition pass pause peek perform pick pickle place plan
+        plot poll position precompute prefetch prefix prepare prepend preserve print probe process
+        produce project propagate propose prove provide prune publish pull push put qualify quantize
+        query quote raise rank read rebuild receive recenter recognize recompute record redirect
+        reduce refer refine refit refresh refuse register reject relate release reload remove rename
+        render repair repeat replace report represent request require reset resize resolve restore
+        restrict resume retag retrieve return reuse reverse review revolve rewrite rotate round
         route run sample sanitize save scale scan schedule score search select send separate
-        serialize serve set settle shade shift shorten show shrink simplify simulate skip
-        slice smooth snap solve sort spawn splice split spread start state step stop store
-        stream strip submit substitute subtract suggest sum summarize supply support
-        suppress swap sweep sync take tell terminate tessellate test time tint toggle trace
-        track transform translate transpose traverse triangulate trim trust try turn unblock
-        undo unescape unify unite unpack unwrap update use validate verify view visit
-        voxelize wait walk warn watch weld wrap write yield zip
+        serialize serve set settle shade shift shorten show shrink simplify simulate skip slice
+        smooth snap solve sort spawn splice split spread start state step stop store stream strip
+        submit substitute subtract suggest sum summarize supply support suppress swap sweep sync
+        take tell terminate tessellate test thicken time tint toggle trace track transform translate
+        transpose traverse triangulate trim trust try turn unblock undo unescape unify unite unpack
+        unwrap update use validate verify view visit voxelize wait walk warn watch weld widen wrap
+        write yield zip
         """,
     )
 )

@@ -10,7 +10,7 @@ import trimesh
 from lxml import etree
 
 from tests.conftest import FIXTURES
-from urdftool.collision.cache import key_of
+from urdftool.collision.cache import compute_key
 from urdftool.collision.compute import Task
 from urdftool.formats.mjcf.cache import convert_all
 from urdftool.lint.run import check
@@ -100,7 +100,7 @@ def test_mass_and_collisions_follow_the_file(urdftool, parts):
 
 def test_results_that_are_kept_know_the_axis(urdftool, parts, tmp_path):
     for name in ("y", "z"):
-        keys = {key_of(Task(tmp_path / f"{name}.glb", gltf_up=up)) for up in ("y", "z")}
+        keys = {compute_key(Task(tmp_path / f"{name}.glb", gltf_up=up)) for up in ("y", "z")}
         assert len(keys) == 2
     lying, upright = (convert_all([(tmp_path / "z.glb", True, up)])[0] for up in ("y", "z"))
     again = convert_all([(tmp_path / "z.glb", True, "y")])[0]

@@ -11,7 +11,7 @@ from urdftool.compare.links import describe_shape
 from urdftool.formats import registry
 from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.sdf.options import Options as SdfOptions
-from urdftool.geometry.penetration import convex_of, overlap
+from urdftool.geometry.penetration import compute_overlap, make_convex
 from urdftool.geometry.tessellate import tessellate
 from urdftool.inertia.pieces import _get_primitive
 from urdftool.info.counts import count
@@ -58,7 +58,9 @@ def test_a_cone_touches_with_its_tip():
     cone, box = Cone(radius=0.5, length=1.0), Box(size=(1.0, 1.0, 1.0))
 
     def depth(z):
-        return overlap(convex_of(cone, IDENTITY), convex_of(box, Pose(translation=(0.0, 0.0, z))))
+        return compute_overlap(
+            make_convex(cone, IDENTITY), make_convex(box, Pose(translation=(0.0, 0.0, z)))
+        )
 
     assert depth(0.9) == pytest.approx(0.1)
     assert depth(1.1) <= 0
@@ -66,9 +68,9 @@ def test_a_cone_touches_with_its_tip():
 
 
 def test_an_ellipsoid_reaches_as_far_as_its_radii():
-    box = convex_of(Box(size=(2.0, 2.0, 2.0)), Pose(translation=(0.0, 0.0, 1.25)))
-    shape = convex_of(Ellipsoid(radii=(1.0, 1.0, 0.3)), IDENTITY)
-    assert overlap(shape, box) == pytest.approx(0.05, abs=1e-3)
+    box = make_convex(Box(size=(2.0, 2.0, 2.0)), Pose(translation=(0.0, 0.0, 1.25)))
+    shape = make_convex(Ellipsoid(radii=(1.0, 1.0, 0.3)), IDENTITY)
+    assert compute_overlap(shape, box) == pytest.approx(0.05, abs=1e-3)
 
 
 def test_shapes_are_named_without_an_element():

@@ -56,7 +56,7 @@ def simplify_collisions(
     """
     from ..collision.links import CollisionOptions, plan
     from ..collision.parallel import compute_all
-    from ..collision.robot import Place, check_place, tasks_of, write_robot
+    from ..collision.robot import Place, check_place, collect_tasks, write_robot
     from ..collision.settings import Settings
     from ..errors import ModelError, UrdftoolError
     from ..extras import require
@@ -76,7 +76,7 @@ def simplify_collisions(
         raise problem
     kept = DiskCache(cache_folder("collision") if cache else None)
     results = {}
-    for task, result in compute_all(tasks_of(plans), kept, jobs=jobs).items():
+    for task, result in compute_all(collect_tasks(plans), kept, jobs=jobs).items():
         if isinstance(result, UrdftoolError):
             raise result
         results[task] = result

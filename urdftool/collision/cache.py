@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from ..storage import DiskCache, cache_key
-from .compute import Result, Task, result_of
+from .compute import Result, Task, parse_result
 
 _VERSION = 12
 """Version of the results; increment it when the same settings give another result."""
 
 
-def known_result(cache: DiskCache, key: str) -> Result | None:
+def read_cached_result(cache: DiskCache, key: str) -> Result | None:
     """Return the cached result of a key; None if it is missing or damaged."""
     data = cache.get(key)
     try:
-        return None if data is None else result_of(data, cached=True)
+        return None if data is None else parse_result(data, cached=True)
     except ValueError:
         return None
 
 
-def key_of(task: Task) -> str | None:
+def compute_key(task: Task) -> str | None:
     """Return the key of a task's result; None if its file cannot be read."""
     suffix = task.path.suffix.lower()
     facts = [suffix, list(task.scale), task.settings.as_dict()]

@@ -17,11 +17,11 @@ from ..model.elements import Box, Capsule, Cone, Cylinder, Ellipsoid, Link, Mesh
 from ..model.pose import Pose, make_pose
 from ..parallel import Loss, count_cores, map_tasks
 from ..source.description import GltfUp
-from .convex import hull, planes, signed_distance
+from .convex import compute_hull, compute_planes, measure_plane_distance
 from .links import Shape
 from .measure import ReferenceSurface, measure
 from .parallel import Progress
-from .piece import Piece, mesh_piece, primitive
+from .piece import Piece, make_mesh_piece, make_primitive
 from .surface import Prepared, prepare, read_surface
 
 _CONVEX = 1e-3
@@ -80,8 +80,8 @@ def look_at(robot: Robot, link: Link, max_error: float = 0.05) -> Look | None:
         max_error: Largest acceptable relative error.
     """
     try:
-        visuals = tuple(part for shape in link.visuals for part in _parts(robot, shape))
-        collisions = tuple(part for shape in link.collisions for part in _parts(robot, shape))
+        visuals = tuple(part for shape in link.visuals for part in _list_parts(robot, shape))
+        collisions = tuple(part for shape in link.collisions for part in _list_parts(robot, shape))
     except UrdftoolError as error:
         return Look(link.name, (), (), str(error))
     if not visuals:
@@ -110,13 +110,13 @@ def check_all(
     found: list[Checked | None] = [None] * len(looks)
     workers = jobs or count_cores()
     for index, checked in map_tasks(
-        check_link, looks, workers=workers, on_lost=_lost, on_progress=under_way
+        check_link, looks, workers=workers, on_lost=_make_failure, on_progress=under_way
     ):
         found[index] = checked
     return [checked for checked in found if checked is not None]
 
 
-def _lost(look: Look, _: Loss) -> Checked:
+def _make_failure(look: Look, _: Loss) -> Checked:
     return Checked(look.link, None, "the process that measured it was killed twice")
 
 
@@ -125,16 +125,18 @@ def check_link(look: Look) -> Checked:
     if look.trouble:
         return Checked(look.link, None, look.trouble)
     try:
-        visual = _visual(look.visuals)
+        visual = _prepare_visual(look.visuals)
         if visual is None:
             return Checked(look.link, None, "its visuals have no area")
         target = ReferenceSurface(visual)
-        pieces = [_piece(part) for part in look.collisions]
+        pieces = [_convert_part(part) for part in look.collisions]
         found = measure(target, pieces).as_dict()
         concave = sum(piece.kind == "mesh" for piece in pieces)
         if not concave:
             return Checked(look.link, found)
-        hulls = [mesh_piece(*hull(p.vertices)) if p.kind == "mesh" else p for p in pieces]
+        hulls = [
+            make_mesh_piece(*compute_hull(p.vertices)) if p.kind == "mesh" else p for p in pieces
+        ]
         return Checked(look.link, found, "", concave, measure(target, hulls).error)
     except UrdftoolError as error:
         return Checked(look.link, None, str(error))
@@ -142,26 +144,26 @@ def check_link(look: Look) -> Checked:
         return Checked(look.link, None, f"it is too large to be measured ({type(error).__name__})")
 
 
-def _visual(parts: Sequence[Part]) -> Prepared | None:
+def _prepare_visual(parts: Sequence[Part]) -> Prepared | None:
     vertices, faces, first = [], [], 0
     for part in parts:
-        piece = _piece(part, told=False)
+        piece = _convert_part(part, told=False)
         vertices.append(piece.vertices)
         faces.append(piece.faces + first)
         first += len(piece.vertices)
     return prepare(np.concatenate(vertices), np.concatenate(faces))
 
 
-def shape_pieces(robot: Robot, shape: Shape) -> list[Piece]:
+def convert_shape(robot: Robot, shape: Shape) -> list[Piece]:
     """Convert a shape to pieces in the link's frame; a mesh counts as concave.
 
     Raises:
         UrdftoolError: Its mesh cannot be read.
     """
-    return [_piece(part, told=False) for part in _parts(robot, shape)]
+    return [_convert_part(part, told=False) for part in _list_parts(robot, shape)]
 
 
-def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
+def _list_parts(robot: Robot, shape: Shape) -> Iterator[Part]:
     """Yield a shape as written; nothing if its geometry is missing or unknown."""
     geometry, pose = shape.geometry, make_pose(shape.origin)
     if isinstance(geometry, Box):
@@ -182,7 +184,7 @@ def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
         yield Part(pose, "mesh", geometry.scale, path, robot.source.gltf_up)
 
 
-def _piece(part: Part, *, told: bool = True) -> Piece:
+def _convert_part(part: Part, *, told: bool = True) -> Piece:
     """Convert a shape to a piece in the link's frame.
 
     Args:
@@ -198,13 +200,13 @@ def _piece(part: Part, *, told: bool = True) -> Piece:
     if not far < FARTHEST:
         raise MeshError(f"its {part.kind} reaches {far:.3g} m, which is not measured")
     if part.kind in ("ellipsoid", "cone"):
-        return mesh_piece(*tessellate(part.kind, part.size)).posed(rotation, xyz)
+        return make_mesh_piece(*tessellate(part.kind, part.size)).transform(rotation, xyz)
     if part.path is None:
-        return primitive(part.kind, part.size, rotation, xyz)
+        return make_primitive(part.kind, part.size, rotation, xyz)
     x, y, z = part.size
     surface = read_surface(part.path, (x, y, z), part.gltf_up)
-    piece = mesh_piece(surface.vertices, surface.faces, convex=told and _is_convex(surface))
-    return piece.posed(rotation, xyz)
+    piece = make_mesh_piece(surface.vertices, surface.faces, convex=told and _is_convex(surface))
+    return piece.transform(rotation, xyz)
 
 
 def _is_convex(surface: Prepared) -> bool:
@@ -212,10 +214,10 @@ def _is_convex(surface: Prepared) -> bool:
     if not surface.closed:
         return False
     try:
-        sides = planes(*hull(surface.vertices))
+        sides = compute_planes(*compute_hull(surface.vertices))
     except UrdftoolError:
         return False
     middles: Points = surface.corners.mean(axis=1)
     some = middles[:: max(1, len(middles) // _FEW)]  # a few points reject most concave meshes
     most = -_CONVEX * surface.size
-    return all(signed_distance(points, sides).min() > most for points in (some, middles))
+    return all(measure_plane_distance(points, sides).min() > most for points in (some, middles))

@@ -15,18 +15,18 @@ import numpy as np
 
 from ..diagnostic import Diagnostic
 from ..errors import MeshError
-from ..geometry.topology import body_labels, edges_of, used_vertices
-from .convex import capped_hull, thickened
+from ..geometry.topology import find_edges, find_used_vertices, label_bodies
+from .convex import compute_capped_hull, thicken
 from .cut import Cutter
 from .cuts import PlaneCutter
 from .decimate import decimate
 from .decompose import DecompositionError
-from .measure import Measures, ReferenceSurface, hull_error, measure
+from .measure import Measures, ReferenceSurface, compute_hull_error, measure
 from .notes import FLAT_MESH, HULL_INSTEAD, HULL_OF_ENGINES, MORE_PIECES, make_note
-from .piece import PRIMITIVES, Piece, mesh_piece
-from .primitives import fit_primitives, signed_distance
+from .piece import PRIMITIVES, Piece, make_mesh_piece
+from .primitives import fit_primitives, measure_primitive_distance
 from .settings import Settings
-from .surface import Prepared, flat_labels
+from .surface import Prepared, label_flat_sides
 
 PLATE = 0.002
 """Thickness given to a flat mesh, relative to its size."""
@@ -72,17 +72,19 @@ def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
     """
     target = ReferenceSurface(surface, cores, settings.effort.cell)
     if _is_flat(surface):
-        return _plate(surface, target)
+        return _make_plate(surface, target)
     notes: list[Diagnostic] = []
     if settings.method == "auto":
-        best = _auto(target, settings, notes)
+        best = _choose_automatically(target, settings, notes)
     else:
         found = _METHODS[settings.method](target, settings, notes)
         best = min(found, key=lambda choice: (choice.measures.error, choice.measures.mean))
     return replace(best, notes=tuple(notes))
 
 
-def _auto(target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]) -> Choice:
+def _choose_automatically(
+    target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
+) -> Choice:
     """Return the cheapest choice within the error, or that with the smallest error."""
     cutter = PlaneCutter(target, settings.max_vertices, settings.effort)
     limit = settings.max_error * target.size
@@ -90,11 +92,11 @@ def _auto(target: ReferenceSurface, settings: Settings, notes: list[Diagnostic])
     hull = 0.0 if whole is None else whole.cost
     tried: list[Choice] = []
     steps: list[tuple[float, Iterator[Choice]]] = [
-        (_PRIMITIVE_WITHIN, _primitives(target, settings, notes)),
-        (_HULL_WITHIN, _hulls(target, settings, notes)),
-        (np.inf, _bodies(target, settings, notes, cutter)),
-        (np.inf, _sheets(target, settings, notes)),
-        (np.inf, _plane_cuts(target, settings, notes, cutter)),
+        (_PRIMITIVE_WITHIN, _try_primitives(target, settings, notes)),
+        (_HULL_WITHIN, _try_hulls(target, settings, notes)),
+        (np.inf, _try_bodies(target, settings, notes, cutter)),
+        (np.inf, _try_sheets(target, settings, notes)),
+        (np.inf, _try_plane_cuts(target, settings, notes, cutter)),
     ]
     for number, (within, choices) in enumerate(steps):
         if hull > within * limit:
@@ -107,16 +109,16 @@ def _auto(target: ReferenceSurface, settings: Settings, notes: list[Diagnostic])
                 if number:  # primitives are compared, as their costs differ little
                     break
         if fits:
-            return min(fits, key=lambda choice: _expense(choice, limit))
+            return min(fits, key=lambda choice: _compute_expense(choice, limit))
     if not tried:
-        tried += _hulls(target, settings, notes)
+        tried += _try_hulls(target, settings, notes)
     best = min(tried, key=lambda choice: (choice.measures.error, len(choice.pieces)))
     useful = _HELPS * best.measures.error
     notes[:] = [n for n in notes if n.code != MORE_PIECES or n.data["error"] < useful]
     return best
 
 
-def _expense(choice: Choice, wanted: float) -> float:
+def _compute_expense(choice: Choice, wanted: float) -> float:
     """Return the mean distance [m] plus a penalty for primitives that are costly in contact."""
     kind = choice.pieces[0].kind
     rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
@@ -130,26 +132,26 @@ def _is_flat(surface: Prepared) -> bool:
     return float(np.ptp(centred @ axes[:, 0])) <= 1e-6 * surface.size
 
 
-def _plate(surface: Prepared, target: ReferenceSurface) -> Choice:
+def _make_plate(surface: Prepared, target: ReferenceSurface) -> Choice:
     thickness = PLATE * surface.size
-    vertices, faces = capped_hull(thickened(surface.vertices, thickness), 64)
-    pieces = [mesh_piece(vertices, faces)]
+    vertices, faces = compute_capped_hull(thicken(surface.vertices, thickness), 64)
+    pieces = [make_mesh_piece(vertices, faces)]
     text = f"The mesh is flat; its collision is its outline, {thickness * 1000:.3g} mm thick."
     return Choice("hull", pieces, measure(target, pieces), (make_note(FLAT_MESH, text),))
 
 
-def _primitives(
+def _try_primitives(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield the primitives with the smallest largest distance from the visual."""
     even = target.uniform_samples
     fits = fit_primitives(even)
-    fits.sort(key=lambda piece: float(np.abs(signed_distance(piece, even)).max()))
+    fits.sort(key=lambda piece: float(np.abs(measure_primitive_distance(piece, even)).max()))
     for piece in fits[:_MEASURED]:
         yield Choice("primitive", [piece], measure(target, [piece]))
 
 
-def _hulls(
+def _try_hulls(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield one hull: with as few vertices as the error allows, then with as many as permitted."""
@@ -158,28 +160,28 @@ def _hulls(
     if settings.method == "auto":
         tolerances = [_SHARE * settings.max_error * target.size, 0.0]
     for tolerance in tolerances:
-        vertices, faces = capped_hull(points, settings.max_vertices, tolerance)
-        pieces = [mesh_piece(vertices, faces)]
+        vertices, faces = compute_capped_hull(points, settings.max_vertices, tolerance)
+        pieces = [make_mesh_piece(vertices, faces)]
         choice = Choice("hull", pieces, measure(target, pieces))
         yield choice
         if choice.measures.error > 3 * settings.max_error:
             return
 
 
-def _bodies(
+def _try_bodies(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic], cutter: PlaneCutter
 ) -> Iterator[Choice]:
     """Yield one hull per exterior body, if there are several but not too many."""
     surface = target.surface
-    labels = body_labels(len(surface.faces), edges_of(surface.faces))
+    labels = label_bodies(len(surface.faces), find_edges(surface.faces))
     count = int(labels.max()) + 1
     if count < 2:
         return
-    seen = target.exterior.touches(surface.vertices)
+    seen = target.exterior.is_touchable(surface.vertices)
     limit = settings.max_error * target.size
     pieces: list[Piece] = []
     for label in range(count):
-        used = used_vertices(surface.faces[labels == label], len(surface.vertices))
+        used = find_used_vertices(surface.faces[labels == label], len(surface.vertices))
         if not seen[used].any():
             continue
         points = surface.vertices[used]
@@ -187,39 +189,39 @@ def _bodies(
             continue
         if len(pieces) == settings.most:
             return
-        part = cutter.partition.whole(points, np.zeros((0, 3), np.int64))
+        part = cutter.partition.make_whole(points, np.zeros((0, 3), np.int64))
         if part is None:  # a decal, or an isolated face
             continue
         if part.cost > _HULL_WITHIN * limit:
             return
-        vertices, faces = capped_hull(points, settings.max_vertices, _SHARE * limit)
-        pieces.append(mesh_piece(vertices, faces))
+        vertices, faces = compute_capped_hull(points, settings.max_vertices, _SHARE * limit)
+        pieces.append(make_mesh_piece(vertices, faces))
     if len(pieces) > 1:
         yield Choice("hull", pieces, measure(target, pieces))
 
 
-def _sheets(
+def _try_sheets(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield one plate per flat side of an open mesh, if there are not too many."""
     surface = target.surface
     if surface.closed:
         return
-    labels = flat_labels(surface)
+    labels = label_flat_sides(surface)
     if int(labels.max()) + 1 > settings.most:
         return
     try:
         pieces = []
         for label in range(int(labels.max()) + 1):
             points = surface.vertices[np.unique(surface.faces[labels == label])]
-            plate = thickened(points, PLATE * surface.size)
-            pieces.append(mesh_piece(*capped_hull(plate, settings.max_vertices)))
+            plate = thicken(points, PLATE * surface.size)
+            pieces.append(make_mesh_piece(*compute_capped_hull(plate, settings.max_vertices)))
     except MeshError:  # a sliver
         return
     yield Choice("hull", pieces, measure(target, pieces))
 
 
-def _plane_cuts(
+def _try_plane_cuts(
     target: ReferenceSurface,
     settings: Settings,
     notes: list[Diagnostic],
@@ -230,18 +232,18 @@ def _plane_cuts(
     found = cutter.decompose(settings.max_error, settings.most)
     if found is None:
         if settings.method != "auto":
-            yield from _hulls(target, settings, notes)
+            yield from _try_hulls(target, settings, notes)
         return
     error = found.measures.error
     if error > settings.max_error:
         more = 2 * settings.most
-        forecast = cutter.forecast(found, more, settings.max_error)
+        forecast = cutter.forecast_error(found, more, settings.max_error)
         text = f"{more} pieces would give an error of about {forecast:.1%}."
         notes.append(make_note(MORE_PIECES, text, {"pieces": more, "error": forecast}))
     yield Choice("cuts", found.pieces, found.measures)
 
 
-def _coacd(
+def _try_coacd(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield CoACD's result at its threshold; a coarser one if it fails, and one hull if both do."""
@@ -259,38 +261,38 @@ def _coacd(
         yield Choice("coacd", *made)
         return
     notes.append(make_note(HULL_INSTEAD, "One convex hull was taken instead."))
-    yield from _hulls(target, settings, notes)
+    yield from _try_hulls(target, settings, notes)
 
 
-def _simplified(
+def _try_simplification(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield the mesh with fewer triangles."""
     surface = target.surface
     vertices, faces = decimate(surface.vertices, surface.faces, settings.max_triangles)
-    pieces = [mesh_piece(vertices, faces, convex=False)]
-    error = hull_error(target, pieces[0])
+    pieces = [make_mesh_piece(vertices, faces, convex=False)]
+    error = compute_hull_error(target, pieces[0])
     if error > settings.max_error:
         text = f"Physics engines use the convex hull of a moving mesh; its error is {error:.2%}."
         notes.append(make_note(HULL_OF_ENGINES, text, {"error": error}))
     yield Choice("simplify", pieces, measure(target, pieces))
 
 
-def _spheres(
+def _try_spheres(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield a cover by few spheres, of which none protrudes by more than the error."""
-    from .spheres import cover
+    from .spheres import cover_with_spheres
 
-    pieces = cover(target, settings.max_error, settings.max_hulls)
+    pieces = cover_with_spheres(target, settings.max_error, settings.max_hulls)
     yield Choice("spheres", pieces, measure(target, pieces))
 
 
 _METHODS: dict[str, Callable[[ReferenceSurface, Settings, list[Diagnostic]], Iterator[Choice]]] = {
-    "primitive": _primitives,
-    "hull": _hulls,
-    "cuts": _plane_cuts,
-    "coacd": _coacd,
-    "spheres": _spheres,
-    "simplify": _simplified,
+    "primitive": _try_primitives,
+    "hull": _try_hulls,
+    "cuts": _try_plane_cuts,
+    "coacd": _try_coacd,
+    "spheres": _try_spheres,
+    "simplify": _try_simplification,
 }

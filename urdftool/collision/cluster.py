@@ -12,10 +12,12 @@ from typing import Any
 
 from ..errors import UrdftoolError
 from ..extras import make_missing_error
-from .compute import Task, attempt
+from .compute import Task, try_compute
 
 
-def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes | UrdftoolError]]:
+def run_on_cluster(
+    tasks: Sequence[Task], address: str
+) -> Iterator[tuple[int, bytes | UrdftoolError]]:
     """Yield the index and outcome of each task, in order of completion.
 
     Args:
@@ -39,7 +41,7 @@ def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes
         ) from error
     with client:
         futures = {
-            client.submit(simplify_file, task, _files(task.path), pure=False): index
+            client.submit(simplify_file, task, _read_files(task.path), pure=False): index
             for index, task in enumerate(tasks)
         }
         for future in library.as_completed(list(futures)):
@@ -64,13 +66,13 @@ def simplify_file(task: Task, files: dict[str, bytes]) -> bytes | UrdftoolError:
     with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
         for name, data in files.items():
             (Path(folder) / name).write_bytes(data)
-        outcome = attempt(replace(task, path=Path(folder) / task.path.name))
+        outcome = try_compute(replace(task, path=Path(folder) / task.path.name))
     if isinstance(outcome, UrdftoolError) and outcome.path is not None:
         return type(outcome)(outcome.message, path=task.path)
     return outcome
 
 
-def _files(path: Path) -> dict[str, bytes]:
+def _read_files(path: Path) -> dict[str, bytes]:
     """Read the mesh file, and the buffers in its folder if it is glTF."""
     paths = [path]
     if path.suffix.lower() == ".gltf":

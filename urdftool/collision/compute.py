@@ -13,7 +13,7 @@ from ..diagnostic import Diagnostic
 from ..errors import MeshError, UrdftoolError
 from ..source.description import GltfUp
 from .notes import COACD_KILLED, pack_note, unpack_note
-from .piece import Piece, piece_of
+from .piece import Piece, parse_piece
 from .settings import Settings
 
 Vector = tuple[float, float, float]
@@ -74,7 +74,7 @@ class Result:
         return not any(note.code == COACD_KILLED for note in self.diagnostics)
 
     def as_bytes(self) -> bytes:
-        """Serialize the result for :func:`result_of`."""
+        """Serialize the result for :func:`parse_result`."""
         table = {
             "method": self.method,
             "pieces": [piece.as_dict() for piece in self.pieces],
@@ -86,7 +86,7 @@ class Result:
         return json.dumps(table, separators=(",", ":")).encode()
 
 
-def result_of(data: bytes, *, cached: bool = False) -> Result:
+def parse_result(data: bytes, *, cached: bool = False) -> Result:
     """Deserialize the output of :meth:`Result.as_bytes`.
 
     Raises:
@@ -96,7 +96,7 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
         table = json.loads(data)
         return Result(
             table["method"],
-            [piece_of(piece) for piece in table["pieces"]],
+            [parse_piece(piece) for piece in table["pieces"]],
             table["measures"],
             table["before"],
             tuple(unpack_note(note) for note in table["notes"]),
@@ -132,7 +132,7 @@ def compute(task: Task, cores: int = 1) -> Result:
     )
 
 
-def attempt(task: Task, cores: int = 1) -> bytes | UrdftoolError:
+def try_compute(task: Task, cores: int = 1) -> bytes | UrdftoolError:
     """Run :func:`compute`, and return errors as values, so that they can cross processes."""
     try:
         return compute(task, cores).as_bytes()
@@ -144,7 +144,7 @@ def attempt(task: Task, cores: int = 1) -> bytes | UrdftoolError:
         )
 
 
-def shown_scale(scale: Sequence[float]) -> str:
+def format_scale(scale: Sequence[float]) -> str:
     """Format a scale such as ``×0.001``; empty if all factors are 1."""
     if all(factor == 1 for factor in scale):
         return ""

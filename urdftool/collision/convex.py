@@ -7,14 +7,14 @@ import numpy.typing as npt
 
 from ..errors import MeshError
 from ..geometry.mesh import Faces, Points
-from .vec3 import dot, lengths, normals
+from .vec3 import compute_dot, compute_lengths, compute_normals
 
-_BATCH = 6  # points that are added to a hull at once
+_BATCH = 6  # points that are added to a hull in one step
 _APART = 4.0  # their least distance, in multiples of that from the hull
 _AT_ONCE = 200_000  # point-plane distances per block
 
 
-def hull(points: Points) -> tuple[Points, Faces]:
+def compute_hull(points: Points) -> tuple[Points, Faces]:
     """Compute the convex hull of points, with its triangles wound outward.
 
     Raises:
@@ -30,12 +30,12 @@ def hull(points: Points) -> tuple[Points, Faces]:
     seen[found.simplices] = True
     faces = (np.cumsum(seen) - 1)[found.simplices]
     vertices = points[seen]
-    inwards = dot(normals(vertices[faces]), found.equations) < 0
+    inwards = compute_dot(compute_normals(vertices[faces]), found.equations) < 0
     faces[inwards] = faces[inwards][:, ::-1]
     return vertices, faces[np.lexsort(faces.T[::-1])]
 
 
-def capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Points, Faces]:
+def compute_capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Points, Faces]:
     """Compute a convex hull of few of the points.
 
     Starting from extreme points, it repeatedly adds the point farthest outside, until no point is
@@ -49,21 +49,21 @@ def capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Poin
     Raises:
         MeshError: The points lie in a plane.
     """
-    outer, faces = hull(points)
+    outer, faces = compute_hull(points)
     if len(outer) <= min(most, 8):
         return outer, faces
-    chosen = _first(outer, most)
+    chosen = _select_first(outer, most)
     while True:
-        vertices, faces = hull(outer[chosen])
-        beyond = signed_distance(outer, planes(vertices, faces))
+        vertices, faces = compute_hull(outer[chosen])
+        beyond = measure_plane_distance(outer, compute_planes(vertices, faces))
         beyond[chosen] = -np.inf
         worst = float(beyond.max())
         if worst <= tolerance or len(chosen) >= most:
             return vertices, faces
-        chosen += _farthest(outer, beyond, max(tolerance, worst / 2), most - len(chosen))
+        chosen += _select_farthest(outer, beyond, max(tolerance, worst / 2), most - len(chosen))
 
 
-def _farthest(points: Points, beyond: Points, tolerance: float, most: int) -> list[int]:
+def _select_farthest(points: Points, beyond: Points, tolerance: float, most: int) -> list[int]:
     """Select the points that are farthest outside, and not next to each other."""
     found: list[int] = []
     left = np.flatnonzero(beyond > tolerance)
@@ -75,7 +75,7 @@ def _farthest(points: Points, beyond: Points, tolerance: float, most: int) -> li
     return found or [int(np.argmax(beyond))]
 
 
-def _first(outer: Points, most: int) -> list[int]:
+def _select_first(outer: Points, most: int) -> list[int]:
     """Select at least four points that span a volume, including extremes along the axes."""
     chosen: list[int] = []
     start = int(np.argmax(np.linalg.norm(outer - outer.mean(axis=0), axis=1)))
@@ -95,24 +95,24 @@ def _first(outer: Points, most: int) -> list[int]:
     return chosen
 
 
-def planes(vertices: Points, faces: Faces) -> Points:
+def compute_planes(vertices: Points, faces: Faces) -> Points:
     """Compute the planes of triangles: outward unit normal and offset, shape (m, 4).
 
     Triangles without area, and all but one of coplanar triangles, are dropped.
     """
     corners = vertices[faces]
-    normal = normals(corners)
-    long = lengths(normal)
+    normal = compute_normals(corners)
+    long = compute_lengths(normal)
     extent = float(np.ptp(vertices, axis=0).max())
     sound = long > 1e-12 * extent**2
     found = np.empty((np.count_nonzero(sound), 4))
     found[:, :3] = normal[sound] / long[sound, None]
-    found[:, 3] = dot(found, corners[sound, 0])
+    found[:, 3] = compute_dot(found, corners[sound, 0])
     scale = np.array([1, 1, 1, 1 / max(extent, 1e-300)])
-    return found[_first_of_each(np.round(found * scale, 6))]
+    return found[_find_first_of_each(np.round(found * scale, 6))]
 
 
-def _first_of_each(rows: Points) -> npt.NDArray[np.int64]:
+def _find_first_of_each(rows: Points) -> npt.NDArray[np.int64]:
     """Return the index of the first of each group of equal rows, shape (n, 4), ascending."""
     order = np.lexsort(rows.T)
     ordered = rows[order]
@@ -121,7 +121,7 @@ def _first_of_each(rows: Points) -> npt.NDArray[np.int64]:
     return np.sort(order[new])  # lexsort is stable
 
 
-def signed_distance(points: Points, sides: Points) -> Points:
+def measure_plane_distance(points: Points, sides: Points) -> Points:
     """Compute the largest signed distance [m] of points to planes; negative inside.
 
     For a convex shape it is the exact distance inside and near faces, and too small outside near
@@ -142,7 +142,7 @@ def signed_distance(points: Points, sides: Points) -> Points:
     return result
 
 
-def thickened(points: Points, thickness: float) -> Points:
+def thicken(points: Points, thickness: float) -> Points:
     """Move copies of the points of a flat mesh to both sides of their plane.
 
     Args:

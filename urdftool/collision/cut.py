@@ -6,12 +6,12 @@ import math
 from functools import cached_property
 
 from ..diagnostic import Diagnostic
-from .convex import capped_hull
-from .decompose import Budget, DecompositionError, decompose, divided, solid_of
-from .measure import Measures, ReferenceSurface, excess_of_each, measure
+from .convex import compute_capped_hull
+from .decompose import Budget, DecompositionError, decompose, divide, make_solid
+from .measure import Measures, ReferenceSurface, compute_excess_of_each, measure
 from .merge import Joiner
 from .notes import make_note
-from .piece import Piece, mesh_piece
+from .piece import Piece, make_mesh_piece
 from .settings import Settings
 from .surface import Prepared
 
@@ -50,7 +50,7 @@ class Cutter:
     @cached_property
     def solid(self) -> Prepared:
         """Return the closed surface that is cut."""
-        return solid_of(self.target)
+        return make_solid(self.target)
 
     @cached_property
     def joiner(self) -> Joiner:
@@ -81,21 +81,21 @@ class Cutter:
             cores=self.target.cores,
         )
         if self.most is None:
-            cuts = self._recut(cuts, distance)
-        return self._fewer(cuts, distance, within)
+            cuts = self._cut_again(cuts, distance)
+        return self._reduce(cuts, distance, within)
 
-    def _fewer(
+    def _reduce(
         self, cuts: list[Piece], distance: float, within: float
     ) -> tuple[list[Piece], Measures]:
         """Join and trim pieces; return the first acceptable result, or else the most accurate."""
         joins = _Joins(self.joiner, cuts)
         tried: list[tuple[float, int, list[Piece], Measures]] = []
         for join in JOINS:
-            living = joins.within(join * distance)
+            living = joins.get_within(join * distance)
             before = math.inf
             for trim in TRIMS:
-                pieces = self._trimmed(living, trim * min(distance, within))
-                if not self._affordable(pieces):
+                pieces = self._trim(living, trim * min(distance, within))
+                if not self._is_affordable(pieces):
                     break
                 measures = measure(self.target, pieces)
                 if measures.hausdorff <= within:
@@ -109,26 +109,31 @@ class Cutter:
             return pieces, measures
         while True:
             distance *= COARSER
-            living = joins.within(distance)
-            pieces = self._trimmed(living, distance)
-            if self._affordable(pieces) or distance > self.target.size:
+            living = joins.get_within(distance)
+            pieces = self._trim(living, distance)
+            if self._is_affordable(pieces) or distance > self.target.size:
                 return pieces, measure(self.target, pieces)
 
-    def _affordable(self, pieces: list[Piece]) -> bool:
+    def _is_affordable(self, pieces: list[Piece]) -> bool:
         return sum(len(piece.faces) for piece in pieces) <= self.settings.max_triangles
 
-    def _trimmed(self, pieces: list[Piece], tolerance: float) -> list[Piece]:
+    def _trim(self, pieces: list[Piece], tolerance: float) -> list[Piece]:
         most = self.settings.max_vertices
-        return [mesh_piece(*capped_hull(piece.vertices, most, tolerance)) for piece in pieces]
+        return [
+            make_mesh_piece(*compute_capped_hull(piece.vertices, most, tolerance))
+            for piece in pieces
+        ]
 
-    def _recut(self, pieces: list[Piece], distance: float) -> list[Piece]:
-        beyond = excess_of_each(self.target, pieces)
-        off = [max(far, self.joiner.burial(p)) for far, p in zip(beyond, pieces, strict=True)]
+    def _cut_again(self, pieces: list[Piece], distance: float) -> list[Piece]:
+        beyond = compute_excess_of_each(self.target, pieces)
+        off = [
+            max(far, self.joiner.measure_burial(p)) for far, p in zip(beyond, pieces, strict=True)
+        ]
         worst = sorted((d, index) for index, d in enumerate(off) if d > distance)[-AGAIN:]
         found = list(pieces)
         for _, index in worst:
             try:
-                parts = divided(
+                parts = divide(
                     self.solid,
                     pieces[index],
                     distance / 2,
@@ -151,9 +156,9 @@ class _Joins:
 
     def __init__(self, joiner: Joiner, cuts: list[Piece]) -> None:
         self.levels = [(0.0, cuts)]
-        self.steps = joiner.steps(cuts)
+        self.steps = joiner.join_stepwise(cuts)
 
-    def within(self, distance: float) -> list[Piece]:
+    def get_within(self, distance: float) -> list[Piece]:
         """Return the pieces after all joins that cost at most a distance [m]."""
         while self.levels[-1][0] <= distance:
             step = next(self.steps, None)

@@ -14,12 +14,12 @@ from functools import cached_property
 import numpy as np
 
 from ..geometry.mesh import Points
-from .convex import capped_hull, signed_distance
+from .convex import compute_capped_hull, measure_plane_distance
 from .distance import Samples, spread
 from .measure import Deviation, Measures, ReferenceSurface, measure_and_locate
-from .outline import outline
-from .partition import Part, Partition, burial, probes_of
-from .piece import Piece, mesh_piece
+from .outline import compute_outline
+from .partition import Part, Partition, compute_burial, make_probes
+from .piece import Piece, make_mesh_piece
 from .settings import Effort
 
 _PROBES = 20_000  # sampled; about half of them are used
@@ -56,11 +56,11 @@ class PlaneCutter:
     def samples(self) -> Samples:
         """Return the exterior points at which burial is estimated."""
         samples = spread(self.target.corners, _PROBES)
-        samples = samples.only(np.arange(len(samples)) % 2 == 0)
-        reached = self.target.exterior.touches(samples.points)
-        return samples.only(reached) if reached.any() else samples
+        samples = samples.select(np.arange(len(samples)) % 2 == 0)
+        reached = self.target.exterior.is_touchable(samples.points)
+        return samples.select(reached) if reached.any() else samples
 
-    def _partition(self) -> Partition:
+    def _make_partition(self) -> Partition:
         target, samples = self.target, self.samples
         if len(self.missed):
             _, at = target.nearest.tree.query(self.missed)
@@ -69,21 +69,21 @@ class PlaneCutter:
             samples = Samples(points, owners)
         extra = np.zeros(len(samples))
         extra[len(samples) - len(self.extra) :] = self.extra
-        probes = probes_of(samples.points, target.corners, samples.owners, extra)
+        probes = make_probes(samples.points, target.corners, samples.owners, extra)
         return Partition(target.exterior, probes, target.size)
 
     @cached_property
     def partition(self) -> Partition:
         """Return the search with the first probes."""
-        return self._partition()
+        return self._make_partition()
 
     @cached_property
     def whole(self) -> Part | None:
         """Return the uncut surface; None if it is flat."""
         surface = self.target.surface
         if len(surface.faces) <= _SMALL and self.target.enclosed < _ENCLOSED:
-            return self.partition.whole(surface.vertices, surface.faces)
-        return self.partition.whole(*outline(self.target))
+            return self.partition.make_whole(surface.vertices, surface.faces)
+        return self.partition.make_whole(*compute_outline(self.target))
 
     def decompose(self, max_error: float, most: int) -> Decomposition | None:
         """Decompose the mesh into the fewest pieces within an error.
@@ -104,9 +104,9 @@ class PlaneCutter:
             parts = min(parts, again, key=_estimate)
         best = self._finish(parts, max_error)
         for _ in range(self.effort.retries):
-            if best.measures.error <= max_error or not self._learn(best):
+            if best.measures.error <= max_error or not self._add_missed_probes(best):
                 break
-            old = [self.partition.reprice(part) for part in best.parts]
+            old = [self.partition.update_cost(part) for part in best.parts]
             parts = self._search(old, most, goal, dense=True)
             if _estimate(parts) >= _estimate(old):
                 break
@@ -121,9 +121,9 @@ class PlaneCutter:
         surplus = most if most == 1 else int(np.ceil(self.effort.surplus * most))
         found = partition.cut(parts, surplus, goal, dense=dense)
         found = partition.join(found, goal, most)
-        return partition.improve(found, goal, self.effort.rounds, dense=dense)
+        return partition.refine(found, goal, self.effort.rounds, dense=dense)
 
-    def _learn(self, found: Decomposition) -> bool:
+    def _add_missed_probes(self, found: Decomposition) -> bool:
         """Make probes of the points that are deeper than estimated; return whether there are any.
 
         A point may have been missed, or be deep in the union of parts but not in any one of them.
@@ -131,37 +131,37 @@ class PlaneCutter:
         points, reach = found.deviation.worst, found.deviation.depth
         if not len(points):
             return False
-        estimate = np.max([burial(part, points) for part in found.parts], axis=0)
+        estimate = np.max([compute_burial(part, points) for part in found.parts], axis=0)
         extra = np.maximum(reach - estimate, 0)
         self.missed = np.concatenate([self.missed, points])
         self.extra = np.concatenate([self.extra, extra])
-        self.partition = self._partition()
+        self.partition = self._make_partition()
         return True
 
-    def forecast(self, found: Decomposition, most: int, max_error: float) -> float:
+    def forecast_error(self, found: Decomposition, most: int, max_error: float) -> float:
         """Estimate the error with another number of pieces, from the one that was measured."""
         goal = _GOAL * max_error * self.target.size
         before = max(_estimate(found.parts), 1e-12)
-        parts = [self.partition.reprice(part) for part in found.parts]
+        parts = [self.partition.update_cost(part) for part in found.parts]
         more = self._search(parts, most, goal, dense=False)
         return found.measures.error * min(1.0, _estimate(more) / before)
 
     def _finish(self, parts: Sequence[Part], max_error: float) -> Decomposition:
-        pieces = self._pieces(parts, max_error)
+        pieces = self._make_pieces(parts, max_error)
         measures, deviation = measure_and_locate(self.target, pieces)
         return Decomposition(pieces, measures, list(parts), deviation)
 
-    def _pieces(self, parts: Sequence[Part], max_error: float) -> list[Piece]:
+    def _make_pieces(self, parts: Sequence[Part], max_error: float) -> list[Piece]:
         """Make hulls of few vertices, and extend them over exterior points outside of all."""
         size = self.target.size
         tolerance = max(_TOLERANCE * max_error, _FINEST) * size
-        hulls = [self._capped(part.hull, tolerance) for part in parts]
+        hulls = [self._make_capped_piece(part.hull, tolerance) for part in parts]
         points = self.target.exterior_samples
         outside = np.arange(len(points))
         off = np.full(len(points), np.inf)
         owner = np.zeros(len(points), dtype=np.int64)
         for number, piece in enumerate(hulls):
-            away = signed_distance(points[outside], piece.sides)
+            away = measure_plane_distance(points[outside], piece.sides)
             nearer = away < off[outside]
             off[outside[nearer]] = away[nearer]
             owner[outside[nearer]] = number
@@ -169,12 +169,12 @@ class PlaneCutter:
         left = outside[off[outside] > max(_COVERED * size, tolerance)]
         for number in np.unique(owner[left]).tolist():
             more = np.concatenate([parts[number].hull, points[left[owner[left] == number]]])
-            hulls[number] = self._capped(more, tolerance)
+            hulls[number] = self._make_capped_piece(more, tolerance)
         return sorted(hulls, key=_order)
 
-    def _capped(self, points: Points, tolerance: float) -> Piece:
-        vertices, faces = capped_hull(points, self.max_vertices, tolerance)
-        return mesh_piece(vertices, faces)
+    def _make_capped_piece(self, points: Points, tolerance: float) -> Piece:
+        vertices, faces = compute_capped_hull(points, self.max_vertices, tolerance)
+        return make_mesh_piece(vertices, faces)
 
 
 def _order(piece: Piece) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
-from ..geometry.topology import used_vertices
+from ..geometry.topology import find_used_vertices
 
 BORDER_WEIGHT = 10.0
 """Weight of the planes that keep open borders in place, relative to those of the faces."""
@@ -51,13 +51,13 @@ def decimate(vertices: Points, faces: Faces, target: int) -> tuple[Points, Faces
     if len(faces) <= target:
         return vertices, faces
     low, high = vertices.min(axis=0), vertices.max(axis=0)
-    original = used_vertices(faces, len(vertices))
+    original = find_used_vertices(faces, len(vertices))
     number = np.zeros(len(vertices), dtype=np.int32)
     number[original] = np.arange(len(original))
     points = (vertices[original] - (low + high) / 2) / max(float((high - low).max()), 1e-300)
     tie_breaks = np.random.default_rng(0).permutation(len(points))
     mesh = _Mesh(points, number[faces])
-    quadrics = _initial_quadrics(mesh)
+    quadrics = _sum_initial_quadrics(mesh)
     try_all = False
     while len(mesh.faces) > target:
         share = 1.0 if try_all else LARGE_SHARE if len(mesh.faces) > LARGE_MESH else CHEAPEST
@@ -113,18 +113,18 @@ class _Mesh:
         self._face_starts, self._faces_of = incident.indptr, incident.indices
         self.edges = edges
 
-    def faces_around(self, vertices: _Array, onto: _Array) -> tuple[_Array, _Array, _Array]:
+    def find_faces_around(self, vertices: _Array, onto: _Array) -> tuple[_Array, _Array, _Array]:
         """Find the faces around vertices.
 
         Returns:
             The row in ``vertices`` of each face, its corners, and whether ``onto`` is one of them.
         """
-        rows, at = _entries(self._face_starts, vertices)
+        rows, at = _list_entries(self._face_starts, vertices)
         corners = self.faces[self._faces_of[at]]
         return rows, corners, (corners == onto[rows][:, None]).any(axis=1)
 
 
-def _entries(starts: _Array, rows: _Array) -> tuple[_Array, _Array]:
+def _list_entries(starts: _Array, rows: _Array) -> tuple[_Array, _Array]:
     """List the entries of compressed rows: the index into ``rows`` and the position of each."""
     counts = starts[rows + 1] - starts[rows]
     owner = np.repeat(np.arange(len(rows)), counts)
@@ -132,7 +132,7 @@ def _entries(starts: _Array, rows: _Array) -> tuple[_Array, _Array]:
     return owner, np.arange(len(owner)) - first[owner] + starts[rows][owner]
 
 
-def _plane_quadrics(normals: _Floats, points: Points, weights: _Floats) -> _Floats:
+def _compute_plane_quadrics(normals: _Floats, points: Points, weights: _Floats) -> _Floats:
     """Compute weighted quadrics of planes: xx yy zz xy yz zx xd yd zd dd, and the weight."""
     d = -np.einsum("ij,ij->i", normals, points)
     x, y, z = normals.T
@@ -140,7 +140,7 @@ def _plane_quadrics(normals: _Floats, points: Points, weights: _Floats) -> _Floa
     return np.stack(terms, axis=1) * weights[:, None]
 
 
-def _initial_quadrics(mesh: _Mesh) -> _Floats:
+def _sum_initial_quadrics(mesh: _Mesh) -> _Floats:
     """Sum the quadrics of the faces at each vertex, and of walls along open borders."""
     points, faces = mesh.points, mesh.faces
     a, b, c = (points[faces[:, corner]] for corner in range(3))
@@ -153,7 +153,7 @@ def _initial_quadrics(mesh: _Mesh) -> _Floats:
         for term in range(11):
             total[:, term] += np.bincount(at, quadrics[:, term], len(points))
 
-    planes = _plane_quadrics(normals, a, areas)
+    planes = _compute_plane_quadrics(normals, a, areas)
     for corner in range(3):
         add(faces[:, corner], planes)
     if mesh.is_open.any():
@@ -163,13 +163,13 @@ def _initial_quadrics(mesh: _Mesh) -> _Floats:
         along = points[head] - points[tail]
         lengths = np.linalg.norm(along, axis=1)
         walls = np.cross(along / np.maximum(lengths, 1e-300)[:, None], normals[face])
-        planes = _plane_quadrics(walls, points[tail], BORDER_WEIGHT * lengths**2)
+        planes = _compute_plane_quadrics(walls, points[tail], BORDER_WEIGHT * lengths**2)
         add(tail, planes)
         add(head, planes)
     return total
 
 
-def _costs(quadrics: _Floats, points: Points) -> _Floats:
+def _evaluate_costs(quadrics: _Floats, points: Points) -> _Floats:
     """Evaluate quadrics at points, divided by the root of their weights.
 
     Division by the full weight would give the mean squared distance, in which a small feature next
@@ -200,7 +200,7 @@ def _select_merges(
         The vertices, no two of which are neighbors, and the neighbor each is merged into.
     """
     count, ends = len(mesh.points), mesh.ends
-    costs = _costs(quadrics[mesh.tails], mesh.points[ends])
+    costs = _evaluate_costs(quadrics[mesh.tails], mesh.points[ends])
     on_border = np.zeros(count, bool)
     on_border[mesh.tails[mesh.is_open]] = True
     costs[on_border[mesh.tails] & ~mesh.is_open] = np.inf  # borders keep their shape
@@ -212,11 +212,11 @@ def _select_merges(
     chosen = np.full(count, -1, np.int64)
     waiting = np.flatnonzero(possible & (least <= limit))
     for _ in range(ATTEMPTS if share < 1 else 50):
-        edges, below = _cheapest_edges(mesh, costs, waiting, limit)
+        edges, below = _find_cheapest_edges(mesh, costs, waiting, limit)
         waiting, edges = waiting[below], edges[below]
         if not len(waiting):
             break
-        folds = _folds(mesh, waiting, ends[edges])
+        folds = _find_folding(mesh, waiting, ends[edges])
         chosen[waiting[~folds]] = edges[~folds]
         costs[edges[folds]] = np.inf
         waiting = waiting[folds]
@@ -226,19 +226,19 @@ def _select_merges(
     rank = np.full(count, count, np.int64)
     order = np.lexsort((tie_breaks[movable], costs[chosen[movable]]))
     rank[movable[order]] = np.arange(len(movable))
-    moved = _independent(mesh, rank)
+    moved = _select_independent(mesh, rank)
     onto = ends[chosen[moved]]
-    rows, _, shared = mesh.faces_around(moved, onto)
+    rows, _, shared = mesh.find_faces_around(moved, onto)
     removed = np.cumsum(np.bincount(rows, shared, len(moved)))
     enough = int(np.searchsorted(removed, excess)) + 1
     return moved[:enough], onto[:enough]
 
 
-def _cheapest_edges(
+def _find_cheapest_edges(
     mesh: _Mesh, costs: _Floats, vertices: _Array, limit: float
 ) -> tuple[_Array, _Array]:
     """Find the cheapest edge of each vertex, and whether it costs at most the limit."""
-    rows, at = _entries(mesh.starts, vertices)
+    rows, at = _list_entries(mesh.starts, vertices)
     here = costs[at]
     counts = mesh.starts[vertices + 1] - mesh.starts[vertices]
     least = np.minimum.reduceat(here, np.cumsum(counts) - counts)
@@ -248,7 +248,7 @@ def _cheapest_edges(
     return edges, np.isfinite(least) & (least <= limit)
 
 
-def _independent(mesh: _Mesh, rank: _Array) -> _Array:
+def _select_independent(mesh: _Mesh, rank: _Array) -> _Array:
     """Choose vertices of which no two are neighbors, by rank; ``len(rank)`` is not free."""
     count = len(rank)
     taken = np.zeros(count, bool)
@@ -266,18 +266,18 @@ def _independent(mesh: _Mesh, rank: _Array) -> _Array:
     return found[np.argsort(rank[found])]
 
 
-def _folds(mesh: _Mesh, moved: _Array, onto: _Array) -> npt.NDArray[np.bool_]:
-    """Tell which merges would fold the surface or leave a face without an area."""
-    rows, corners, shared = mesh.faces_around(moved, onto)
+def _find_folding(mesh: _Mesh, moved: _Array, onto: _Array) -> npt.NDArray[np.bool_]:
+    """Find the merges that would fold the surface or leave a face without an area."""
+    rows, corners, shared = mesh.find_faces_around(moved, onto)
     rows, corners = rows[~shared], corners[~shared]
     after = np.where(corners == moved[rows][:, None], onto[rows][:, None], corners)
-    before, turned = (_normals(mesh.points[faces]) for faces in (corners, after))
+    before, turned = (_compute_normals(mesh.points[faces]) for faces in (corners, after))
     cosine = np.einsum("ij,ij->i", before, turned)
     size = np.linalg.norm(before, axis=1) * np.linalg.norm(turned, axis=1)
     return np.bincount(rows, cosine <= LARGEST_TURN * size, len(moved)) > 0
 
 
-def _normals(triangles: Points) -> _Floats:
+def _compute_normals(triangles: Points) -> _Floats:
     normals: _Floats = np.cross(
         triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     )

@@ -16,14 +16,14 @@ import numpy as np
 
 from ..errors import MeshError, UrdftoolError
 from ..geometry.mesh import Faces, Points
-from ..geometry.topology import body_labels, edges_of
+from ..geometry.topology import find_edges, label_bodies
 from ..isolated import IsolatedProcess, ProcessDied, ProcessTimeout
-from .convex import capped_hull
+from .convex import compute_capped_hull
 from .decimate import decimate
 from .measure import ReferenceSurface
 from .notes import COACD_FAILED, COACD_KILLED
-from .piece import Piece, mesh_piece
-from .remesh import common, remesh
+from .piece import Piece, make_mesh_piece
+from .remesh import compute_remesh, intersect
 from .surface import Prepared, prepare
 
 TRIANGLES = 2000
@@ -69,17 +69,17 @@ class Budget:
             raise DecompositionError(_TOO_LONG, data={"cause": "time limit"})
         return self.seconds - self.used
 
-    def spend(self, seconds: float) -> None:
+    def subtract(self, seconds: float) -> None:
         """Subtract used time [s]."""
         self.used += seconds
 
 
-def solid_of(target: ReferenceSurface) -> Prepared:
+def make_solid(target: ReferenceSurface) -> Prepared:
     """Create a closed surface of few triangles close to a mesh, which CoACD accepts unchanged."""
     surface = target.surface
     vertices, faces = surface.vertices, surface.faces
     if not _is_one_body(surface):
-        vertices, faces = remesh(target.layer)
+        vertices, faces = compute_remesh(target.layer)
     return prepare(*decimate(vertices, faces, TRIANGLES)) or surface
 
 
@@ -95,7 +95,7 @@ def decompose(
     """Decompose a solid into convex pieces.
 
     Args:
-        solid: From :func:`solid_of`.
+        solid: From :func:`make_solid`.
         threshold: Concavity at which CoACD stops, relative to half the longest side.
         max_hulls: Largest number of pieces; -1 for no limit.
         max_vertices: Largest number of vertices of a piece.
@@ -118,15 +118,15 @@ def decompose(
         "seed": 0,
         "time_limit": budget.left,
     }
-    before = _children_time()
+    before = _measure_children_time()
     try:
-        parts = run_child(solid.vertices, solid.faces, options, threads_of(cores))
+        parts = run_child(solid.vertices, solid.faces, options, choose_threads(cores))
     finally:
-        budget.spend(_children_time() - before)
-    return _hulls(parts, max_vertices)
+        budget.subtract(_measure_children_time() - before)
+    return _compute_hulls(parts, max_vertices)
 
 
-def _children_time() -> float:
+def _measure_children_time() -> float:
     """Return the processor time of ended child processes [s], or wall-clock time on Windows."""
     try:
         import resource
@@ -136,7 +136,7 @@ def _children_time() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def divided(
+def divide(
     solid: Prepared,
     piece: Piece,
     distance: float,
@@ -161,7 +161,7 @@ def divided(
     Raises:
         DecompositionError: CoACD crashed, took too long, or returned no piece.
     """
-    part = common(solid.corners, piece.vertices, piece.faces)
+    part = intersect(solid.corners, piece.vertices, piece.faces)
     if part is None:
         return []
     made = prepare(*decimate(*part, PART_TRIANGLES))
@@ -176,19 +176,19 @@ def divided(
 def _is_one_body(surface: Prepared) -> bool:
     if not surface.closed:
         return False
-    edges = edges_of(surface.faces)
+    edges = find_edges(surface.faces)
     twice = bool((edges.forward == 1).all() and (edges.backward == 1).all())
-    return twice and int(body_labels(len(surface.faces), edges).max()) == 0
+    return twice and int(label_bodies(len(surface.faces), edges).max()) == 0
 
 
-def _hulls(parts: list[Points], max_vertices: int) -> list[Piece]:
+def _compute_hulls(parts: list[Points], max_vertices: int) -> list[Piece]:
     pieces = []
     for points in parts:
         try:
-            vertices, faces = capped_hull(points, max_vertices)
+            vertices, faces = compute_capped_hull(points, max_vertices)
         except MeshError:  # a sliver of a cut
             continue
-        pieces.append(mesh_piece(vertices, faces))
+        pieces.append(make_mesh_piece(vertices, faces))
     if not pieces:
         message = "CoACD gave no piece with a volume"
         raise DecompositionError(message, data={"cause": "no piece"})
@@ -197,7 +197,7 @@ def _hulls(parts: list[Points], max_vertices: int) -> list[Piece]:
     return pieces
 
 
-def threads_of(cores: int) -> int:
+def choose_threads(cores: int) -> int:
     """Return the number of threads for which this version of CoACD is deterministic."""
     from importlib.metadata import PackageNotFoundError, version
 
@@ -219,7 +219,7 @@ def run_child(
     """
     options = dict(options)
     limit = options.pop("time_limit")
-    begin = _children_time()
+    begin = _measure_children_time()
     try:
         with IsolatedProcess("numpy", environment={"OMP_NUM_THREADS": str(threads)}) as process:
             found: list[Points] = process.call(
@@ -229,12 +229,12 @@ def run_child(
     except ProcessTimeout:
         raise DecompositionError(_TOO_LONG, data={"cause": "time limit"}) from None
     except ProcessDied as error:
-        in_time = _children_time() - begin < limit
-        raise _death(error, in_time=in_time) from None
+        in_time = _measure_children_time() - begin < limit
+        raise _explain_death(error, in_time=in_time) from None
     return found
 
 
-def _death(error: ProcessDied, *, in_time: bool) -> DecompositionError:
+def _explain_death(error: ProcessDied, *, in_time: bool) -> DecompositionError:
     code = error.exit_code
     if code == -getattr(signal, "SIGKILL", 9) and in_time:
         return KilledError("CoACD was killed, probably out of memory")

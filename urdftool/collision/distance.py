@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Points
-from .vec3 import lengths, normals
+from .vec3 import compute_lengths, compute_normals
 
 _GOLDEN = 1.324717957244746  # real root of x³ = x + 1
 _NEIGHBOURS = 6
@@ -34,12 +34,12 @@ class Samples:
         """Return the number of points."""
         return len(self.points)
 
-    def only(self, mask: npt.NDArray[np.bool_]) -> Samples:
+    def select(self, mask: npt.NDArray[np.bool_]) -> Samples:
         """Return the points selected by a mask."""
         return Samples(self.points[mask], self.owners[mask])
 
 
-def with_corners(samples: Samples, corners: Points) -> Samples:
+def add_corners(samples: Samples, corners: Points) -> Samples:
     """Add the corners of triangles [m], shape (m, 3, 3), to samples."""
     owners = np.repeat(np.arange(len(corners)), 3)
     return Samples(
@@ -48,9 +48,9 @@ def with_corners(samples: Samples, corners: Points) -> Samples:
     )
 
 
-def areas_of(corners: Points) -> Points:
+def compute_areas(corners: Points) -> Points:
     """Compute the area [m²] of each triangle."""
-    return lengths(normals(corners)) / 2
+    return compute_lengths(compute_normals(corners)) / 2
 
 
 def spread(corners: Points, count: int) -> Samples:
@@ -63,10 +63,10 @@ def spread(corners: Points, count: int) -> Samples:
         corners: Triangles [m], shape (m, 3, 3).
         count: Number of points.
     """
-    ends = np.cumsum(areas_of(corners))
+    ends = np.cumsum(compute_areas(corners))
     if not len(ends) or ends[-1] <= 0:
         return Samples(corners[:, 0].copy(), np.arange(len(corners)))
-    shares, u, v = _places(count) if count <= _KEPT else _places.__wrapped__(count)
+    shares, u, v = _compute_places(count) if count <= _KEPT else _compute_places.__wrapped__(count)
     owners = np.minimum(np.searchsorted(ends, shares * ends[-1]), len(ends) - 1)
     points = np.empty((count, 3))
     triangles = corners.reshape(-1, 9).take(owners, axis=0)
@@ -77,7 +77,7 @@ def spread(corners: Points, count: int) -> Samples:
 
 
 @lru_cache(maxsize=32)
-def _places(count: int) -> tuple[Points, Points, Points]:
+def _compute_places(count: int) -> tuple[Points, Points, Points]:
     """Return each point's share of the accumulated area and its coordinates in a triangle."""
     numbers = np.arange(1, count + 1, dtype=np.float64)
     u, v = 0.5 + numbers / _GOLDEN, 0.5 + numbers / _GOLDEN**2
@@ -111,7 +111,7 @@ class Surface:
         self.workers = workers
         self.tree = cKDTree(samples.points)
 
-    def distance(self, points: Points) -> Points:
+    def measure_distance(self, points: Points) -> Points:
         """Compute the distance of points to the nearest triangle [m].
 
         It is exact for the triangles of the samples nearest to a point, and never too small.
@@ -142,7 +142,7 @@ class Surface:
         return np.asarray(np.minimum(result, found[:, 0]))
 
 
-def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Points, Points]:
+def find_farthest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Points, Points]:
     """Find the points that are farthest from a surface.
 
     The distance to the nearest sample is an upper bound, so only few points are measured exactly.
@@ -157,15 +157,15 @@ def largest(surface: Surface, points: Points, count: int = 1) -> tuple[float, Po
     """
     if not len(points):
         return 0.0, points, np.zeros(0)
-    some, limit = _candidates(surface, points, count)
-    best, found, distances = _farthest(surface, points[some], count)
+    some, limit = _select_candidates(surface, points, count)
+    best, found, distances = _measure_farthest(surface, points[some], count)
     if len(some) < len(points) and limit > best:  # a point that was left out may be farther
-        some, _ = _candidates(surface, points, count, best)
-        best, found, distances = _farthest(surface, points[some], count)
+        some, _ = _select_candidates(surface, points, count, best)
+        best, found, distances = _measure_farthest(surface, points[some], count)
     return best, found, distances
 
 
-def _farthest(surface: Surface, points: Points, count: int) -> tuple[float, Points, Points]:
+def _measure_farthest(surface: Surface, points: Points, count: int) -> tuple[float, Points, Points]:
     bounds, _ = surface.tree.query(points, eps=0.02, workers=surface.workers)
     order = np.argsort(-bounds, kind="stable")
     best = 0.0
@@ -173,7 +173,7 @@ def _farthest(surface: Surface, points: Points, count: int) -> tuple[float, Poin
     begin, step = 0, max(count, 32)
     last = min(len(order), _REFINED)  # of the others, the samples' spacing decides
     while begin < last and (not begin or bounds[order[begin]] > best):
-        chosen.append(surface.distance(points[order[begin : begin + step]]))
+        chosen.append(surface.measure_distance(points[order[begin : begin + step]]))
         best = max(best, float(chosen[-1].max()))
         begin, step = begin + step, 4 * step
     found = np.concatenate(chosen)
@@ -181,7 +181,7 @@ def _farthest(surface: Surface, points: Points, count: int) -> tuple[float, Poin
     return best, points[order[first]], found[first]
 
 
-def _candidates(
+def _select_candidates(
     surface: Surface, points: Points, count: int, limit: float = 0.0
 ) -> tuple[npt.NDArray[np.int64], float]:
     """Select the points that may be among those farthest from all samples.
@@ -232,17 +232,17 @@ def to_triangles(points: Points, corners: Points) -> Points:
         points: Points [m], shape (n, 3).
         corners: Triangles [m], shape (n, 3, 3).
     """
-    point = _columns(points)
-    a, b, c = (_columns(corners[:, corner]) for corner in range(3))
+    point = _make_columns(points)
+    a, b, c = (_make_columns(corners[:, corner]) for corner in range(3))
     to_b, to_c, to_point = b - a, c - a, point - a
-    normal = _cross(to_b, to_c)
-    square = _dot(normal, normal)
+    normal = _compute_cross(to_b, to_c)
+    square = _compute_dot(normal, normal)
     safe = np.where(square > 0, square, 1.0)
     # barycentric coordinates of the projection onto the plane
-    v = _dot(_cross(to_point, to_c), normal) / safe
-    w = _dot(_cross(to_b, to_point), normal) / safe
+    v = _compute_dot(_compute_cross(to_point, to_c), normal) / safe
+    w = _compute_dot(_compute_cross(to_b, to_point), normal) / safe
     inside = (v >= 0) & (w >= 0) & (v + w <= 1) & (square > 0)
-    height = np.abs(_dot(to_point, normal)) / np.sqrt(safe)
+    height = np.abs(_compute_dot(to_point, normal)) / np.sqrt(safe)
     edges = np.minimum(
         np.minimum(_to_segments(to_point, to_b), _to_segments(point - b, c - b)),
         _to_segments(point - c, a - c),
@@ -252,21 +252,21 @@ def to_triangles(points: Points, corners: Points) -> Points:
 
 def _to_segments(to_point: Points, along: Points) -> Points:
     """Compute squared distances [m²] of points, relative to segment starts, to segments."""
-    square = _dot(along, along)
-    share = _dot(to_point, along) / np.where(square > 0, square, 1.0)
+    square = _compute_dot(along, along)
+    share = _compute_dot(to_point, along) / np.where(square > 0, square, 1.0)
     foot = to_point - np.clip(share, 0, 1) * along
-    return _dot(foot, foot)
+    return _compute_dot(foot, foot)
 
 
-def _columns(rows: Points) -> Points:
+def _make_columns(rows: Points) -> Points:
     return np.ascontiguousarray(rows.T)
 
 
-def _cross(one: Points, other: Points) -> Points:
+def _compute_cross(one: Points, other: Points) -> Points:
     (ax, ay, az), (bx, by, bz) = one, other
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
-def _dot(one: Points, other: Points) -> Points:
+def _compute_dot(one: Points, other: Points) -> Points:
     x, y, z = one * other
     return np.asarray((x + z) + y)

@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Points
-from .distance import areas_of, spread
-from .vec3 import bounds
+from .distance import compute_areas, spread
+from .vec3 import compute_bounds
 
 BALL = 0.015
 """Radius of the ball, relative to the diagonal of the surface that a collision replaces."""
@@ -51,7 +51,7 @@ class Exterior:
     free: Mask
     depth: npt.NDArray[np.float32]
 
-    def at(self, field: npt.NDArray[np.float32], points: Points) -> Points:
+    def interpolate(self, field: npt.NDArray[np.float32], points: Points) -> Points:
         """Interpolate a field of the grid at points [m]."""
         from scipy import ndimage
 
@@ -60,9 +60,9 @@ class Exterior:
             ndimage.map_coordinates(field, where, order=1, mode="nearest", output=np.float64)
         )
 
-    def touches(self, points: Points) -> Mask:
+    def is_touchable(self, points: Points) -> Mask:
         """Tell whether the ball can touch each point of the surface."""
-        return np.asarray(self.at(self.depth, points) <= _REACHED * self.step)
+        return np.asarray(self.interpolate(self.depth, points) <= _REACHED * self.step)
 
     @cached_property
     def beyond(self) -> npt.NDArray[np.float32]:
@@ -89,11 +89,11 @@ def flood(corners: Points, size: float, cell: float = COARSE) -> Exterior:
     from scipy.spatial import cKDTree
 
     step, radius = cell * size, BALL * size
-    lowest, highest = bounds(corners.reshape(-1, 3))
+    lowest, highest = compute_bounds(corners.reshape(-1, 3))
     rim = int(np.ceil(BALL / cell)) + 3
     low = lowest - rim * step
     shape = np.ceil((highest - lowest) / step).astype(np.int64) + 2 * rim + 1
-    samples = _samples(corners, low, step)
+    samples = _sample_surface(corners, low, step)
     marked = np.ones(tuple(shape), dtype=bool)
     marked[tuple(np.rint((samples - low) / step).astype(np.int64).T)] = False
     distance = ndimage.distance_transform_edt(marked).astype(np.float32) * np.float32(step)
@@ -103,11 +103,13 @@ def flood(corners: Points, size: float, cell: float = COARSE) -> Exterior:
     distance[near] = np.where(np.isfinite(exact), exact, distance[near])
     labels, _ = ndimage.label(distance >= radius)
     free = labels == labels[0, 0, 0]
-    depth = _closing_depth(distance / np.float32(step), free) * np.float32(step)
+    depth = _compute_closing_depth(distance / np.float32(step), free) * np.float32(step)
     return Exterior(low, step, distance, free, depth)
 
 
-def _closing_depth(distance: npt.NDArray[np.float32], free: Mask) -> npt.NDArray[np.float32]:
+def _compute_closing_depth(
+    distance: npt.NDArray[np.float32], free: Mask
+) -> npt.NDArray[np.float32]:
     """Compute the signed distance of nodes from the union of empty balls, in cells.
 
     Each free node is the center of a ball, whose radius is its distance from the surface. The
@@ -131,9 +133,9 @@ def _closing_depth(distance: npt.NDArray[np.float32], free: Mask) -> npt.NDArray
     return depth
 
 
-def _samples(corners: Points, low: Points, step: float) -> Points:
+def _sample_surface(corners: Points, low: Points, step: float) -> Points:
     """Sample a surface densely; at most one point in each half cell."""
-    area = float(areas_of(corners).sum())
+    area = float(compute_areas(corners).sum())
     count = int(min(_MOST_SAMPLES, _SAMPLES_PER_CELL * area / step**2 + 20_000))
     points = np.concatenate([spread(corners, count).points, corners.reshape(-1, 3)])
     cells = np.floor((points - low) * (2 / step)).astype(np.int64)

@@ -19,7 +19,7 @@ from ..source.location import SourceFile
 from ..source.packages import find_own_package, shorten_path
 from .compute import Result, Task
 from .links import LinkPlan
-from .rewrite import Layout, is_literal, link_edits, piece_blocks, rewritten
+from .rewrite import Layout, format_piece_blocks, is_literal, link_edits, rewrite_robot
 
 Place = tuple[str, int]
 
@@ -41,7 +41,7 @@ class Edited:
     refused: list[str] = field(default_factory=list)
 
 
-def edited(
+def edit_sources(
     robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result], layout: Layout
 ) -> Edited:
     """Edit the source of a robot to use new collisions.
@@ -56,14 +56,14 @@ def edited(
     found = Edited()
     if robot.source.expansion is None:
         found.plans = list(plans)
-        found.used = _tasks(plans)
-        found.files = {robot.source.files[0].path: rewritten(robot, plans, results, layout)}
+        found.used = _collect_tasks(plans)
+        found.files = {robot.source.files[0].path: rewrite_robot(robot, plans, results, layout)}
         return found
     _Xacro(robot, results, layout).settle(plans, found)
     return found
 
 
-def _tasks(plans: Sequence[LinkPlan]) -> set[Task]:
+def _collect_tasks(plans: Sequence[LinkPlan]) -> set[Task]:
     return {use.task for item in plans for use in item.uses if use.task is not None}
 
 
@@ -89,7 +89,9 @@ class _Xacro:
         made: dict[Place, list[tuple[LinkPlan, list[edit.Edit]]]] = {}
         for item in plans:
             try:
-                made.setdefault(_place(item.link.element), []).append((item, self._edits(item)))
+                made.setdefault(_place(item.link.element), []).append(
+                    (item, self._make_edits(item))
+                )
             except (_Refused, SourceError) as error:
                 found.refused.append(f"link '{item.link.name}' is left as it is: {error}")
         edits: dict[str, list[edit.Edit]] = {}
@@ -107,12 +109,12 @@ class _Xacro:
             edits.setdefault(place[0], []).extend(same[0][1])
             found.plans += [item for item, _ in same]
         found.plans.sort(key=lambda item: item.index)
-        found.used = _tasks(found.plans)
+        found.used = _collect_tasks(found.plans)
         for path, changes in edits.items():
             found.files[path] = edit.apply(self.sources[path].file, changes)
 
-    def _edits(self, item: LinkPlan) -> list[edit.Edit]:
-        source, link = self._source(item.link.element)
+    def _make_edits(self, item: LinkPlan) -> list[edit.Edit]:
+        source, link = self._find_source(item.link.element)
         old = []
         for number in item.replaced:
             element = item.link.collisions[number].element
@@ -125,30 +127,30 @@ class _Xacro:
         for use in item.uses:
             if use.task is None:
                 raise _Refused("one of its visuals is a primitive; write its collision by hand")
-            blocks += self._blocks(source, use.shape, self.results[use.task])
+            blocks += self._make_blocks(source, use.shape, self.results[use.task])
         return link_edits(source, link, old, blocks)
 
-    def _blocks(self, source: edit.Source, shape: object, result: Result) -> list[list[str]]:
+    def _make_blocks(self, source: edit.Source, shape: object, result: Result) -> list[list[str]]:
         mesh, origin = shape.geometry, shape.origin  # type: ignore[attr-defined]
         assert isinstance(mesh, Mesh)
-        name = self._written(mesh.element, "filename")
-        if not is_literal(name) or not is_literal(self._written(mesh.element, "scale")):
+        name = self._format_original(mesh.element, "filename")
+        if not is_literal(name) or not is_literal(self._format_original(mesh.element, "scale")):
             raise _Refused(f'the mesh is not literal there: "{name}"')
-        blocks = piece_blocks(shape, result, self.layout)  # type: ignore[arg-type]
+        blocks = format_piece_blocks(shape, result, self.layout)  # type: ignore[arg-type]
         if origin is None:
             return blocks
-        raw = {key: self._written(origin.element, key) for key in origin.element.attributes}
+        raw = {key: self._format_original(origin.element, key) for key in origin.element.attributes}
         if all(map(is_literal, raw.values())):
             return blocks
         if any(piece.is_primitive for piece in result.pieces):
             raise _Refused("its origin is computed, and a primitive needs one of its own")
-        words = "".join(f' {key}="{_escaped(value)}"' for key, value in raw.items())
+        words = "".join(f' {key}="{_escape(value)}"' for key, value in raw.items())
         return [
             [f"\t<origin{words}/>" if line.startswith("\t<origin") else line for line in block]
             for block in blocks
         ]
 
-    def _written(self, element: Element, name: str) -> str:
+    def _format_original(self, element: Element, name: str) -> str:
         if name not in element.attributes:
             return ""
         source = self._open(element.file)
@@ -156,7 +158,7 @@ class _Xacro:
             raise _Refused("its mesh is not written as an element of its own")
         return edit.read_literal(source.elements[element.start], name) or ""
 
-    def _source(self, element: Element) -> tuple[edit.Source, Element]:
+    def _find_source(self, element: Element) -> tuple[edit.Source, Element]:
         source = self._open(element.file)
         found = source.elements.get(element.start)
         if found is None or found.tag != "link":
@@ -178,7 +180,7 @@ def _place(element: Element) -> Place:
     return element.file.path, element.start
 
 
-def _escaped(value: str) -> str:
+def _escape(value: str) -> str:
     from xml.sax.saxutils import escape
 
     return escape(value, {'"': "&quot;"})

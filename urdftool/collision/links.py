@@ -88,7 +88,7 @@ def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[
     for index, link in enumerate(robot.links):
         if (options.only and link.name not in options.only) or link.name in options.skip:
             continue
-        settings, skipped = _settings_for(link.name, options)
+        settings, skipped = _get_settings(link.name, options)
         if skipped:
             continue
         found = _link_plan(index, link, options)
@@ -98,7 +98,7 @@ def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[
         uses = []
         for shape in shapes:
             try:
-                uses.append(Use(shape, _task(robot, shape, settings)))
+                uses.append(Use(shape, _make_task(robot, shape, settings)))
             except UrdftoolError as error:
                 problems.append(error)
         plans.append(LinkPlan(index, link, source, uses, replaced))
@@ -130,7 +130,7 @@ def _is_known(shape: Shape) -> bool:
     return shape.geometry is not None and not isinstance(shape.geometry, UnknownShape)
 
 
-def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
+def _make_task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
     mesh = shape.geometry
     if not isinstance(mesh, Mesh):
         return None
@@ -146,7 +146,7 @@ def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
         raise MeshError(f"there is no mesh file {path}", at=place)
     if not all(mesh.scale):
         raise MeshError(
-            "the scale of the mesh has a zero in it; three factors other than zero are wanted",
+            "the scale of the mesh has a factor of zero; all three must differ from zero",
             at=mesh.element.locate_attribute("scale"),
         )
     return Task(Path(path), mesh.scale, settings, robot.source.gltf_up)
@@ -160,7 +160,7 @@ def check_names(robot: Robot, names: Iterable[str]) -> None:
             raise ConfigError(f"the robot has no link '{name}'{hint}")
 
 
-def _settings_for(name: str, options: CollisionOptions) -> tuple[Settings, bool]:
+def _get_settings(name: str, options: CollisionOptions) -> tuple[Settings, bool]:
     """Return the settings of a link, and whether it is skipped."""
     table: dict[str, Any] = {}
     for key, value in options.table.items():
@@ -169,23 +169,25 @@ def _settings_for(name: str, options: CollisionOptions) -> tuple[Settings, bool]
     links = options.table.get("links", {})
     if not isinstance(links, dict):
         raise ConfigError(
-            "collision.links wants tables such as [collision.links.base_link]", path=options.path
+            "collision.links requires tables such as [collision.links.base_link]", path=options.path
         )
     own: dict[str, Any] = {}
     for pattern, values in links.items():
         if not isinstance(values, dict):
-            raise ConfigError(f"collision.links.{pattern} wants to be a table", path=options.path)
+            raise ConfigError(f"collision.links.{pattern} must be a table", path=options.path)
         if fnmatchcase(name, pattern):
             own.update(values)
     skipped = own.pop("skip", False) is True
-    general = {k: v for k, v in _checked(table, options.path).items() if k not in options.given}
-    changes = {**general, **(own := _checked(own, options.path))}
+    general = {
+        k: v for k, v in _check_settings(table, options.path).items() if k not in options.given
+    }
+    changes = {**general, **(own := _check_settings(own, options.path))}
     if "max_error" in options.given and "quality" not in own:
         changes.setdefault("max_error", options.settings.max_error)
-    return options.settings.changed(changes), skipped
+    return options.settings.replace_some(changes), skipped
 
 
-def _checked(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
+def _check_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in table.items():
         if key == "method":
@@ -200,7 +202,7 @@ def _checked(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
         elif key in _NUMBERS or key in _COUNTS:
             whole = key in _COUNTS
             if isinstance(value, bool) or not isinstance(value, int if whole else (int, float)):
-                raise ConfigError(f"collision.{key} wants a number", path=path)
+                raise ConfigError(f"collision.{key} must be a number", path=path)
             if value <= 0 or (key == "max-vertices" and value < 4):
                 raise ConfigError(f"collision.{key} is {value}, which is too small", path=path)
         else:

@@ -20,9 +20,9 @@ from ..geometry.mesh import Points
 from ..inertia.sampling import spread_points
 from ..inertia.winding import compute_winding_numbers, sort_into_boxes
 from . import convex, primitives
-from .distance import Surface, areas_of, largest, spread, with_corners
+from .distance import Surface, add_corners, compute_areas, find_farthest, spread
 from .exterior import COARSE, Exterior, flood
-from .piece import Piece, mesh_piece
+from .piece import Piece, make_mesh_piece
 from .remesh import Layer
 from .surface import Prepared
 
@@ -117,7 +117,7 @@ class ReferenceSurface:
         ends = self.surface.vertices
         ends = ends[:: max(1, len(ends) // SAMPLES)]
         both = np.concatenate([points, ends])
-        return both, self.exterior.touches(both)
+        return both, self.exterior.is_touchable(both)
 
     @cached_property
     def exterior_samples(self) -> Points:
@@ -141,11 +141,11 @@ class ReferenceSurface:
     def nearest(self) -> Surface:
         """Return the search structure for distances to the exterior surface."""
         dense = spread(self.corners, _VISUAL_SAMPLES)
-        step = float(np.sqrt(areas_of(self.corners).sum() / len(dense)))
+        step = float(np.sqrt(compute_areas(self.corners).sum() / len(dense)))
         if len(self.corners) < _VISUAL_SAMPLES // 3:
-            dense = with_corners(dense, self.corners)
-        reached = self.exterior.touches(dense.points)
-        dense = dense.only(reached) if reached.any() else dense
+            dense = add_corners(dense, self.corners)
+        reached = self.exterior.is_touchable(dense.points)
+        dense = dense.select(reached) if reached.any() else dense
         return Surface(self.corners, dense, workers=self.cores, step=step)
 
     @cached_property
@@ -193,10 +193,10 @@ def measure_and_locate(
     target: ReferenceSurface, pieces: Sequence[Piece]
 ) -> tuple[Measures, Deviation]:
     """Measure the quality of pieces, and find where the visual is farthest from contact."""
-    depth = depths(target.exterior_samples, pieces, near=MARGIN * target.size)
-    found = _deviation(target, pieces, depth)
+    depth = compute_depths(target.exterior_samples, pieces, near=MARGIN * target.size)
+    found = _measure_deviation(target, pieces, depth)
     reach = max(found.buried, found.uncovered)
-    volume = volume_of(pieces)
+    volume = compute_volume(pieces)
     even = depth[: len(target.uniform_samples)]
     measures = Measures(
         size=target.size,
@@ -217,49 +217,51 @@ def measure_and_locate(
     return measures, found
 
 
-def hull_error(target: ReferenceSurface, piece: Piece) -> float:
+def compute_hull_error(target: ReferenceSurface, piece: Piece) -> float:
     """Compute the relative error of a mesh's convex hull, which engines use for moving meshes.
 
     Raises:
         MeshError: The mesh is flat.
     """
-    return measure(target, [mesh_piece(*convex.hull(piece.vertices))]).error
+    return measure(target, [make_mesh_piece(*convex.compute_hull(piece.vertices))]).error
 
 
-def excess_of_each(target: ReferenceSurface, pieces: Sequence[Piece]) -> list[float]:
+def compute_excess_of_each(target: ReferenceSurface, pieces: Sequence[Piece]) -> list[float]:
     """Compute the largest distance [m] by which each piece protrudes from the visual."""
     found = []
     for piece in pieces:
         points = spread(piece.corners, max(SAMPLES // len(pieces), 400)).points
         points = np.concatenate([points, piece.vertices])
-        protruding = points[target.exterior.at(target.exterior.depth, points) < 0]
-        found.append(largest(target.nearest, protruding)[0])
+        protruding = points[target.exterior.interpolate(target.exterior.depth, points) < 0]
+        found.append(find_farthest(target.nearest, protruding)[0])
     return found
 
 
-def _deviation(target: ReferenceSurface, pieces: Sequence[Piece], depth: Points) -> Deviation:
+def _measure_deviation(
+    target: ReferenceSurface, pieces: Sequence[Piece], depth: Points
+) -> Deviation:
     """Measure distances, given the signed distance of the visual's points to the pieces."""
     points = target.exterior_samples
-    collision, touchable, samples = _surface_of(pieces, target)
+    collision, touchable, samples = _sample_surfaces(pieces, target)
     inside = depth < 0
     if len(pieces) == 1 and pieces[0].kind != "mesh":
         off = -depth[inside]  # exact inside a convex shape
         order = np.argsort(-off)[:_WORST]
         deepest = float(off.max(initial=0.0)), points[inside][order], off[order]
     else:
-        deepest = largest(touchable, points[inside], _WORST)
+        deepest = find_farthest(touchable, points[inside], _WORST)
     if len(pieces) == 1 and pieces[0].is_primitive:
         off = depth[~inside]
         farthest = float(off.max(initial=0.0))
     else:
-        farthest = largest(collision, points[~inside])[0]
-    protruding = samples[target.exterior.at(target.exterior.depth, samples) < 0]
-    excess = largest(target.nearest, protruding, 1)[0]
-    mean = _mean(target, collision, touchable, samples, inside)
+        farthest = find_farthest(collision, points[~inside])[0]
+    protruding = samples[target.exterior.interpolate(target.exterior.depth, samples) < 0]
+    excess = find_farthest(target.nearest, protruding, 1)[0]
+    mean = _compute_mean(target, collision, touchable, samples, inside)
     return Deviation(deepest[0], farthest, excess, mean, deepest[1], deepest[2])
 
 
-def _mean(
+def _compute_mean(
     target: ReferenceSurface,
     collision: Surface,
     touchable: Surface,
@@ -271,13 +273,13 @@ def _mean(
     step = max(1, count // _AVERAGED)
     points, within = target.uniform_samples[::step], inside[:count:step]
     forth = np.concatenate(
-        [touchable.distance(points[within]), collision.distance(points[~within])]
+        [touchable.measure_distance(points[within]), collision.measure_distance(points[~within])]
     )
-    back = target.nearest.distance(samples[:: max(1, len(samples) // _AVERAGED)])
+    back = target.nearest.measure_distance(samples[:: max(1, len(samples) // _AVERAGED)])
     return float(forth.mean() + back.mean()) / 2
 
 
-def _surface_of(
+def _sample_surfaces(
     pieces: Sequence[Piece], target: ReferenceSurface
 ) -> tuple[Surface, Surface, Points]:
     """Sample the surfaces of pieces.
@@ -287,19 +289,19 @@ def _surface_of(
         latter: evenly spread ones, then vertices.
     """
     corners = np.concatenate([piece.corners for piece in pieces])
-    step = float(np.sqrt(areas_of(corners).sum() / _COLLISION_SAMPLES))
-    dense = with_corners(spread(corners, _COLLISION_SAMPLES), corners)
+    step = float(np.sqrt(compute_areas(corners).sum() / _COLLISION_SAMPLES))
+    dense = add_corners(spread(corners, _COLLISION_SAMPLES), corners)
     whole = Surface(corners, dense, workers=target.cores, step=step)
     if len(pieces) == 1 and pieces[0].kind != "mesh":
         return whole, whole, dense.points
-    reached = flood(corners, target.size, target.cell).touches(dense.points)
+    reached = flood(corners, target.size, target.cell).is_touchable(dense.points)
     if not reached.any():
         return whole, whole, dense.points
-    seen = dense.only(reached)
+    seen = dense.select(reached)
     return whole, Surface(corners, seen, workers=target.cores, step=step), seen.points
 
 
-def depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points:
+def compute_depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points:
     """Compute the signed distance [m] of points to the union of pieces; negative inside.
 
     The sign is exact; near edges of a convex piece the distance is slightly too small.
@@ -311,17 +313,17 @@ def depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points
     """
     result = np.full(len(points), np.inf)
     for piece in pieces:
-        result = np.minimum(result, _depth(points, piece, near))
+        result = np.minimum(result, _compute_depth(points, piece, near))
     return result
 
 
-def _depth(points: Points, piece: Piece, near: float) -> Points:
+def _compute_depth(points: Points, piece: Piece, near: float) -> Points:
     if piece.is_primitive:
-        return primitives.signed_distance(piece, points)
+        return primitives.measure_primitive_distance(piece, points)
     if piece.kind == "convex":
-        return convex.signed_distance(points, piece.sides)
+        return convex.measure_plane_distance(points, piece.sides)
     corners = piece.corners
-    off = Surface(corners, spread(corners, SAMPLES)).distance(points)
+    off = Surface(corners, spread(corners, SAMPLES)).measure_distance(points)
     asked = off > near
     if asked.any():
         off[asked] *= np.where(_is_within(points[asked], corners), -1.0, 1.0)
@@ -332,7 +334,7 @@ def _is_within(points: Points, corners: Points) -> npt.NDArray[np.bool_]:
     return np.asarray(np.abs(compute_winding_numbers(points, sort_into_boxes(corners))) > 0.5)
 
 
-def volume_of(pieces: Sequence[Piece]) -> float:
+def compute_volume(pieces: Sequence[Piece]) -> float:
     """Compute the volume [m³] of the union of pieces; exact for one, sampled for several."""
     if len(pieces) == 1:
         a, b, c = (pieces[0].corners[:, k] - pieces[0].vertices.mean(axis=0) for k in range(3))
@@ -340,5 +342,5 @@ def volume_of(pieces: Sequence[Piece]) -> float:
     low = np.min([piece.vertices.min(axis=0) for piece in pieces], axis=0)
     high = np.max([piece.vertices.max(axis=0) for piece in pieces], axis=0)
     points = spread_points(SAMPLES, low, high)
-    inside = depths(points, pieces) < 0
+    inside = compute_depths(points, pieces) < 0
     return float(np.prod(high - low) * inside.mean())

@@ -17,17 +17,17 @@ MARK = b"collision geometry by urdftool"
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
-def mesh_bytes(pieces: Sequence[Piece], suffix: str) -> bytes:
+def encode_mesh(pieces: Sequence[Piece], suffix: str) -> bytes:
     """Encode pieces as a mesh file, in meters.
 
     Args:
         pieces: The pieces; each is an object of an OBJ file.
         suffix: ``".stl"`` or ``".obj"``.
     """
-    return _obj(pieces) if suffix == ".obj" else _stl(pieces)
+    return _encode_obj(pieces) if suffix == ".obj" else _encode_stl(pieces)
 
 
-def _stl(pieces: Sequence[Piece]) -> bytes:
+def _encode_stl(pieces: Sequence[Piece]) -> bytes:
     corners = np.concatenate([piece.corners for piece in pieces])
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -38,7 +38,7 @@ def _stl(pieces: Sequence[Piece]) -> bytes:
     return head + len(corners).to_bytes(4, "little") + records.tobytes()
 
 
-def _obj(pieces: Sequence[Piece]) -> bytes:
+def _encode_obj(pieces: Sequence[Piece]) -> bytes:
     lines = [f"# {MARK.decode()}"]
     first = 1
     for index, piece in enumerate(pieces):

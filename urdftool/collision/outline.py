@@ -24,20 +24,20 @@ _NEAR = 2.0  # cells from the mesh within which a vertex is moved to it
 _KEPT = 0.2  # part of that distance that remains, so that a sheet has two sides
 
 
-def outline(target: ReferenceSurface) -> tuple[Points, Faces]:
+def compute_outline(target: ReferenceSurface) -> tuple[Points, Faces]:
     """Compute the outer surface of a mesh, with few triangles.
 
     Returns:
         Vertices [m] and triangles, wound outward.
     """
     exterior = target.exterior
-    vertices, faces = surface_nets(exterior.depth - np.float32(_LEVEL * exterior.step))
+    vertices, faces = extract_surface(exterior.depth - np.float32(_LEVEL * exterior.step))
     vertices = exterior.low + vertices * exterior.step
     vertices, faces = decimate(vertices, faces, TRIANGLES)
-    return _moved_to_mesh(vertices, target, exterior), faces
+    return _move_to_mesh(vertices, target, exterior), faces
 
 
-def _moved_to_mesh(vertices: Points, target: ReferenceSurface, exterior: Exterior) -> Points:
+def _move_to_mesh(vertices: Points, target: ReferenceSurface, exterior: Exterior) -> Points:
     tree = target.nearest.tree
     off, nearest = tree.query(vertices, workers=target.cores)
     feet = target.nearest.samples.points[nearest]
@@ -45,7 +45,7 @@ def _moved_to_mesh(vertices: Points, target: ReferenceSurface, exterior: Exterio
     return np.asarray(feet + (vertices - feet) * share)
 
 
-def surface_nets(field: npt.NDArray[np.float32]) -> tuple[Points, Faces]:
+def extract_surface(field: npt.NDArray[np.float32]) -> tuple[Points, Faces]:
     """Extract the boundary of the positive region of a field.
 
     Args:

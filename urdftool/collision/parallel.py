@@ -9,8 +9,8 @@ from pathlib import Path
 from ..errors import MeshError, UrdftoolError
 from ..parallel import Loss, count_cores, map_tasks
 from ..storage import DiskCache
-from .cache import key_of, known_result
-from .compute import Result, Task, attempt, result_of
+from .cache import compute_key, read_cached_result
+from .compute import Result, Task, parse_result, try_compute
 
 Progress = Callable[[int, int, Sequence[str]], None]
 """Called with the number of meshes done, their total, and the names of those in progress."""
@@ -38,17 +38,17 @@ def compute_all(
     found: dict[Task, Result | UrdftoolError] = {}
     groups: dict[str, list[Task]] = {}
     for task in dict.fromkeys(tasks):
-        groups.setdefault(key_of(task) or str(task), []).append(task)
+        groups.setdefault(compute_key(task) or str(task), []).append(task)
     todo: dict[str, Task] = {}
     for key, same in groups.items():
-        known = known_result(cache, key)
+        known = read_cached_result(cache, key)
         if known is None:
             todo[key] = same[0]
         else:
             found.update(dict.fromkeys(same, known))
     count = len(groups)
     # largest first, so that all processes finish at about the same time
-    ordered = sorted(todo, key=lambda key: (-_size(todo[key].path), key))
+    ordered = sorted(todo, key=lambda key: (-_get_size(todo[key].path), key))
     work = [todo[key] for key in ordered]
     known_before = count - len(work)
 
@@ -58,19 +58,21 @@ def compute_all(
 
     outcomes: Iterator[tuple[int, Outcome]]
     if scheduler is not None and work:
-        from .cluster import on_cluster
+        from .cluster import run_on_cluster
 
-        outcomes = _counted(on_cluster(work, scheduler), work, under_way)
+        outcomes = _count_outcomes(run_on_cluster(work, scheduler), work, under_way)
     else:
         workers = jobs or count_cores()
         # surplus cores are shared among the meshes
-        each = partial(attempt, cores=max(1, workers // max(1, len(work))))
-        outcomes = map_tasks(each, work, workers=workers, on_lost=_lost, on_progress=under_way)
+        each = partial(try_compute, cores=max(1, workers // max(1, len(work))))
+        outcomes = map_tasks(
+            each, work, workers=workers, on_lost=_make_failure, on_progress=under_way
+        )
     for index, outcome in outcomes:
         key = ordered[index]
         result: Result | UrdftoolError
         if isinstance(outcome, bytes):
-            result = result_of(outcome)
+            result = parse_result(outcome)
             if result.lasting:
                 cache.put(key, outcome)
         else:
@@ -81,7 +83,7 @@ def compute_all(
     return {task: found[task] for task in tasks}
 
 
-def _counted(
+def _count_outcomes(
     outcomes: Iterator[tuple[int, Outcome]],
     tasks: Sequence[Task],
     under_way: Callable[[int, Sequence[Task]], None],
@@ -92,15 +94,15 @@ def _counted(
         yield index, outcome
 
 
-def _lost(task: Task, _: Loss) -> Outcome:
+def _make_failure(task: Task, _: Loss) -> Outcome:
     return MeshError(
-        "the process that simplified the mesh was killed twice, perhaps for want of "
-        "memory; try --method hull for its link",
+        "the process that simplified the mesh was killed twice, probably because memory ran "
+        "out; try --method hull for its link",
         path=task.path,
     )
 
 
-def _size(path: Path) -> int:
+def _get_size(path: Path) -> int:
     try:
         return path.stat().st_size
     except OSError:

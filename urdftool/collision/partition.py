@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ..geometry.mesh import Faces, Points
 from .distance import spread
 from .exterior import Exterior
-from .vec3 import lengths, normals
+from .vec3 import compute_lengths, compute_normals
 
 _HULL_SAMPLES = 600
 _BURIED_POINTS = 4  # through each of which planes are tried
@@ -102,13 +102,13 @@ class Partition:
         self.axes = np.concatenate([np.eye(3), axes.T[~near]])
         self._joins: dict[tuple[Part, Part], Part | None] = {}
 
-    def whole(self, vertices: Points, faces: Faces) -> Part | None:
+    def make_whole(self, vertices: Points, faces: Faces) -> Part | None:
         """Return the uncut part; None if it is flat."""
-        return self._part(vertices, faces, np.zeros((0, 4)))
+        return self._make_part(vertices, faces, np.zeros((0, 4)))
 
-    def reprice(self, part: Part) -> Part:
+    def update_cost(self, part: Part) -> Part:
         """Return a part with its cost by these probes."""
-        return self._part(part.points, part.faces, part.cuts, part.hull) or part
+        return self._make_part(part.points, part.faces, part.cuts, part.hull) or part
 
     def cut(
         self, parts: Sequence[Part], most: int, within: float, *, dense: bool = False
@@ -138,18 +138,18 @@ class Partition:
 
     def _split(self, part: Part, *, dense: bool) -> list[Part] | None:
         ranked: list[tuple[float, int, Points]] = []
-        for plane in self._planes(part, dense=dense):
+        for plane in self._list_planes(part, dense=dense):
             height = part.points @ plane[:3] - plane[3]
-            crossing = _crossings(part.points, part.faces, height)
+            crossing = _compute_crossings(part.points, part.faces, height)
             sides = [np.concatenate([part.points[s], crossing]) for s in (height <= 0, height > 0)]
-            volumes = [_volume(side) for side in sides]
+            volumes = [_compute_volume(side) for side in sides]
             if min(volumes) > 1e-4 * part.volume:
                 ranked.append((sum(volumes), len(ranked), plane))
         best, least = None, np.inf
         for volume, _, plane in sorted(ranked, key=lambda item: item[:2])[
             : 2 * _PRICED if dense else _PRICED
         ]:
-            both = self._clipped(part, plane)
+            both = self._clip_part(part, plane)
             if both is None:
                 continue
             low, high = sorted(p.cost for p in both)
@@ -158,7 +158,7 @@ class Partition:
                 best, least = both, score
         return best
 
-    def _planes(self, part: Part, *, dense: bool) -> Iterator[Points]:
+    def _list_planes(self, part: Part, *, dense: bool) -> Iterator[Points]:
         """Yield candidate planes: through the worst points, and at shares of the extent."""
         places: list[tuple[Points, Points]] = []
         for index in part.buried:
@@ -176,17 +176,17 @@ class Partition:
                 for normal, offset in zip(self.axes, low + share * (high - low), strict=True):
                     yield np.append(normal, offset)
 
-    def _clipped(self, part: Part, plane: Points) -> list[Part] | None:
+    def _clip_part(self, part: Part, plane: Points) -> list[Part] | None:
         made = []
         for side in (plane, -plane):
             points, faces = clip(part.points, part.faces, side)
-            found = self._part(points, faces, np.concatenate([part.cuts, side[None]]))
+            found = self._make_part(points, faces, np.concatenate([part.cuts, side[None]]))
             if found is None:
                 return None
             made.append(found)
         return made
 
-    def _part(
+    def _make_part(
         self, points: Points, faces: Faces, cuts: Points, ends: Points | None = None
     ) -> Part | None:
         """Create a part with its cost; ``ends`` are points that have the same hull."""
@@ -198,15 +198,15 @@ class Partition:
         except (QhullError, ValueError):
             return None
         sides = hull.equations * np.array([1, 1, 1, -1])
-        inner = self._on_cuts(ends[hull.simplices], sides, cuts)
+        inner = self._find_faces_on_cuts(ends[hull.simplices], sides, cuts)
         volume = float(hull.volume)
         part = Part(points, faces, cuts, ends[hull.vertices], volume, sides, inner)
-        self._price_bulge(part, ends[hull.simplices])
-        self._price_burial(part)
+        self._compute_bulge(part, ends[hull.simplices])
+        self._compute_burial(part)
         return part
 
-    def _on_cuts(self, corners: Points, sides: Points, cuts: Points) -> Mask:
-        """Tell which faces of a hull are on cuts."""
+    def _find_faces_on_cuts(self, corners: Points, sides: Points, cuts: Points) -> Mask:
+        """Find the faces of a hull that are on cuts, as a mask."""
         found = np.zeros(len(sides), dtype=bool)
         middle = corners.mean(axis=1)
         for cut in cuts:
@@ -214,21 +214,21 @@ class Partition:
             found |= along & (np.abs(middle @ cut[:3] - cut[3]) < _INTERNAL * self.size)
         return found
 
-    def _price_bulge(self, part: Part, corners: Points) -> None:
+    def _compute_bulge(self, part: Part, corners: Points) -> None:
         if not len(corners):
             return
         samples = spread(corners, _HULL_SAMPLES).points
-        off = self.exterior.at(self.exterior.beyond, samples)
+        off = self.exterior.interpolate(self.exterior.beyond, samples)
         worst = int(np.argmax(off))
         part.bulge, part.bulges = float(off[worst]), samples[worst]
 
-    def _price_burial(self, part: Part) -> None:
+    def _compute_burial(self, part: Part) -> None:
         probes = self.probes.points
         low, high = part.hull.min(axis=0), part.hull.max(axis=0)
         near = np.flatnonzero(((probes > low) & (probes < high)).all(axis=1))
         if not len(near):
             return
-        depth = burial(part, probes[near])
+        depth = compute_burial(part, probes[near])
         depth = np.where(depth > 0, depth + self.probes.extra[near], 0)
         order = np.argsort(-depth)
         part.burial = float(depth[order[0]])
@@ -244,7 +244,7 @@ class Partition:
         """
         living = list(parts)
         while len(living) > 1:
-            pairs = self._pairs(living)
+            pairs = self._list_joins(living)
             if not pairs:
                 break
             cost, a, b, both = min(pairs, key=lambda pair: pair[:3])
@@ -253,7 +253,7 @@ class Partition:
             living = [p for k, p in enumerate(living) if k not in (a, b)] + [both]
         return living
 
-    def _pairs(self, parts: Sequence[Part]) -> list[tuple[float, int, int, Part]]:
+    def _list_joins(self, parts: Sequence[Part]) -> list[tuple[float, int, int, Part]]:
         """Return cost, indices and result of each possible join."""
         gap = _TOUCH * self.size
         low = np.array([part.hull.min(axis=0) for part in parts])
@@ -262,23 +262,23 @@ class Partition:
         for a, one in enumerate(parts):
             near = ((low <= high[a] + gap) & (high >= low[a] - gap)).all(axis=1)
             for b in np.flatnonzero(near[:a]).tolist():
-                both = self._joined(one, parts[b])
+                both = self._join_pair(one, parts[b])
                 if both is not None:
                     found.append((both.cost, b, a, both))
         return found
 
-    def _joined(self, one: Part, other: Part) -> Part | None:
+    def _join_pair(self, one: Part, other: Part) -> Part | None:
         key = (one, other)
         if key not in self._joins:
-            self._joins[key] = self._part(
+            self._joins[key] = self._make_part(
                 np.concatenate([one.points, other.points]),
                 np.concatenate([one.faces, other.faces + len(one.points)]),
-                self._common_cuts(one, other),
+                self._find_common_cuts(one, other),
                 np.concatenate([one.hull, other.hull]),
             )
         return self._joins[key]
 
-    def _common_cuts(self, one: Part, other: Part) -> Points:
+    def _find_common_cuts(self, one: Part, other: Part) -> Points:
         """Return the cuts on which the hull of two parts has no face but those of the parts."""
         cuts = np.unique(np.concatenate([one.cuts, other.cuts]), axis=0)
         kept = np.ones(len(cuts), dtype=bool)
@@ -288,7 +288,7 @@ class Partition:
             kept &= own | (below < -2 * _INTERNAL * self.size)
         return cuts[kept]
 
-    def improve(
+    def refine(
         self, parts: Sequence[Part], within: float, rounds: int, *, dense: bool = False
     ) -> list[Part]:
         """Cut the costliest part and join the cheapest others, as long as the cost decreases.
@@ -308,7 +308,7 @@ class Partition:
             if both is None or max(p.cost for p in both) >= worst.cost:
                 break
             others = [p for p in living if p is not worst] + both
-            joins = [pair for pair in self._pairs(others) if pair[0] < worst.cost]
+            joins = [pair for pair in self._list_joins(others) if pair[0] < worst.cost]
             if not joins:
                 break
             _, a, b, joined = min(joins, key=lambda pair: pair[:3])
@@ -330,7 +330,7 @@ def clip(points: Points, faces: Faces, plane: Points) -> tuple[Points, Faces]:
             continue
         first = np.argmax((height[rows] > 0) == alone, axis=1)[:, None]
         a, b, c = np.take_along_axis(rows, (first + np.arange(3)) % 3, axis=1).T
-        to_b, to_c = (_crossing(points, height, a, other) for other in (b, c))
+        to_b, to_c = (_compute_crossing(points, height, a, other) for other in (b, c))
         new_b = total + np.arange(len(rows))
         new_c = new_b + len(rows)
         more += [to_b, to_c]
@@ -343,22 +343,22 @@ def clip(points: Points, faces: Faces, plane: Points) -> tuple[Points, Faces]:
     return np.concatenate(more)[used], inverse.reshape(-1, 3)
 
 
-def _crossing(points: Points, height: Points, a: Faces, b: Faces) -> Points:
+def _compute_crossing(points: Points, height: Points, a: Faces, b: Faces) -> Points:
     share = (height[a] / (height[a] - height[b]))[:, None]
     return np.asarray(points[a] + share * (points[b] - points[a]))
 
 
-def _crossings(points: Points, faces: Faces, height: Points) -> Points:
+def _compute_crossings(points: Points, faces: Faces, height: Points) -> Points:
     """Compute where edges cross a plane."""
     above = height > 0
     pairs = []
     for a, b in ((0, 1), (1, 2), (2, 0)):
         some = faces[above[faces[:, a]] & ~above[faces[:, b]]]
-        pairs.append(_crossing(points, height, some[:, a], some[:, b]))
+        pairs.append(_compute_crossing(points, height, some[:, a], some[:, b]))
     return np.concatenate(pairs)
 
 
-def _volume(points: Points) -> float:
+def _compute_volume(points: Points) -> float:
     """Compute the volume [m³] of a hull; 0 if it is flat."""
     from scipy.spatial import ConvexHull, QhullError
 
@@ -370,19 +370,19 @@ def _volume(points: Points) -> float:
         return 0.0
 
 
-def burial(part: Part, points: Points) -> Points:
+def compute_burial(part: Part, points: Points) -> Points:
     """Compute the depth [m] of points in the hull of a part; 0 outside.
 
     Faces on cuts do not count, as they are inside the union of the parts.
     """
     if part.inner.all():
         return np.zeros(len(points))
-    height = _heights(points, part.sides)
+    height = _compute_heights(points, part.sides)
     depth = np.where(height.max(axis=0) < 0, -height[~part.inner].max(axis=0), 0.0)
     return np.asarray(depth, dtype=np.float64)
 
 
-def _heights(points: Points, sides: Points) -> npt.NDArray[np.float32]:
+def _compute_heights(points: Points, sides: Points) -> npt.NDArray[np.float32]:
     """Compute the distance [m] of points above planes, shape (planes, points)."""
     columns = np.concatenate([points.T, np.ones((1, len(points)))]).astype(np.float32)
     rows = np.concatenate([sides[:, :3], -sides[:, 3:]], axis=1).astype(np.float32)
@@ -401,10 +401,10 @@ def _spread_out(points: Points, order: Faces, depth: Points, burial: float) -> l
     return chosen
 
 
-def probes_of(
+def make_probes(
     points: Points, corners: Points, owners: npt.NDArray[np.int64], extra: Points
 ) -> Probes:
     """Create probes from points [m] of triangles, and the index of the triangle of each."""
-    normal = normals(corners[owners])
-    long = lengths(normal)
+    normal = compute_normals(corners[owners])
+    long = compute_lengths(normal)
     return Probes(points, normal / np.where(long > 0, long, 1.0)[:, None], extra)

@@ -15,7 +15,7 @@ from ..errors import UrdftoolError
 from ..model.elements import Robot
 from ..model.kinematics import link_poses
 from ..model.pose import IDENTITY, Pose, make_pose
-from .check import shape_pieces
+from .check import convert_shape
 from .compute import Result, Task
 from .links import LinkPlan
 from .piece import Piece
@@ -42,15 +42,15 @@ _COLORS = (
 )
 
 
-def mesh_picture(task: Task, result: Result) -> bytes:
+def draw_mesh(task: Task, result: Result) -> bytes:
     """Draw one mesh and its pieces as a PNG file."""
     surface = read_surface(task.path, task.scale, task.gltf_up)
     left = make_bare_shapes([(surface.vertices, surface.faces, _GREY)])
     label = _label(result.pieces, [result.error])
-    return side_by_side(left, {"": IDENTITY}, _colored(result.pieces), right_label=label)
+    return draw_side_by_side(left, {"": IDENTITY}, _color(result.pieces), right_label=label)
 
 
-def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result]) -> bytes:
+def draw_robot(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result]) -> bytes:
     """Draw a robot's visuals and its new collisions, with all joints at zero, as a PNG file.
 
     Raises:
@@ -65,25 +65,25 @@ def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task
         item = planned.get(index)
         kept = [n for n in range(len(link.collisions)) if not item or n not in item.replaced]
         for number in kept:
-            pieces += _readable(robot, link.collisions[number])
+            pieces += _read_pieces(robot, link.collisions[number])
         for use in item.uses if item else ():
             if use.task is None:
-                pieces += _readable(robot, use.shape)
+                pieces += _read_pieces(robot, use.shape)
                 continue
             at = make_pose(use.shape.origin)
             rotation, xyz = np.array(at.rotation), np.array(at.translation)
-            pieces += [piece.posed(rotation, xyz) for piece in results[use.task].pieces]
+            pieces += [piece.transform(rotation, xyz) for piece in results[use.task].pieces]
         at = poses[link.name]
         rotation, xyz = np.array(at.rotation), np.array(at.translation)
-        right += [piece.posed(rotation, xyz) for piece in pieces]
+        right += [piece.transform(rotation, xyz) for piece in pieces]
     errors = [found.error for found in results.values()]
     visuals = read_robot_shapes(robot)
     if not len(visuals) and not right:
         raise UrdftoolError("the robot has nothing that could be drawn")
-    return side_by_side(visuals, poses, _colored(right), right_label=_label(right, errors))
+    return draw_side_by_side(visuals, poses, _color(right), right_label=_label(right, errors))
 
 
-def side_by_side(
+def draw_side_by_side(
     left: Shapes, poses: Mapping[str, Pose], right: Shapes, *, right_label: str
 ) -> bytes:
     """Draw posed shapes and unposed ones from the same viewpoint, as a PNG file with labels."""
@@ -112,7 +112,7 @@ def _label(pieces: Sequence[Piece], errors: Sequence[float]) -> str:
     return f"{number}, {'largest ' if len(errors) > 1 else ''}error {max(errors):.1%}"
 
 
-def _colored(pieces: Sequence[Piece]) -> Shapes:
+def _color(pieces: Sequence[Piece]) -> Shapes:
     """Color pieces differently."""
     return make_bare_shapes(
         (piece.vertices, piece.faces, (*_COLORS[number % len(_COLORS)], 1.0))
@@ -120,9 +120,9 @@ def _colored(pieces: Sequence[Piece]) -> Shapes:
     )
 
 
-def _readable(robot: Robot, shape: object) -> list[Piece]:
+def _read_pieces(robot: Robot, shape: object) -> list[Piece]:
     """Return a shape's pieces; empty if its mesh cannot be read, which is reported elsewhere."""
     try:
-        return shape_pieces(robot, shape)  # type: ignore[arg-type]
+        return convert_shape(robot, shape)  # type: ignore[arg-type]
     except UrdftoolError:
         return []

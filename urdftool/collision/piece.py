@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
 from ..geometry.tessellate import tessellate
-from .vec3 import bounds
+from .vec3 import compute_bounds
 
 PRIMITIVES = ("sphere", "capsule", "box", "cylinder")
 """Kinds that require no mesh file."""
@@ -27,7 +27,7 @@ class Piece:
         size: Lengths [m] of a primitive: three edges of a box; radius and length of a cylinder or
             capsule (length between the caps); radius of a sphere.
         rotation: Axes of the primitive in the mesh's frame, as columns.
-        centre: Center of the primitive [m] in the mesh's frame.
+        center: Center of the primitive [m] in the mesh's frame.
         vertices: Points [m] of the surface; a fine approximation for a primitive.
         faces: Triangles of the surface, wound outward.
     """
@@ -35,7 +35,7 @@ class Piece:
     kind: str
     size: tuple[float, ...]
     rotation: Points
-    centre: Points
+    center: Points
     vertices: Points
     faces: Faces
 
@@ -52,26 +52,26 @@ class Piece:
     @cached_property
     def sides(self) -> Points:
         """Return the planes of a convex piece's faces, from :func:`.convex.planes`."""
-        from .convex import planes
+        from .convex import compute_planes
 
-        return planes(self.vertices, self.faces)
+        return compute_planes(self.vertices, self.faces)
 
     @cached_property
     def bounds(self) -> Points:
         """Return lower and upper corner [m] of the bounding box, shape (2, 3)."""
-        return bounds(self.vertices)
+        return compute_bounds(self.vertices)
 
-    def local(self, points: Points) -> Points:
+    def transform_to_local(self, points: Points) -> Points:
         """Transform points from the mesh's frame to the primitive's frame."""
-        return np.asarray((points - self.centre) @ self.rotation)
+        return np.asarray((points - self.center) @ self.rotation)
 
-    def posed(self, rotation: Points, translation: Points, scale: float = 1.0) -> Piece:
+    def transform(self, rotation: Points, translation: Points, scale: float = 1.0) -> Piece:
         """Scale the piece, then transform it into the parent frame of the mesh."""
         return Piece(
             self.kind,
             tuple(length * scale for length in self.size),
             rotation @ self.rotation,
-            rotation @ (self.centre * scale) + translation,
+            rotation @ (self.center * scale) + translation,
             (self.vertices * scale) @ rotation.T + translation,
             self.faces,
         )
@@ -83,7 +83,7 @@ class Piece:
                 "kind": self.kind,
                 "size": list(self.size),
                 "rotation": self.rotation.tolist(),
-                "centre": self.centre.tolist(),
+                "center": self.center.tolist(),
             }
         return {
             "kind": self.kind,
@@ -92,8 +92,8 @@ class Piece:
         }
 
 
-def near_ones(box: Points, boxes: Points, gap: float) -> npt.NDArray[np.bool_]:
-    """Tell which boxes, shape (n, 2, 3), are at most a gap [m] from a box along each axis."""
+def find_overlapping_boxes(box: Points, boxes: Points, gap: float) -> npt.NDArray[np.bool_]:
+    """Find the boxes, shape (n, 2, 3), that are at most a gap [m] from a box along each axis."""
     near = np.ones(len(boxes), dtype=bool)
     for axis in range(3):
         near &= box[0, axis] - boxes[:, 1, axis] <= gap
@@ -101,14 +101,14 @@ def near_ones(box: Points, boxes: Points, gap: float) -> npt.NDArray[np.bool_]:
     return near
 
 
-def mesh_piece(vertices: Points, faces: Faces, *, convex: bool = True) -> Piece:
+def make_mesh_piece(vertices: Points, faces: Faces, *, convex: bool = True) -> Piece:
     """Create a piece from a mesh."""
     kind = "convex" if convex else "mesh"
     return Piece(kind, (), np.eye(3), np.zeros(3), vertices, faces)
 
 
-def primitive(
-    kind: str, size: Sequence[float], rotation: Points, centre: Sequence[float] | Points
+def make_primitive(
+    kind: str, size: Sequence[float], rotation: Points, center: Sequence[float] | Points
 ) -> Piece:
     """Create a box, cylinder, capsule or sphere, with triangles fine enough for distances.
 
@@ -116,20 +116,20 @@ def primitive(
         kind: One of ``PRIMITIVES``.
         size: Lengths [m], as ``Piece.size``.
         rotation: Its axes, as columns.
-        centre: Its center [m].
+        center: Its center [m].
     """
     vertices, faces = tessellate(kind, size)
     turned = np.asarray(rotation, dtype=np.float64)
-    middle = np.asarray(centre, dtype=np.float64)
+    middle = np.asarray(center, dtype=np.float64)
     return Piece(kind, tuple(size), turned, middle, vertices @ turned.T + middle, faces)
 
 
-def piece_of(table: dict[str, Any]) -> Piece:
+def parse_piece(table: dict[str, Any]) -> Piece:
     """Create the piece that :meth:`Piece.as_dict` describes."""
     if table["kind"] in PRIMITIVES:
-        return primitive(
-            table["kind"], tuple(table["size"]), np.array(table["rotation"]), table["centre"]
+        return make_primitive(
+            table["kind"], tuple(table["size"]), np.array(table["rotation"]), table["center"]
         )
     vertices = np.array(table["vertices"], dtype=np.float64).reshape(-1, 3)
     faces = np.array(table["faces"], dtype=np.int64).reshape(-1, 3)
-    return mesh_piece(vertices, faces, convex=table["kind"] == "convex")
+    return make_mesh_piece(vertices, faces, convex=table["kind"] == "convex")

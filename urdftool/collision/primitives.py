@@ -13,8 +13,8 @@ import numpy as np
 
 from ..errors import MeshError
 from ..geometry.mesh import Points
-from .convex import hull
-from .piece import Piece, primitive
+from .convex import compute_hull
+from .piece import Piece, make_primitive
 
 POINTS = 1500
 """Number of points to which a shape is fitted."""
@@ -27,7 +27,7 @@ _DIGITS = 7
 _UPRIGHT = 2e-3  # angles [rad] below this are noise
 
 
-def box_distance(points: Points, size: Points) -> Points:
+def measure_box_distance(points: Points, size: Points) -> Points:
     """Compute the signed distance [m] of points to a box about the origin."""
     beyond = np.abs(points) - np.asarray(size) / 2
     return np.asarray(
@@ -35,7 +35,7 @@ def box_distance(points: Points, size: Points) -> Points:
     )
 
 
-def cylinder_distance(points: Points, size: Points) -> Points:
+def measure_cylinder_distance(points: Points, size: Points) -> Points:
     """Compute the signed distance [m] to a cylinder about z; ``size`` is radius and length."""
     beyond = np.stack(
         [
@@ -49,29 +49,29 @@ def cylinder_distance(points: Points, size: Points) -> Points:
     )
 
 
-def capsule_distance(points: Points, size: Points) -> Points:
+def measure_capsule_distance(points: Points, size: Points) -> Points:
     """Compute the signed distance [m] to a capsule about z; ``size`` is radius and length."""
     half = size[1] / 2
     z = points[:, 2] - np.clip(points[:, 2], -half, half)
     return np.asarray(np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2 + z**2) - size[0])
 
 
-def sphere_distance(points: Points, size: Points) -> Points:
+def measure_sphere_distance(points: Points, size: Points) -> Points:
     """Compute the signed distance [m] of points to a sphere about the origin."""
     return np.asarray(np.linalg.norm(points, axis=1) - size[0])
 
 
 DISTANCES: dict[str, Callable[[Points, Points], Points]] = {
-    "box": box_distance,
-    "cylinder": cylinder_distance,
-    "capsule": capsule_distance,
-    "sphere": sphere_distance,
+    "box": measure_box_distance,
+    "cylinder": measure_cylinder_distance,
+    "capsule": measure_capsule_distance,
+    "sphere": measure_sphere_distance,
 }
 
 
-def signed_distance(piece: Piece, points: Points) -> Points:
+def measure_primitive_distance(piece: Piece, points: Points) -> Points:
     """Compute the signed distance [m] of points to a primitive."""
-    return DISTANCES[piece.kind](piece.local(points), np.array(piece.size))
+    return DISTANCES[piece.kind](piece.transform_to_local(points), np.array(piece.size))
 
 
 def fit_primitives(points: Points, kinds: tuple[str, ...] = tuple(DISTANCES)) -> list[Piece]:
@@ -85,38 +85,40 @@ def fit_primitives(points: Points, kinds: tuple[str, ...] = tuple(DISTANCES)) ->
     middle = (some.max(axis=0) + some.min(axis=0)) / 2
     scale = float(np.linalg.norm(np.ptp(some, axis=0))) or 1.0
     unit = (some - middle) / scale
-    frames = list(_frames(unit))
+    frames = list(_list_frames(unit))
     found = []
     for kind in kinds:
-        for rotation, centre, size in _fits(kind, unit, frames):
+        for rotation, centre, size in _list_fits(kind, unit, frames):
             if min(size) > 1e-6:
-                found.append(_neat(kind, rotation, centre * scale + middle, size * scale, scale))
+                found.append(
+                    _canonicalize(kind, rotation, centre * scale + middle, size * scale, scale)
+                )
     return found
 
 
-def _fits(
+def _list_fits(
     kind: str, points: Points, frames: list[Points]
 ) -> Iterator[tuple[Points, Points, Points]]:
     distance = DISTANCES[kind]
     starts: list[tuple[float, int, Points, Points, Points]] = []
-    for frame in _starts(kind, frames):
+    for frame in _list_starts(kind, frames):
         local = points @ frame
         low, high = local.min(axis=0), local.max(axis=0)
-        size = _first_size(kind, high - low)
+        size = _estimate_size(kind, high - low)
         centre = frame @ ((low + high) / 2)
         score = float(np.mean(distance((points - centre) @ frame, size) ** 2))
         starts.append((score, len(starts), frame, centre, size))
     starts.sort(key=lambda start: start[:2])
     plain = [
-        _refined(distance, points, frame, centre, size, kind == "sphere")
+        _refine(distance, points, frame, centre, size, kind == "sphere")
         for _, _, frame, centre, size in starts[: _STARTS if kind != "sphere" else 1]
     ]
     best = min(plain, key=lambda fit: fit[0])
     yield best[1:]
-    yield _refined(distance, points, *best[1:], kind == "sphere", power=SHARP)[1:]
+    yield _refine(distance, points, *best[1:], kind == "sphere", power=SHARP)[1:]
 
 
-def _refined(
+def _refine(
     distance: Callable[[Points, Points], Points],
     points: Points,
     frame: Points,
@@ -146,7 +148,7 @@ def _refined(
     return float(found.cost), turned, middle, lengths
 
 
-def _first_size(kind: str, extent: Points) -> Points:
+def _estimate_size(kind: str, extent: Points) -> Points:
     across = (extent[0] + extent[1]) / 4
     if kind == "box":
         return np.asarray(np.maximum(extent, 1e-3))
@@ -156,21 +158,21 @@ def _first_size(kind: str, extent: Points) -> Points:
     return np.array([max(across, 1e-3), max(length, 1e-3)])
 
 
-def _frames(points: Points) -> Iterator[Points]:
+def _list_frames(points: Points) -> Iterator[Points]:
     """Yield candidate axes: the mesh's, its principal axes, and those of its tightest box."""
     yield np.eye(3)
     centred = points - points.mean(axis=0)
     _, axes = np.linalg.eigh(centred.T @ centred)
-    yield _right_handed(axes)
+    yield _make_right_handed(axes)
     try:
-        yield _tight_frame(points)
+        yield _compute_tight_frame(points)
     except MeshError:  # for a flat mesh the other two are sufficient
         return
 
 
-def _tight_frame(points: Points) -> Points:
+def _compute_tight_frame(points: Points) -> Points:
     """Compute the axes of the smallest box with a side on one of the 200 largest hull faces."""
-    vertices, faces = hull(points)
+    vertices, faces = compute_hull(points)
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(normals, axis=1)
@@ -191,10 +193,10 @@ def _tight_frame(points: Points) -> Points:
         if volume < least:
             cos, sin = turn[:, smallest]
             least, best = volume, np.stack([cos * x + sin * y, cos * y - sin * x, z], axis=1)
-    return _right_handed(np.asarray(best))
+    return _make_right_handed(np.asarray(best))
 
 
-def _starts(kind: str, frames: list[Points]) -> Iterator[Points]:
+def _list_starts(kind: str, frames: list[Points]) -> Iterator[Points]:
     """Yield the frames, and for round shapes each of their axes as the axis of revolution."""
     if kind == "sphere":
         yield np.eye(3)
@@ -207,27 +209,27 @@ def _starts(kind: str, frames: list[Points]) -> Iterator[Points]:
             yield frame[:, [(axis + 1) % 3, (axis + 2) % 3, axis]]
 
 
-def _right_handed(axes: Points) -> Points:
+def _make_right_handed(axes: Points) -> Points:
     turned = axes.copy()
     if np.linalg.det(turned) < 0:
         turned[:, 0] = -turned[:, 0]
     return np.asarray(turned)
 
 
-def _neat(kind: str, rotation: Points, centre: Points, size: Points, scale: float) -> Piece:
+def _canonicalize(kind: str, rotation: Points, centre: Points, size: Points, scale: float) -> Piece:
     """Create the equivalent shape with the smallest rotation and rounded numbers."""
     if kind == "sphere":
         rotation = np.eye(3)
     elif kind == "box":
-        rotation, size = _least_turned_box(rotation, size)
+        rotation, size = _find_canonical_box_axes(rotation, size)
     else:
-        rotation = _shortest_turn(rotation[:, 2])
+        rotation = _compute_minimal_rotation(rotation[:, 2])
     digits = max(0, _DIGITS - int(np.ceil(np.log10(scale)))) - 1
     lengths = tuple(float(np.round(length, digits)) for length in size)
-    return primitive(kind, lengths, rotation, np.round(centre, digits))
+    return make_primitive(kind, lengths, rotation, np.round(centre, digits))
 
 
-def _least_turned_box(rotation: Points, size: Points) -> tuple[Points, Points]:
+def _find_canonical_box_axes(rotation: Points, size: Points) -> tuple[Points, Points]:
     best, found = -np.inf, (rotation, size)
     for order in ((0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)):
         axes = rotation[:, list(order)]
@@ -239,7 +241,7 @@ def _least_turned_box(rotation: Points, size: Points) -> tuple[Points, Points]:
     return (np.eye(3) if turn < _UPRIGHT else axes), size
 
 
-def _shortest_turn(axis: Points) -> Points:
+def _compute_minimal_rotation(axis: Points) -> Points:
     """Return the smallest rotation from z to an axis; the sign of the axis does not matter."""
     z = axis / np.linalg.norm(axis)
     nearest = int(np.argmax(np.abs(z)))

@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
 from ..inertia.winding import compute_winding_numbers, sort_into_boxes
-from .convex import planes, signed_distance
-from .distance import Surface, areas_of, spread
-from .vec3 import bounds
+from .convex import compute_planes, measure_plane_distance
+from .distance import Surface, compute_areas, spread
+from .vec3 import compute_bounds
 
 CELLS = 96
 """Cells along the longest side of the bounding box; gaps narrower than two cells are closed."""
@@ -46,23 +46,23 @@ class Layer:
 
     def __init__(self, corners: Points, workers: int = 1) -> None:
         """Compute the field around triangles [m], shape (m, 3, 3), with ``workers`` threads."""
-        lowest, highest = bounds(corners.reshape(-1, 3))
+        lowest, highest = compute_bounds(corners.reshape(-1, 3))
         extent = highest - lowest
         self.side = float(extent.max()) / CELLS
-        count = int(min(_MOST_MARKS, _MARKS * areas_of(corners).sum() / self.side**2 + 20_000))
+        count = int(min(_MOST_MARKS, _MARKS * compute_areas(corners).sum() / self.side**2 + 20_000))
         shape = np.ceil(extent / self.side).astype(np.int64) + 2 * _RIM + 1
         self.low = lowest - _RIM * self.side
         self.surface = Surface(corners, spread(corners, count), workers=workers)
-        self.field = _field(self.surface, self.low, self.side, shape)
+        self.field = _compute_field(self.surface, self.low, self.side, shape)
 
 
-def remesh(layer: Layer) -> tuple[Points, Faces]:
+def compute_remesh(layer: Layer) -> tuple[Points, Faces]:
     """Compute the boundary of the solid that triangles and a thin layer around them enclose.
 
     Returns:
         Vertices [m] and triangles, wound outward; every edge has two triangles.
     """
-    vertices, faces = _boundary(layer.field)
+    vertices, faces = _extract_boundary(layer.field)
     vertices = layer.low + vertices * layer.side
     # project back onto the mesh, except for a part of the layer
     surface = layer.surface
@@ -87,7 +87,7 @@ class Outside:
         away = ndimage.distance_transform_edt(far) + _NEAR
         self.values = np.maximum(np.where(far, away, layer.field + _WALL), 0.0) * self.side
 
-    def distance(self, points: Points) -> Points:
+    def measure_distance(self, points: Points) -> Points:
         """Return the distance [m] of points from the mesh; 0 for enclosed points."""
         from scipy import ndimage
 
@@ -95,7 +95,7 @@ class Outside:
         return np.asarray(ndimage.map_coordinates(self.values, at, order=1, mode="nearest"))
 
 
-def common(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces] | None:
+def intersect(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces] | None:
     """Compute the boundary of the intersection of a solid and a convex shape; None if empty.
 
     Args:
@@ -108,19 +108,19 @@ def common(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces
     low = vertices.min(axis=0) - _RIM * side
     shape = np.ceil(extent / side).astype(np.int64) + 2 * _RIM + 1
     nodes = np.argwhere(np.ones(tuple(shape), dtype=bool)) * side + low
-    field = signed_distance(nodes, planes(vertices, faces))
+    field = measure_plane_distance(nodes, compute_planes(vertices, faces))
     near = np.flatnonzero(field < side)
-    off = Surface(solid, spread(solid, 20_000)).distance(nodes[near])
+    off = Surface(solid, spread(solid, 20_000)).measure_distance(nodes[near])
     inside = compute_winding_numbers(nodes[near], sort_into_boxes(solid)) > 0.5
     field[near] = np.maximum(field[near], np.where(inside, -off, off))
     field = np.where(np.abs(field) < 1e-6 * side, 1e-6 * side, field)
     if not (field < 0).any():
         return None
-    points, triangles = _boundary(field.reshape(tuple(shape)))
+    points, triangles = _extract_boundary(field.reshape(tuple(shape)))
     return low + points * side, triangles
 
 
-def _field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points:
+def _compute_field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points:
     """Compute the distance of grid corners from the layer, in cells; negative in the solid."""
     from scipy import ndimage
 
@@ -128,16 +128,16 @@ def _field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points
     for some in (surface.samples.points, surface.corners.reshape(-1, 3)):
         at = np.rint((some - low) / side).astype(np.int64)
         marked[at[:, 0], at[:, 1], at[:, 2]] = True
-    near = widened(marked, 1)
+    near = widen(marked, 1)
     field = np.full(marked.shape, _FAR)
-    field[near] = surface.distance(np.argwhere(near) * side + low) / side - _WALL
+    field[near] = surface.measure_distance(np.argwhere(near) * side + low) / side - _WALL
     labels, _ = ndimage.label(field > 0)
     inner = (field > 0) & (labels != labels[0, 0, 0])
     field[inner] = -1.0
     return np.where(np.abs(field) < 1e-6, 1e-6, field)
 
 
-def _boundary(field: Points) -> tuple[Points, Faces]:
+def _extract_boundary(field: Points) -> tuple[Points, Faces]:
     """Extract the zero level of a field by marching tetrahedra, in cells."""
     solid = field < 0
     some = np.zeros(tuple(np.array(field.shape) - 1), dtype=np.int64)
@@ -149,7 +149,7 @@ def _boundary(field: Points) -> tuple[Points, Faces]:
         ends = [np.zeros(3, dtype=np.int64)]
         for axis in order:
             ends.append(ends[-1] + np.eye(3, dtype=np.int64)[axis])
-        keys += _triangles(np.stack([cubes + end for end in ends], axis=1), solid)
+        keys += _list_triangles(np.stack([cubes + end for end in ends], axis=1), solid)
     edges = np.concatenate(keys)
     # key of an edge: index of its first corner and offset of its second
     strides = np.array([field.shape[1] * field.shape[2], field.shape[2], 1])
@@ -162,7 +162,7 @@ def _boundary(field: Points) -> tuple[Points, Faces]:
     return a + share[:, None] * (b - a), inverse.reshape(-1, 3).astype(np.int64)
 
 
-def _triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[Numbers]:
+def _list_triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[Numbers]:
     """Return the edges that each triangle cuts, as three pairs of ends, shape (m, 3, 2, 3)."""
     inside = solid[tetrahedra[..., 0], tetrahedra[..., 1], tetrahedra[..., 2]]
     code = inside @ np.array([1, 2, 4, 8])
@@ -191,7 +191,7 @@ def _triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[Number
     return found
 
 
-def widened(cells: npt.NDArray[np.bool_], by: int) -> npt.NDArray[np.bool_]:
+def widen(cells: npt.NDArray[np.bool_], by: int) -> npt.NDArray[np.bool_]:
     """Add all cells within ``by`` cells of one along each axis."""
     made: npt.NDArray[np.bool_] = cells.copy()
     for axis in range(3):

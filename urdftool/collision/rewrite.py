@@ -21,7 +21,7 @@ from ..source.location import SourceFile
 from ..source.packages import find_own_package
 from .compute import Result, Task
 from .links import LinkPlan, Shape
-from .mesh_files import mesh_bytes
+from .mesh_files import encode_mesh
 from .piece import Piece
 
 _LITERAL = re.compile(r"\$\(find [^)$]*\)")
@@ -52,7 +52,9 @@ class Layout:
     """URIs of a result's pieces, by the id of the result; empty for a primitive."""
 
 
-def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suffix: str) -> Layout:
+def determine_layout(
+    robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suffix: str
+) -> Layout:
     """Determine the layout for a robot.
 
     Args:
@@ -65,7 +67,7 @@ def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suff
     Raises:
         SourceError: ``package`` is requested but the folder is not in a package.
     """
-    folder = Path(os.path.abspath(mesh_dir or target.parent / f"{_plain(target)}_collision"))
+    folder = Path(os.path.abspath(mesh_dir or target.parent / f"{_make_plain(target)}_collision"))
     package = find_own_package(folder / "piece")
     whole = uri == "relative"
     if uri == "auto":
@@ -74,14 +76,14 @@ def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suff
         uri = "package" if package is not None and 2 * own >= len(names) else "relative"
     if uri == "package" and package is None:
         raise SourceError(
-            f"--uri package wants a folder of a ROS package, and {folder} is in none; "
-            "say where with --mesh-dir, or take --uri relative"
+            f"--uri package requires a folder of a ROS package; {folder} is not in one; "
+            "choose another with --mesh-dir, or use --uri relative"
         )
     capsules = (robot.version or "1.0") not in ("1.0", "1")
     return Layout(Path(os.path.abspath(target)), folder, uri, suffix, capsules, whole)
 
 
-def _plain(path: Path) -> str:
+def _make_plain(path: Path) -> str:
     name = path.name
     for ending in (".xacro", ".urdf"):
         name = name.removesuffix(ending)
@@ -106,12 +108,12 @@ def name_pieces(layout: Layout, results: Mapping[Task, Result]) -> None:
                 continue
             number = f"_{len([u for u in uris if u])}" if len(meshes) > 1 else ""
             path = layout.mesh_dir / f"{stem}{number}{layout.suffix}"
-            layout.files[path] = mesh_bytes([piece], layout.suffix)
-            uris.append(uri_of(path, layout))
+            layout.files[path] = encode_mesh([piece], layout.suffix)
+            uris.append(make_uri(path, layout))
         layout.names[id(result)] = uris
 
 
-def uri_of(path: Path, layout: Layout) -> str:
+def make_uri(path: Path, layout: Layout) -> str:
     """Return the URI of a file in the robot."""
     if layout.uri == "file":
         return path.as_uri()
@@ -122,7 +124,7 @@ def uri_of(path: Path, layout: Layout) -> str:
     return Path(os.path.relpath(path, layout.target.parent)).as_posix()
 
 
-def rewritten(
+def rewrite_robot(
     robot: Robot,
     plans: Sequence[LinkPlan],
     results: Mapping[Task, Result],
@@ -142,13 +144,13 @@ def rewritten(
     gone: set[int] = set()
     for item in plans:
         link = again.links[item.index]
-        blocks = _blocks(item, results, layout)
+        blocks = _make_blocks(item, results, layout)
         old = [link.collisions[number].element for number in item.replaced]
         gone.update(id(element) for element in old)
         edits += link_edits(source, link.element, old, blocks)
-    elsewhere = os.path.realpath(layout.target.parent) != os.path.realpath(_folder(robot))
+    elsewhere = os.path.realpath(layout.target.parent) != os.path.realpath(_format_folder(robot))
     if elsewhere or layout.whole:
-        edits += _moved(robot, again, source, layout, gone)
+        edits += _move_references(robot, again, source, layout, gone)
     return edit.apply(source.file, edits)
 
 
@@ -165,84 +167,84 @@ def link_edits(
         if found:
             after = found[-1]
             break
-    return [edit.insert_child(source, link, _joined(blocks), after=after)]
+    return [edit.insert_child(source, link, _join_blocks(blocks), after=after)]
 
 
-def _joined(blocks: Sequence[Sequence[str]]) -> list[str]:
+def _join_blocks(blocks: Sequence[Sequence[str]]) -> list[str]:
     return [line for block in blocks for line in block]
 
 
-def _blocks(item: LinkPlan, results: Mapping[Task, Result], layout: Layout) -> list[list[str]]:
+def _make_blocks(item: LinkPlan, results: Mapping[Task, Result], layout: Layout) -> list[list[str]]:
     blocks: list[list[str]] = []
     for use in item.uses:
         if use.task is None:
-            blocks.append(_carried(use.shape))
+            blocks.append(_copy_primitive(use.shape))
             continue
         result = results[use.task]
-        blocks += piece_blocks(use.shape, result, layout)
+        blocks += format_piece_blocks(use.shape, result, layout)
     return blocks
 
 
-def piece_blocks(shape: Shape, result: Result, layout: Layout) -> list[list[str]]:
+def format_piece_blocks(shape: Shape, result: Result, layout: Layout) -> list[list[str]]:
     """Return a ``<collision>`` for each piece of a mesh, as lines."""
     blocks = []
     for piece, uri in zip(result.pieces, layout.names[id(result)], strict=True):
         if piece.is_primitive:
-            for part in _parts(piece, layout.capsules):
-                blocks.append(_primitive_block(shape, part))
+            for part in _split_capsule(piece, layout.capsules):
+                blocks.append(_format_primitive_block(shape, part))
         else:
-            blocks.append(_block(_origin_as_written(shape), f"<mesh filename={_quoted(uri)}/>"))
+            blocks.append(_block(_format_origin(shape), f"<mesh filename={_quote(uri)}/>"))
     return blocks
 
 
-def _parts(piece: Piece, capsules: bool) -> list[Piece]:
+def _split_capsule(piece: Piece, capsules: bool) -> list[Piece]:
     """Split a capsule into a cylinder and two spheres if URDF has no capsules."""
     if piece.kind != "capsule" or capsules:
         return [piece]
-    from .piece import primitive
+    from .piece import make_primitive
 
     radius, length = piece.size
     reach = piece.rotation[:, 2] * length / 2
     upright = np.eye(3)
     return [
-        primitive("cylinder", (radius, length), piece.rotation, piece.centre),
-        primitive("sphere", (radius,), upright, piece.centre + reach),
-        primitive("sphere", (radius,), upright, piece.centre - reach),
+        make_primitive("cylinder", (radius, length), piece.rotation, piece.center),
+        make_primitive("sphere", (radius,), upright, piece.center + reach),
+        make_primitive("sphere", (radius,), upright, piece.center - reach),
     ]
 
 
-def _primitive_block(shape: Shape, piece: Piece) -> list[str]:
+def _format_primitive_block(shape: Shape, piece: Piece) -> list[str]:
     x, y, z = piece.rotation.tolist()
-    a, b, c = piece.centre.tolist()
+    a, b, c = piece.center.tolist()
     pose = make_pose(shape.origin) @ Pose((tuple(x), tuple(y), tuple(z)), (a, b, c))
-    xyz, rpy = _numbers(pose.translation), _numbers(rpy_from_rotation(pose.rotation))
+    xyz, rpy = _format_numbers(pose.translation), _format_numbers(rpy_from_rotation(pose.rotation))
     origin = "" if xyz == rpy == "0 0 0" else f'<origin xyz="{xyz}" rpy="{rpy}"/>'
-    return _block(origin, geometry_tag(piece))
+    return _block(origin, format_geometry_tag(piece))
 
 
-def geometry_tag(piece: Piece) -> str:
+def format_geometry_tag(piece: Piece) -> str:
     """Return the geometry element of a primitive."""
     if piece.kind == "box":
-        return f'<box size="{_numbers(piece.size)}"/>'
+        return f'<box size="{_format_numbers(piece.size)}"/>'
     if piece.kind == "sphere":
-        return f'<sphere radius="{_numbers(piece.size)}"/>'
+        return f'<sphere radius="{_format_numbers(piece.size)}"/>'
     radius, length = map(_number, piece.size)
     return f'<{piece.kind} radius="{radius}" length="{length}"/>'
 
 
-def _carried(shape: Shape) -> list[str]:
+def _copy_primitive(shape: Shape) -> list[str]:
     """Copy a visual primitive as a collision."""
     assert shape.geometry is not None
     element = shape.geometry.element
-    words = "".join(f" {name}={_quoted(value)}" for name, value in element.attributes.items())
-    return _block(_origin_as_written(shape), f"<{element.tag}{words}/>")
+    words = "".join(f" {name}={_quote(value)}" for name, value in element.attributes.items())
+    return _block(_format_origin(shape), f"<{element.tag}{words}/>")
 
 
-def _origin_as_written(shape: Shape) -> str:
+def _format_origin(shape: Shape) -> str:
     if shape.origin is None:
         return ""
     words = shape.origin.element.attributes.items()
-    return "<origin" + "".join(f" {name}={_quoted(value)}" for name, value in words) + "/>"
+    return "<origin" + "".join(f" {name}={_quote(value)}" for name, value in words) + "/>"
 
 
 def _block(origin: str, geometry: str) -> list[str]:
@@ -252,11 +254,11 @@ def _block(origin: str, geometry: str) -> list[str]:
     return [line.encode("ascii", "xmlcharrefreplace").decode() for line in lines]
 
 
-def _quoted(value: str) -> str:
+def _quote(value: str) -> str:
     return quoteattr(value, {'"': "&quot;", "\n": "&#10;", "\t": "&#9;"})
 
 
-def _numbers(values: Sequence[float]) -> str:
+def _format_numbers(values: Sequence[float]) -> str:
     return " ".join(map(_number, values))
 
 
@@ -265,12 +267,12 @@ def _number(value: float) -> str:
     return f"{rounded:.9g}"
 
 
-def _folder(robot: Robot) -> str:
+def _format_folder(robot: Robot) -> str:
     assert robot.source is not None
     return str(robot.source.packages.file.parent)
 
 
-def _moved(
+def _move_references(
     robot: Robot, again: Robot, source: edit.Source, layout: Layout, gone: set[int]
 ) -> list[edit.Edit]:
     """Create edits that make relative file names relative to the target's folder."""

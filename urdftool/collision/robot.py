@@ -12,7 +12,7 @@ from ..model.elements import Mesh, Robot
 from .compute import Result, Task
 from .links import LinkPlan
 from .mesh_files import write_all
-from .rewrite import Layout, layout_for, name_pieces, rewritten, uri_of
+from .rewrite import Layout, determine_layout, make_uri, name_pieces, rewrite_robot
 
 SUFFIXES = (".urdf", ".xml")
 """Permitted suffixes of a new description."""
@@ -58,13 +58,13 @@ class Written:
     text: bytes = b""
     refused: Sequence[str] = field(default_factory=list)
 
-    def left(self, robot: Robot) -> list[str]:
+    def list_unchanged(self, robot: Robot) -> list[str]:
         """Return the names of unchanged links."""
         touched = {item.link.name for item in self.plans}
         return [link.name for link in robot.links if link.name not in touched]
 
 
-def tasks_of(plans: Iterable[LinkPlan]) -> list[Task]:
+def collect_tasks(plans: Iterable[LinkPlan]) -> list[Task]:
     """Return the meshes to simplify."""
     return [use.task for item in plans for use in item.uses if use.task is not None]
 
@@ -84,19 +84,21 @@ def write_robot(
         OutputError: A file cannot be written or is an input; existing files are unchanged.
         SourceError: The requested kind of URI is not possible.
     """
-    layout = layout_for(robot, place.target, place.mesh_dir, place.uri, f".{place.mesh_format}")
+    layout = determine_layout(
+        robot, place.target, place.mesh_dir, place.uri, f".{place.mesh_format}"
+    )
     name_pieces(layout, results)
-    seen = _visual_meshes(robot)
+    seen = _list_visual_meshes(robot)
     if place.in_place:
-        from .in_place import edited
+        from .in_place import edit_sources
 
-        found = edited(robot, plans, results, layout)
-        keep = {path for task in found.used for path in _files(layout, results[task])}
+        found = edit_sources(robot, plans, results, layout)
+        keep = {path for task in found.used for path in _list_files(layout, results[task])}
         files = {path: data for path, data in layout.files.items() if path in keep}
         files.update({Path(name): data for name, data in found.files.items()})
         write_all(files, overwrite=place.overwrite, inputs=seen)
         return Written(layout, found.plans, refused=found.refused)
-    text = rewritten(robot, plans, results, layout)
+    text = rewrite_robot(robot, plans, results, layout)
     files = dict(layout.files)
     if not place.bare:
         files[place.target] = text
@@ -121,15 +123,15 @@ def check_place(robot: Robot, place: Place) -> None:
         raise OutputError("is an input; write the output to another file", path=place.target)
 
 
-def _visual_meshes(robot: Robot) -> list[str]:
+def _list_visual_meshes(robot: Robot) -> list[str]:
     """Return visual meshes, which pieces must not replace, unlike pieces of an earlier run."""
     assert robot.source is not None
     meshes = [v.geometry for link in robot.links for v in link.visuals]
     names = {m.filename for m in meshes if isinstance(m, Mesh) and m.filename}
-    return [str(path) for name in sorted(names) if (path := _found(robot, name)) is not None]
+    return [str(path) for name in sorted(names) if (path := _find_file(robot, name)) is not None]
 
 
-def _found(robot: Robot, name: str) -> Path | None:
+def _find_file(robot: Robot, name: str) -> Path | None:
     from ..errors import UrdftoolError
 
     assert robot.source is not None
@@ -139,6 +141,6 @@ def _found(robot: Robot, name: str) -> Path | None:
         return None
 
 
-def _files(layout: Layout, result: Result) -> list[Path]:
+def _list_files(layout: Layout, result: Result) -> list[Path]:
     uris = set(layout.names[id(result)])
-    return [path for path in layout.files if uri_of(path, layout) in uris]
+    return [path for path in layout.files if make_uri(path, layout) in uris]

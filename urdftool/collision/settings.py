@@ -76,7 +76,7 @@ class Settings:
         """Return the largest number of convex pieces of ``auto`` and ``cuts``."""
         return self.max_hulls or self.effort.max_hulls
 
-    def changed(self, table: Mapping[str, Any]) -> Settings:
+    def replace_some(self, table: Mapping[str, Any]) -> Settings:
         """Return a copy with some settings replaced; a quality brings its limit of the error."""
         quality = table.get("quality")
         limit = {} if quality is None else {"max_error": QUALITIES[quality].max_error}

@@ -20,7 +20,7 @@ from .compute import Result, Task
 from .distance import spread
 from .links import LinkPlan
 from .measure import ReferenceSurface
-from .piece import Piece, primitive
+from .piece import Piece, make_primitive
 
 MOST = 400
 """Largest number of spheres if no limit is given."""
@@ -34,7 +34,9 @@ _CHECKED = 60_000  # other points, by which the gaps of the dense samples are me
 Floats = npt.NDArray[np.float32]
 
 
-def cover(target: ReferenceSurface, excess: float, most: int | None = None) -> list[Piece]:
+def cover_with_spheres(
+    target: ReferenceSurface, excess: float, most: int | None = None
+) -> list[Piece]:
     """Cover the exterior of a mesh with spheres.
 
     Args:
@@ -61,7 +63,7 @@ def cover(target: ReferenceSurface, excess: float, most: int | None = None) -> l
         radius = float(np.linalg.norm(search.dense - center, axis=1).max()) + search.gap
         found = [(center, radius)]
     found.sort(key=lambda sphere: (-sphere[1], *sphere[0].tolist()))
-    return [primitive("sphere", (radius,), np.eye(3), center) for center, radius in found]
+    return [make_primitive("sphere", (radius,), np.eye(3), center) for center, radius in found]
 
 
 class _Cover:
@@ -69,7 +71,7 @@ class _Cover:
 
     def __init__(self, target: ReferenceSurface) -> None:
         self.dense = target.nearest.samples.points
-        self.gap = _gap(target)
+        self.gap = _measure_gap(target)
         self.some = self.dense[:: max(1, len(self.dense) // _SAMPLES)]
         exterior = target.exterior
         nodes = np.argwhere(exterior.depth > 0)
@@ -90,14 +92,14 @@ class _Cover:
         while True:
             if not self._extend(chosen, points, radii, most):
                 return None
-            left = self._uncovered(chosen, radii)
+            left = self._find_uncovered(chosen, radii)
             if not len(left):
                 return [(self.centers[index], float(radii[index])) for index in chosen]
             points = left[:: max(1, len(left) // _SAMPLES)]
 
     def _extend(self, chosen: list[int], points: Points, radii: Points, most: int) -> bool:
         """Choose more spheres until they cover the points; return whether they are few enough."""
-        covers = _distances(self.centers, points) <= (radii - self.gap)[:, None]
+        covers = _compute_distances(self.centers, points) <= (radii - self.gap)[:, None]
         weights = covers.astype(np.float32)
         open_points = np.ones(len(points), np.float32)
         while open_points.any():
@@ -111,7 +113,7 @@ class _Cover:
             open_points[covers[best]] = 0
         return True
 
-    def _uncovered(self, chosen: Sequence[int], radii: Points) -> Points:
+    def _find_uncovered(self, chosen: Sequence[int], radii: Points) -> Points:
         left = self.dense
         for index in chosen:
             off = np.linalg.norm(left - self.centers[index], axis=1)
@@ -119,21 +121,21 @@ class _Cover:
         return left
 
 
-def _distances(centers: Points, points: Points) -> Floats:
+def _compute_distances(centers: Points, points: Points) -> Floats:
     squares = (centers**2).sum(axis=1)[:, None] + (points**2).sum(axis=1) - 2 * centers @ points.T
     return np.asarray(np.sqrt(np.maximum(squares, 0)), dtype=np.float32)
 
 
-def _gap(target: ReferenceSurface) -> float:
+def _measure_gap(target: ReferenceSurface) -> float:
     """Measure the largest distance [m] of exterior points from the dense samples."""
     points = spread(target.corners, _CHECKED).points
-    points = points[target.exterior.touches(points)]
+    points = points[target.exterior.is_touchable(points)]
     if not len(points):
         return 0.0
     return float(target.nearest.tree.query(points)[0].max())
 
 
-def planner_spheres(
+def collect_planner_spheres(
     plans: Sequence[LinkPlan], results: Mapping[Task, Result]
 ) -> dict[str, list[tuple[tuple[float, ...], float]]]:
     """Return center [m], in the frame of the link, and radius [m] of each sphere, by link."""
@@ -146,18 +148,18 @@ def planner_spheres(
             rotation, shift = np.array(pose.rotation), np.array(pose.translation)
             for piece in results[use.task].pieces:
                 if piece.kind == "sphere":
-                    center = rotation @ piece.centre + shift
+                    center = rotation @ piece.center + shift
                     rounded = tuple(round(float(value), 6) + 0.0 for value in center)
                     spheres = found.setdefault(item.link.name, [])
-                    spheres.append((rounded, _rounded_up(piece.size[0])))
+                    spheres.append((rounded, _round_up(piece.size[0])))
     return found
 
 
-def _rounded_up(radius: float) -> float:
+def _round_up(radius: float) -> float:
     return float(np.ceil(radius * 1e6 + 1) / 1e6)  # covers the rounding of the center, too
 
 
-def curobo_yaml(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
+def format_curobo_yaml(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
     """Format spheres as ``collision_spheres`` of a robot configuration of cuRobo."""
     lines = ["# collision geometry by urdftool", "collision_spheres:"]
     for link, some in spheres.items():
@@ -169,7 +171,7 @@ def curobo_yaml(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]
     return "\n".join(lines) + "\n"
 
 
-def pyroki_spheres(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
+def format_pyroki_json(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
     """Format spheres as pyroki's ``RobotCollision.from_sphere_decomposition`` expects them.
 
     The result is JSON, which is YAML, too.

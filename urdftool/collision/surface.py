@@ -14,11 +14,11 @@ from ..errors import MeshError
 from ..geometry.load import FARTHEST, load_mesh
 from ..geometry.mesh import Faces, Points
 from ..geometry.topology import (
-    collapsed,
-    components,
-    edges_of,
-    neighbors,
-    used_vertices,
+    find_collapsed,
+    find_edges,
+    find_neighbors,
+    find_used_vertices,
+    label_components,
     weld,
 )
 from ..inertia.repair import drop_duplicates, orient
@@ -110,7 +110,7 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
         raise MeshError(f"the mesh is {extent:.3g} m wide, which is not measured")
     points, merged, _ = weld(vertices, faces)
     count = len(points)
-    sound = ~collapsed(merged)
+    sound = ~find_collapsed(merged)
     corners = points[merged]
     areas = np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
@@ -124,7 +124,7 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     if not len(kept):
         kept, twice = merged[sound], 0
     kept, turned = orient(points, kept)
-    edges = edges_of(kept)
+    edges = find_edges(kept)
     closed = edges.cycle
     if dropped:
         message = f"{dropped} degenerate faces were dropped."
@@ -133,9 +133,9 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
         message = f"{twice} faces written twice were dropped."
         said.append(make_remark("repeated-faces", message, count=twice))
     if turned:
-        message = f"{turned} faces were turned to agree with their neighbours."
+        message = f"{turned} faces were reversed to agree with their neighbors."
         said.append(make_remark("turned-faces", message, count=turned))
-    used = used_vertices(kept, len(points))
+    used = find_used_vertices(kept, len(points))
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
     points, kept = points[used], number[kept].astype(np.int64)
@@ -151,12 +151,12 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(said))
 
 
-def flat_labels(surface: Prepared) -> npt.NDArray[np.int64]:
+def label_flat_sides(surface: Prepared) -> npt.NDArray[np.int64]:
     """Number the flat sides from 0, and return the number of each face."""
     corners = surface.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     unit = normals / np.where(lengths > 0, lengths, 1.0)
-    first, second = neighbors(edges_of(surface.faces))
+    first, second = find_neighbors(find_edges(surface.faces))
     same = np.abs(np.einsum("ij,ij->i", unit[first], unit[second])) > FLAT
-    return components(len(surface.faces), first[same], second[same])
+    return label_components(len(surface.faces), first[same], second[same])

@@ -11,7 +11,7 @@ import numpy as np
 from ..geometry.mesh import Points
 
 
-def cross(one: Points, other: Points) -> Points:
+def compute_cross(one: Points, other: Points) -> Points:
     """Compute the cross products of rows, shape (n, 3)."""
     ax, ay, az = one[:, 0], one[:, 1], one[:, 2]
     bx, by, bz = other[:, 0], other[:, 1], other[:, 2]
@@ -22,7 +22,7 @@ def cross(one: Points, other: Points) -> Points:
     return made
 
 
-def dot(one: Points, other: Points) -> Points:
+def compute_dot(one: Points, other: Points) -> Points:
     """Compute the dot products of rows, shape (n, 3)."""
     made = one[:, 0] * other[:, 0]
     made += one[:, 2] * other[:, 2]
@@ -30,7 +30,7 @@ def dot(one: Points, other: Points) -> Points:
     return made
 
 
-def lengths(rows: Points) -> Points:
+def compute_lengths(rows: Points) -> Points:
     """Compute the length of each row, shape (n, 3)."""
     x, y, z = rows[:, 0], rows[:, 1], rows[:, 2]
     made = x * x
@@ -39,13 +39,13 @@ def lengths(rows: Points) -> Points:
     return np.asarray(np.sqrt(made, out=made))
 
 
-def normals(corners: Points) -> Points:
+def compute_normals(corners: Points) -> Points:
     """Compute the normals of triangles, shape (n, 3, 3), with twice the area as length."""
     first = corners[:, 0]
-    return cross(corners[:, 1] - first, corners[:, 2] - first)
+    return compute_cross(corners[:, 1] - first, corners[:, 2] - first)
 
 
-def bounds(rows: Points) -> Points:
+def compute_bounds(rows: Points) -> Points:
     """Compute the minimum and maximum of each column, shape (2, 3), of at least one row."""
     columns = [rows[:, axis] for axis in range(3)]
     return np.array([[column.min() for column in columns], [column.max() for column in columns]])

@@ -70,21 +70,21 @@ def command(
         raise click.UsageError(f"OUT must end in .stl or .obj, but is '{output}'")
     require_libraries(values["method"])
     limit_threads()
-    from ..collision.cache import key_of, known_result
-    from ..collision.compute import Task, attempt, result_of
+    from ..collision.cache import compute_key, read_cached_result
+    from ..collision.compute import Task, parse_result, try_compute
     from ..errors import UrdftoolError
     from ..parallel import count_cores
     from ..report import collision as report
 
     task = Task(Path(file), scale, make_settings(values), get_gltf_up(console, file))
     cache = open_cache(values)
-    key = key_of(task)
-    result = known_result(cache, key) if key is not None else None
+    key = compute_key(task)
+    result = read_cached_result(cache, key) if key is not None else None
     if result is None:
-        outcome = attempt(task, count_cores())
+        outcome = try_compute(task, count_cores())
         if isinstance(outcome, UrdftoolError):
             raise outcome
-        result = result_of(outcome)
+        result = parse_result(outcome)
         if key is not None and result.lasting:
             cache.put(key, outcome)
     files = _write(file, result, output, values["overwrite"])
@@ -121,20 +121,20 @@ def command(
 
 
 def _format_primitive(piece: Any) -> str:
-    from ..collision.rewrite import geometry_tag
+    from ..collision.rewrite import format_geometry_tag
     from ..model.pose import rpy_from_rotation
 
     xyz = " ".join(f"{value:.6g}" for value in piece.centre)
     x, y, z = piece.rotation.tolist()
     rpy = " ".join(f"{value + 0.0:.6g}" for value in rpy_from_rotation((x, y, z)))
-    return f'<origin xyz="{xyz}" rpy="{rpy}"/> <geometry>{geometry_tag(piece)}</geometry>'
+    return f'<origin xyz="{xyz}" rpy="{rpy}"/> <geometry>{format_geometry_tag(piece)}</geometry>'
 
 
 def _write(file: str, result: Result, output: str | None, overwrite: bool) -> tuple[str, ...]:
     """Write the pieces, and return the names of their files in the same order."""
     if output is None:
         return ()
-    from ..collision.mesh_files import mesh_bytes, write_all
+    from ..collision.mesh_files import encode_mesh, write_all
 
     suffix = Path(output).suffix.lower()
     target = Path(output)
@@ -144,15 +144,15 @@ def _write(file: str, result: Result, output: str | None, overwrite: bool) -> tu
         names = []
         for index, piece in enumerate(result.pieces):
             path = target.with_name(f"{target.stem}_{index}{target.suffix}")
-            files[path] = mesh_bytes([piece], suffix)
+            files[path] = encode_mesh([piece], suffix)
             names.append(str(path))
-    files[target] = mesh_bytes(result.pieces, suffix)
+    files[target] = encode_mesh(result.pieces, suffix)
     write_all(files, overwrite=overwrite, inputs=[file])
     return tuple(names)
 
 
 def _draw(task: Any, result: Result, picture: str, file: str | Path) -> None:
-    from ..collision.picture import mesh_picture
+    from ..collision.picture import draw_mesh
     from ..output import write_file
 
-    write_file(picture, mesh_picture(task, result), inputs=[file])
+    write_file(picture, draw_mesh(task, result), inputs=[file])

@@ -131,7 +131,7 @@ def make_settings(values: dict[str, Any]) -> Settings:
     """Make the settings from the values of the options, by parameter name."""
     from ..collision.settings import Settings
 
-    return Settings().changed({k: v for k in _NAMES if (v := values[k]) is not None})
+    return Settings().replace_some({k: v for k in _NAMES if (v := values[k]) is not None})
 
 
 def list_given(ctx: click.Context) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ import click
 
 from ..collision.links import CollisionOptions, LinkPlan, plan
 from ..collision.parallel import compute_all
-from ..collision.robot import SUFFIXES, Place, check_place, tasks_of, write_robot
+from ..collision.robot import SUFFIXES, Place, check_place, collect_tasks, write_robot
 from ..configuration import find_configuration
 from ..console import Console
 from ..errors import UrdftoolError
@@ -48,7 +48,7 @@ class Job:
     @property
     def tasks(self) -> list[Task]:
         """Meshes to simplify."""
-        return tasks_of(self.plans)
+        return collect_tasks(self.plans)
 
 
 def process_one(
@@ -85,12 +85,16 @@ def process_one(
 
 
 def _write_spheres(console: Console, path: str, job: Job, results: dict[Task, Result]) -> None:
-    from ..collision.spheres import curobo_yaml, planner_spheres, pyroki_spheres
+    from ..collision.spheres import collect_planner_spheres, format_curobo_yaml, format_pyroki_json
     from ..model.files import list_sources
     from ..output import write_file
 
-    spheres = planner_spheres(job.plans, results)
-    text = pyroki_spheres(spheres) if path.lower().endswith(".json") else curobo_yaml(spheres)
+    spheres = collect_planner_spheres(job.plans, results)
+    text = (
+        format_pyroki_json(spheres)
+        if path.lower().endswith(".json")
+        else format_curobo_yaml(spheres)
+    )
     write_file(path, text.encode(), inputs=sorted(list_sources(job.robot)))
     count = sum(map(len, spheres.values()))
     console.print_note(f"wrote {path}, {count} spheres of {len(spheres)} links")
@@ -99,9 +103,9 @@ def _write_spheres(console: Console, path: str, job: Job, results: dict[Task, Re
 def _draw(
     picture: str, robot: Robot, plans: Sequence[LinkPlan], results: dict[Task, Result]
 ) -> None:
-    from ..collision.picture import robot_picture
+    from ..collision.picture import draw_robot
 
-    write_picture(robot_picture(robot, plans, results), picture, robot)
+    write_picture(draw_robot(robot, plans, results), picture, robot)
 
 
 def process_fleet(
@@ -225,7 +229,7 @@ def _refuse_failed(console: Console, job: Job, results: dict[Task, Result | Urdf
     """
     problems, links = [], []
     for item in job.plans:
-        failed = [f for t in tasks_of([item]) if isinstance(f := results[t], UrdftoolError)]
+        failed = [f for t in collect_tasks([item]) if isinstance(f := results[t], UrdftoolError)]
         problems += failed
         links += [item.link.name] * bool(failed)
     _refuse(console, problems, links)
@@ -278,7 +282,7 @@ def _write(console: Console, job: Job, results: dict[Task, Result]) -> report.Re
     if job.place.bare:
         click.echo(written.text.decode("utf-8", "replace"), nl=False)
     rows = report.get_rows(written, results)
-    return report.Report(job.path, job.output, rows, written.left(job.robot))
+    return report.Report(job.path, job.output, rows, written.list_unchanged(job.robot))
 
 
 def _report(console: Console, reports: Sequence[report.Report], values: Values) -> None:

@@ -67,7 +67,7 @@ class Detail:
                 continue
             try:
                 path = Path(source.resolve(geometry.filename))
-                low, high = self.meshes.bounds(path, geometry.scale, source.gltf_up)
+                low, high = self.meshes.read_bounds(path, geometry.scale, source.gltf_up)
             except (UrdftoolError, OSError):
                 continue
             box = np.array(

@@ -51,7 +51,7 @@ class ConvexPoints:
         self._all = points
         self._outermost: list[Vector] | None = None
         self._boxes: dict[tuple[Sequence[float], Rotation], tuple[Vector, Vector]] = {}
-        self.low, self.high = _box(points)
+        self.low, self.high = _compute_box(points)
         if len(points) > _KEPT:
             self._all = np.array(self.points)
 
@@ -65,10 +65,12 @@ class ConvexPoints:
             points = self._all
             if len(points) <= _FEW:
                 points = np.array(list(dict.fromkeys(map(tuple, points.tolist()))))
-            self._outermost = [(x, y, z) for x, y, z in extreme_points(points).tolist()]
+            self._outermost = [(x, y, z) for x, y, z in select_extreme_points(points).tolist()]
         return self._outermost
 
-    def box(self, scale: Sequence[float], rotation: Rotation, at: Vector) -> tuple[Vector, Vector]:
+    def compute_box(
+        self, scale: Sequence[float], rotation: Rotation, at: Vector
+    ) -> tuple[Vector, Vector]:
         """Compute lower and upper corner of the transformed mesh's bounding box [m].
 
         Args:
@@ -78,15 +80,15 @@ class ConvexPoints:
         """
         key = tuple(scale), tuple(map(tuple, rotation))
         if key not in self._boxes:
-            self._boxes[key] = self._box(*key)
+            self._boxes[key] = self._transform_box(*key)
         (a, b, c), (d, e, f) = self._boxes[key]
         x, y, z = at
         return (a + x, b + y, c + z), (d + x, e + y, f + z)
 
-    def _box(self, scale: Sequence[float], rotation: Rotation) -> tuple[Vector, Vector]:
+    def _transform_box(self, scale: Sequence[float], rotation: Rotation) -> tuple[Vector, Vector]:
         rows = [[r * factor for r, factor in zip(row, scale, strict=True)] for row in rotation]
         if any(sum(abs(entry) > _ALIGNED for entry in row) > 1 for row in rotation):
-            return _box(np.einsum("ij,kj->ki", np.array(rows), self._all))
+            return _compute_box(np.einsum("ij,kj->ki", np.array(rows), self._all))
         low, high = [0.0] * 3, [0.0] * 3
         for axis, row in enumerate(rows):
             for factor, a, d in zip(row, self.low, self.high, strict=True):
@@ -111,7 +113,7 @@ def read_convex_points(path: str | Path, gltf_up: GltfUp = "y") -> ConvexPoints 
         if not file.is_file() or file.stat().st_size > LARGEST:
             return None  # reading a device or a pipe would not end
         suffix = file.suffix.lower()
-        points = _gltf(file, gltf_up) if suffix in _GLTF else _READERS[suffix](file)
+        points = _read_gltf(file, gltf_up) if suffix in _GLTF else _READERS[suffix](file)
     # parsers raise arbitrary exceptions for damaged files, which have no points
     except (MeshError, OSError, ValueError, LookupError, TypeError, AttributeError, struct.error):
         return None
@@ -122,30 +124,30 @@ def read_convex_points(path: str | Path, gltf_up: GltfUp = "y") -> ConvexPoints 
     return ConvexPoints(points)
 
 
-def _box(points: Points) -> tuple[Vector, Vector]:
+def _compute_box(points: Points) -> tuple[Vector, Vector]:
     (a, b, c), (d, e, f) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
     return (a, b, c), (d, e, f)
 
 
-def extreme_points(points: Points) -> Points:
+def select_extreme_points(points: Points) -> Points:
     """Select the extreme points of many directions, including all six along the axes.
 
     Args:
         points: Shape (n, 3); returned unchanged if at most twice as many as the directions.
     """
-    if len(points) <= 2 * len(directions()):
+    if len(points) <= 2 * len(compute_directions()):
         return points
     points = np.ascontiguousarray(points)
     while len(points) > _BLOCK:
         blocks = [points[first : first + _BLOCK] for first in range(0, len(points), _BLOCK)]
-        points = np.concatenate([_outermost(block) for block in blocks])
+        points = np.concatenate([_select_outermost(block) for block in blocks])
         if len(points) > 0.7 * sum(map(len, blocks)):
             break
-    return _outermost(points) if len(points) <= _BLOCK else points
+    return _select_outermost(points) if len(points) <= _BLOCK else points
 
 
-def _outermost(points: Points) -> Points:
-    ways = np.array(directions(), dtype=np.float32)
+def _select_outermost(points: Points) -> Points:
+    ways = np.array(compute_directions(), dtype=np.float32)
     centered = (points - points.mean(axis=0)).astype(np.float32)
     kept = np.zeros(len(points), dtype=bool)  # np.unique would import numpy.ma
     for first in range(0, len(ways), 32):
@@ -154,7 +156,7 @@ def _outermost(points: Points) -> Points:
 
 
 @cache
-def directions() -> list[Vector]:
+def compute_directions() -> list[Vector]:
     """Return unit vectors: both directions of each axis, and an even spiral over the sphere."""
     ways = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
     ways += [(-x, -y, -z) for x, y, z in ways]
@@ -166,19 +168,19 @@ def directions() -> list[Vector]:
     return ways
 
 
-def _dae(path: Path) -> Points | None:
+def _read_dae(path: Path) -> Points | None:
     from .collada import read_points
 
     return read_points(path)
 
 
-def _gltf(path: Path, gltf_up: GltfUp) -> Points | None:
+def _read_gltf(path: Path, gltf_up: GltfUp) -> Points | None:
     from .gltf import read_points
 
     return read_points(path, gltf_up)
 
 
-def _ply(path: Path) -> Points | None:
+def _read_ply(path: Path) -> Points | None:
     from .load import load_mesh
 
     return load_mesh(path).vertices
@@ -187,8 +189,8 @@ def _ply(path: Path) -> Points | None:
 _READERS = {
     ".stl": read_stl_points,
     ".obj": read_obj_points,
-    ".ply": _ply,
-    ".dae": _dae,
+    ".ply": _read_ply,
+    ".dae": _read_dae,
 }
 _GLTF = (".gltf", ".glb")
 

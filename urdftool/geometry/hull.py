@@ -15,7 +15,7 @@ FLAT = 1e-12
 """Smallest volume of a hull, relative to the cube of the extent of its points."""
 
 
-def convex_hull(points: Points) -> Manifold | None:
+def compute_convex_hull(points: Points) -> Manifold | None:
     """Compute the convex hull of points, shape (n, 3); None if they are coplanar or not finite.
 
     Points outside the others' hull by less than about 1e-7 of the extent may be dropped. The same
@@ -30,7 +30,7 @@ def convex_hull(points: Points) -> Manifold | None:
     return hull if hull.volume() > FLAT * extent**3 else None
 
 
-def hull_surface(hull: Manifold) -> tuple[Points, Faces]:
+def extract_hull_surface(hull: Manifold) -> tuple[Points, Faces]:
     """Return vertices (n, 3) and triangles (m, 3) of a hull, counter-clockwise from outside."""
     mesh = hull.to_mesh64()
     faces = np.array(mesh.tri_verts, dtype=np.int64)

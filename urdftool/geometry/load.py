@@ -62,8 +62,8 @@ def load_mesh(
             scale is not three finite nonzero factors.
     """
     file = Path(path)
-    factors = _factors(scale, file)
-    suffix = _checked_format(file)
+    factors = _check_factors(scale, file)
+    suffix = _check_format(file)
     module = import_module(f".{READERS[suffix]}", __package__)
     read = cast(Callable[..., Reading], module.read)
     try:
@@ -84,7 +84,7 @@ def load_named(
     return load_mesh(description.resolve(uri), scale, gltf_up=description.gltf_up)
 
 
-def _factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
+def _check_factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
     factors = tuple(float(factor) for factor in scale)
     if len(factors) != 3 or not all(math.isfinite(f) and f != 0 for f in factors):
         given = " ".join(f"{factor:g}" for factor in factors)
@@ -96,7 +96,7 @@ def _factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
     return factors
 
 
-def _checked_format(file: Path) -> str:
+def _check_format(file: Path) -> str:
     if os.path.isdir(file):
         raise MeshError("this is a folder; a mesh file is needed", path=file)
     if not os.path.exists(file):
@@ -122,7 +122,7 @@ def _checked_format(file: Path) -> str:
     return suffix
 
 
-def _used(piece: Piece) -> Piece:
+def _drop_unused(piece: Piece) -> Piece:
     """Drop the vertices that no face uses."""
     if piece.faces.min() < 0 or piece.faces.max() >= len(piece.vertices):
         return piece  # rejected by _assemble
@@ -135,7 +135,7 @@ def _used(piece: Piece) -> Piece:
 
 
 def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, ...]) -> Mesh:
-    pieces = [_used(piece) for piece in reading.pieces if len(piece.faces)]
+    pieces = [_drop_unused(piece) for piece in reading.pieces if len(piece.faces)]
     if not pieces:
         raise MeshError("the mesh has no faces; at least one triangle is needed", path=file)
     offsets = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])

@@ -71,7 +71,7 @@ class Mesh:
         """Return the messages of the notes."""
         return tuple(note.message for note in self.notes)
 
-    def part_faces(self, part: Part) -> Faces:
+    def get_part_faces(self, part: Part) -> Faces:
         """Return the faces of one of ``parts``, shape (count, 3)."""
         return self.faces[part.first : part.first + part.count]
 

@@ -44,9 +44,9 @@ def read(path: Path) -> Reading:
     """
     written = parse(path)
     notes: list[MeshNote] = []
-    materials = _materials(path, written.libraries, notes)
-    vertices = _vertices(written.points, path)
-    texture_points = _texture_points(written.texels)
+    materials = _read_materials(path, written.libraries, notes)
+    vertices = _parse_vertices(written.points, path)
+    texture_points = _parse_texture_points(written.texels)
     pieces = []
     for run in written.runs:
         used = materials.get(run.material, Material())
@@ -64,13 +64,13 @@ def read(path: Path) -> Reading:
                 run.name or run.material,
                 used.rgba,
                 used.texture,
-                uv=_uv(texture_points, run),
+                uv=_make_uv(texture_points, run),
             )
         )
     return Reading(pieces, notes)
 
 
-def _texture_points(texels: list[str]) -> Points | None:
+def _parse_texture_points(texels: list[str]) -> Points | None:
     """Parse the ``vt`` statements, shape (n, 2); None if there are none or one is not a number."""
     try:
         rows = [[*texel.split(), "0"][:2] for texel in texels]
@@ -79,7 +79,7 @@ def _texture_points(texels: list[str]) -> Points | None:
         return None
 
 
-def _uv(texture_points: Points | None, run: Run) -> Points | None:
+def _make_uv(texture_points: Points | None, run: Run) -> Points | None:
     """Return the texture coordinates of a run's corners, shape (m, 3, 2); None if some lack one."""
     rows = np.array(run.texels, dtype=np.int64).reshape(-1, 3)
     if texture_points is None or not rows.size or 3 * len(rows) != len(run.corners):
@@ -89,7 +89,7 @@ def _uv(texture_points: Points | None, run: Run) -> Points | None:
     return np.asarray(texture_points[rows])
 
 
-def _vertices(points: list[str], path: Path) -> Points:
+def _parse_vertices(points: list[str], path: Path) -> Points:
     try:
         return np.array([point.split()[:3] for point in points], dtype=np.float64).reshape(-1, 3)
     except ValueError as error:
@@ -98,7 +98,7 @@ def _vertices(points: list[str], path: Path) -> Points:
         ) from error
 
 
-def _materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[str, Material]:
+def _read_materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[str, Material]:
     materials: dict[str, Material] = {}
     for library in dict.fromkeys(libraries):
         file = path.parent / library
@@ -107,20 +107,20 @@ def _materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[
             notes.append(MeshNote("obj-without-materials", message, lossy=True))
             continue
         current = Material()
-        for _, line in logical_lines(file):
+        for _, line in list_logical_lines(file):
             keyword, _, rest = line.partition(" ")
             words = rest.split()
             if keyword == "newmtl":
                 current = materials[rest.strip()] = Material()
             elif keyword in ("Kd", "d", "Tr") and words:
-                _colour(current, keyword, words)
+                _set_color(current, keyword, words)
             elif keyword == "map_Kd" and words:
                 # options precede the name
                 current.texture = path.parent / words[-1].replace("\\", "/")
     return materials
 
 
-def _colour(material: Material, keyword: str, words: list[str]) -> None:
+def _set_color(material: Material, keyword: str, words: list[str]) -> None:
     try:
         values = [float(word) for word in words[:3]]
     except ValueError:
@@ -172,7 +172,7 @@ def parse(path: Path) -> Statements:
     libraries: list[str] = []
     name = material = ""
     fresh = True
-    for number, line in logical_lines(path):
+    for number, line in list_logical_lines(path):
         keyword, _, rest = line.partition(" ")
         if keyword == "v":
             points.append(rest)
@@ -182,9 +182,9 @@ def parse(path: Path) -> Statements:
             if fresh:
                 runs.append(Run(name, material))
                 fresh = False
-            _fan(rest, len(points), runs[-1].corners, path, number)
+            _add_fan(rest, len(points), runs[-1].corners, path, number)
             if texels:
-                _texture_fan(rest, len(texels), runs[-1])
+                _add_texture_fan(rest, len(texels), runs[-1])
         elif keyword in ("o", "g"):
             name, fresh = rest.strip(), True
         elif keyword == "usemtl":
@@ -194,7 +194,7 @@ def parse(path: Path) -> Statements:
     return Statements(points, texels, runs, libraries)
 
 
-def logical_lines(path: Path) -> Iterator[tuple[int, str]]:
+def list_logical_lines(path: Path) -> Iterator[tuple[int, str]]:
     """Yield numbered lines without comments, joined at trailing backslashes, tabs as spaces.
 
     Raises:
@@ -214,7 +214,7 @@ def logical_lines(path: Path) -> Iterator[tuple[int, str]]:
             yield number, full
 
 
-def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> None:
+def _add_fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> None:
     """Add the triangles of one ``f`` statement to ``corners``."""
     polygon = []
     for word in rest.split():
@@ -237,7 +237,7 @@ def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) ->
         corners += (polygon[0], polygon[second], polygon[second + 1])
 
 
-def _texture_fan(rest: str, texels: int, run: Run) -> None:
+def _add_texture_fan(rest: str, texels: int, run: Run) -> None:
     """Add the texture coordinates of the triangles of one ``f`` statement."""
     polygon = []
     for word in rest.split():

@@ -35,20 +35,20 @@ class Convex(NamedTuple):
     radius: float
     filled: bool = True
 
-    def moved(self, pose: Pose) -> Convex:
+    def transform(self, pose: Pose) -> Convex:
         """Express the shape in the parent frame, in which its present frame has this pose."""
         return Convex(pose @ self.pose, self.reach, self.radius, self.filled)
 
 
-def convex_of(geometry: Geometry | None, pose: Pose) -> Convex | None:
+def make_convex(geometry: Geometry | None, pose: Pose) -> Convex | None:
     """Return a primitive as a convex shape; None for other geometry or without a size."""
-    made = _reach_of(geometry)
+    made = _make_support_function(geometry)
     if made is None or not 0 < made[1] < math.inf:
         return None
     return Convex(pose, *made)
 
 
-def _reach_of(geometry: Geometry | None) -> tuple[SupportFunction, float] | None:
+def _make_support_function(geometry: Geometry | None) -> tuple[SupportFunction, float] | None:
     if isinstance(geometry, Box):
         a, b, c = (abs(side) / 2 for side in geometry.size)
         return lambda x, y, z: a * abs(x) + b * abs(y) + c * abs(z), math.hypot(a, b, c)
@@ -70,7 +70,7 @@ def _reach_of(geometry: Geometry | None) -> tuple[SupportFunction, float] | None
     return None
 
 
-def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
+def compute_overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
     """Compute the penetration depth of two shapes [m], an upper bound.
 
     Args:
@@ -79,7 +79,7 @@ def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
         enough: The search stops as soon as the depth is known to be at most this [m], and returns
             ``enough`` or less.
     """
-    apart = _difference(other.pose.translation, one.pose.translation)
+    apart = _subtract(other.pose.translation, one.pose.translation)
     distance = compute_norm(apart)
     if distance >= one.radius + other.radius - enough:
         return enough
@@ -98,7 +98,7 @@ def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
         return first + second + a * x + b * y + c * z
 
     best, way = math.inf, (0.0, 0.0, 1.0)
-    for direction in _directions(one, other, apart, distance):
+    for direction in _list_directions(one, other, apart, distance):
         value = along(direction)
         if value < best:
             best, way = value, direction
@@ -107,7 +107,7 @@ def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
     step = 0.4
     while step > 0.02:
         better = False
-        for direction in _around(way, step):
+        for direction in _list_neighbors(way, step):
             value = along(direction)
             if value < best:
                 best, way, better = value, direction, True
@@ -128,22 +128,24 @@ CORNER_DIRECTIONS = tuple(
 """Unit vectors to the faces, edges and corners of a cube."""
 
 
-def _directions(one: Convex, other: Convex, apart: Vector, distance: float) -> Iterator[Vector]:
+def _list_directions(
+    one: Convex, other: Convex, apart: Vector, distance: float
+) -> Iterator[Vector]:
     """Yield the directions that usually decide, the most probable first."""
     if distance > 1e-9:
-        yield _scaled(apart, 1 / distance)
+        yield _scale(apart, 1 / distance)
     for shape in (one, other):
         for axis in transpose(shape.pose.rotation):
             yield axis
-            yield _scaled(axis, -1.0)
+            yield _scale(axis, -1.0)
     yield from CORNER_DIRECTIONS
 
 
-def _around(way: Vector, step: float) -> Iterator[Vector]:
+def _list_neighbors(way: Vector, step: float) -> Iterator[Vector]:
     """Yield eight unit vectors around a direction, at about ``step`` [rad] from it."""
     least = min(range(3), key=lambda axis: abs(way[axis]))
     first = compute_cross(way, tuple(float(axis == least) for axis in range(3)))  # type: ignore[arg-type]
-    first = _scaled(first, 1 / compute_norm(first))
+    first = _scale(first, 1 / compute_norm(first))
     second = compute_cross(way, first)
     for number in range(8):
         c, s = math.cos(number * math.pi / 4), math.sin(number * math.pi / 4)
@@ -152,10 +154,10 @@ def _around(way: Vector, step: float) -> Iterator[Vector]:
         yield moved[0] / length, moved[1] / length, moved[2] / length
 
 
-def _scaled(vector: Sequence[float], factor: float) -> Vector:
+def _scale(vector: Sequence[float], factor: float) -> Vector:
     x, y, z = vector
     return x * factor, y * factor, z * factor
 
 
-def _difference(one: Vector, other: Vector) -> Vector:
+def _subtract(one: Vector, other: Vector) -> Vector:
     return one[0] - other[0], one[1] - other[1], one[2] - other[2]

@@ -65,14 +65,14 @@ def read_obj_points(path: Path) -> Points | None:
     """
     lines = _CONTINUED.sub(b" ", path.read_bytes()).splitlines()
     rows = [line.split(None, 4)[1:4] for line in lines if line.startswith((b"v ", b"v\t"))]
-    return select_points(as_points(rows), _obj_corners(lines)) if rows else None
+    return select_points(as_points(rows), _collect_obj_corners(lines)) if rows else None
 
 
 _CONTINUED = re.compile(rb"\\\r?\n")
 _CORNER = re.compile(rb"\s(-?\d+)")
 
 
-def _obj_corners(lines: list[bytes]) -> set[int]:
+def _collect_obj_corners(lines: list[bytes]) -> set[int]:
     """Collect the zero-based indices of the points that the faces of an OBJ file use.
 
     A corner is written ``point/texture/normal``; a negative index counts back from the last point

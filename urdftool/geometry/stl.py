@@ -62,7 +62,7 @@ def read_corners(
     return corners
 
 
-def stl_bounds(
+def compute_stl_bounds(
     path: str | Path,
 ) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
     """Compute lower and upper corner of a binary STL file's bounding box, in the file's unit.

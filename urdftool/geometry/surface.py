@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import MeshError
-from .convex_points import extreme_points
-from .hull import convex_hull
+from .convex_points import select_extreme_points
+from .hull import compute_convex_hull
 from .load import load_mesh
 from .mesh import Faces, Points
 from .topology import weld_on_grids
@@ -73,14 +73,14 @@ def measure_surface(vertices: Points, faces: Faces) -> Surface:
     return Surface(len(merged), edges.open_count, int(sliver.sum()), edges.cycle, float(volume))
 
 
-def hull_volume(path: str | Path) -> float | None:
+def compute_hull_volume(path: str | Path) -> float | None:
     """Compute the volume of a mesh file's convex hull in its unit cubed.
 
     Returns:
         None if the mesh is flat or cannot be read.
     """
     try:
-        hull = convex_hull(extreme_points(load_mesh(path).vertices))
+        hull = compute_convex_hull(select_extreme_points(load_mesh(path).vertices))
     except (MeshError, OSError, ValueError):
         return None
     return None if hull is None else float(hull.volume())
@@ -111,8 +111,8 @@ def change_by_closing(path: str | Path) -> float | None:
     points = points - np.average(corners.mean(axis=1), axis=0, weights=areas)
     corners = points[faces]
     extent = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
-    here = _moments(corners)
-    there = _moments(np.concatenate([corners, _fans(points, faces)]))
+    here = _sum_moments(corners)
+    there = _sum_moments(np.concatenate([corners, _make_fans(points, faces)]))
     if not abs(there[0]) > 1e-9 * extent**3 or not here[0]:
         return float("inf")
     volume = abs(here[0] / there[0] - 1)
@@ -123,7 +123,7 @@ def change_by_closing(path: str | Path) -> float | None:
     return float(max(volume, center, spread))
 
 
-def _moments(corners: Points) -> Points:
+def _sum_moments(corners: Points) -> Points:
     """Sum volume, first and second moments over the tetrahedra from the origin to triangles."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     six = np.einsum("ij,ij->i", a, np.cross(b, c))
@@ -133,7 +133,7 @@ def _moments(corners: Points) -> Points:
     return np.concatenate([[six.sum() / 6], first, squares.sum(axis=0) / 120])
 
 
-def _fans(points: Points, faces: Faces) -> Points:
+def _make_fans(points: Points, faces: Faces) -> Points:
     """Create the triangles that close each hole, from the center of its rim to its edges."""
     starts, ends = faces.reshape(-1), np.roll(faces, -1, axis=1).reshape(-1)
     both = np.sort(np.stack([starts, ends], axis=1), axis=1)
@@ -141,7 +141,7 @@ def _fans(points: Points, faces: Faces) -> Points:
     net = np.bincount(which.reshape(-1), weights=np.where(starts == both[:, 0], 1, -1))
     rim = (net != 0) & (edges[:, 0] != edges[:, 1])
     edges, net = edges[rim], net[rim].astype(int)
-    labels = _rims(len(points), edges)
+    labels = _label_rims(len(points), edges)
     on_rim = np.unique(edges)
     count = np.bincount(labels[on_rim], minlength=len(points))
     middles = (
@@ -156,7 +156,7 @@ def _fans(points: Points, faces: Faces) -> Points:
     return np.repeat(fans, np.abs(net), axis=0)
 
 
-def _rims(count: int, edges: Faces) -> Faces:
+def _label_rims(count: int, edges: Faces) -> Faces:
     """Label each point with the smallest index of its connected component."""
     labels = np.arange(count)
     while True:

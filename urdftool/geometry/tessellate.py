@@ -25,21 +25,21 @@ def tessellate(kind: str, size: Sequence[float], around: int = AROUND) -> tuple[
         Vertices [m], shape (n, 3), and faces, shape (m, 3).
     """
     if kind == "box":
-        return _box(size)
+        return _tessellate_box(size)
     if kind == "ellipsoid":
         vertices, faces = tessellate("sphere", (1.0,), around)
         return vertices * np.asarray(size), faces
-    return _turned(_profile(kind, size, around), around)
+    return _revolve(_compute_profile(kind, size, around), around)
 
 
-def _box(size: Sequence[float]) -> tuple[Points, Faces]:
+def _tessellate_box(size: Sequence[float]) -> tuple[Points, Faces]:
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     faces = [face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))]
     return signs * np.asarray(size) / 2, np.array(faces, dtype=np.int64)
 
 
-def _profile(kind: str, size: Sequence[float], around: int) -> Points:
+def _compute_profile(kind: str, size: Sequence[float], around: int) -> Points:
     """Return radius and height of each ring from bottom to top; the first and last are points."""
     radius = size[0]
     if kind == "cylinder":
@@ -59,7 +59,7 @@ def _profile(kind: str, size: Sequence[float], around: int) -> Points:
     return np.concatenate([rings[: middle + 1] - lift, rings[middle:] + lift])
 
 
-def _turned(profile: Points, around: int) -> tuple[Points, Faces]:
+def _revolve(profile: Points, around: int) -> tuple[Points, Faces]:
     """Create the surface of revolution of a profile about z."""
     angles = 2 * np.pi * np.arange(around) / around
     circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -19,7 +19,7 @@ from ..errors import MeshError
 from ..storage import DiskCache, cache_key
 from .load import load_mesh
 from .mesh import Mesh, Part, Points
-from .topology import used_vertices
+from .topology import find_used_vertices
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
@@ -44,18 +44,18 @@ class ThinMeshes:
         self._loaded: dict[object, Mesh] = {}
         self._keys: dict[object, str] = {}
 
-    def bounds(self, path: Path, scale: Sequence[float], gltf_up: GltfUp) -> Points:
+    def read_bounds(self, path: Path, scale: Sequence[float], gltf_up: GltfUp) -> Points:
         """Return the corners [m] of a mesh's bounding box, shape (2, 3).
 
         Raises:
             UrdftoolError: The file cannot be read.
         """
-        key = self._key(path, scale, gltf_up, "bounds")
+        key = self._make_key(path, scale, gltf_up, "bounds")
         data = None if key is None else self.cache.get(key)
         if data is not None:
             return np.array(json.loads(data), dtype=np.float64)
-        used = self._full(path, scale, gltf_up)
-        points = used.vertices[used_vertices(used.faces, len(used.vertices))]
+        used = self._read_full(path, scale, gltf_up)
+        points = used.vertices[find_used_vertices(used.faces, len(used.vertices))]
         found = np.array([points.min(axis=0), points.max(axis=0)])
         if key is not None:
             self.cache.put(key, json.dumps(found.tolist()).encode())
@@ -74,41 +74,41 @@ class ThinMeshes:
             UrdftoolError: The file cannot be read.
         """
         if path.stat().st_size <= SMALL_FILE:
-            return self._full(path, scale, gltf_up)
-        low, high = self.bounds(path, scale, gltf_up)
+            return self._read_full(path, scale, gltf_up)
+        low, high = self.read_bounds(path, scale, gltf_up)
         diagonal = float(np.linalg.norm(high - low))
         count = _COARSEST
         while count * cell < diagonal and count <= FINEST:
             count *= 2
         if count > FINEST:
-            return self._full(path, scale, gltf_up)
-        key = self._key(path, scale, gltf_up, count)
+            return self._read_full(path, scale, gltf_up)
+        key = self._make_key(path, scale, gltf_up, count)
         data = None if key is None else self.cache.get(key)
         if data is not None:
-            return _unpacked(data, path)
-        mesh = thin(self._full(path, scale, gltf_up), diagonal / count)
+            return _unpack(data, path)
+        mesh = merge_in_cells(self._read_full(path, scale, gltf_up), diagonal / count)
         if key is not None and all(part.image is None for part in mesh.parts):
-            self.cache.put(key, _packed(mesh))
+            self.cache.put(key, _pack(mesh))
         return mesh
 
-    def _full(self, path: Path, scale: Sequence[float], gltf_up: GltfUp) -> Mesh:
+    def _read_full(self, path: Path, scale: Sequence[float], gltf_up: GltfUp) -> Mesh:
         key = (path, tuple(scale))
         if key not in self._loaded:
             self._loaded[key] = load_mesh(path, scale, gltf_up=gltf_up)
         return self._loaded[key]
 
-    def _key(
+    def _make_key(
         self, path: Path, scale: Sequence[float], gltf_up: GltfUp, detail: object
     ) -> str | None:
         if self.cache.folder is None:
             return None
         if path not in self._keys:
-            self._keys[path] = content_key(path)
+            self._keys[path] = compute_content_key(path)
         facts = [list(scale), gltf_up, detail]
         return cache_key(_REVISION, facts, [self._keys[path].encode()])
 
 
-def content_key(path: Path) -> str:
+def compute_content_key(path: Path) -> str:
     """Return a digest of a mesh file and of the files that belong to it.
 
     Raises:
@@ -125,7 +125,7 @@ def content_key(path: Path) -> str:
     return cache_key(_REVISION, suffix, inputs)
 
 
-def thin(mesh: Mesh, cell: float) -> Mesh:
+def merge_in_cells(mesh: Mesh, cell: float) -> Mesh:
     """Merge the vertices in each cell of a grid, and drop the triangles that vanish.
 
     Args:
@@ -156,7 +156,7 @@ def thin(mesh: Mesh, cell: float) -> Mesh:
     )
 
 
-def _packed(mesh: Mesh) -> bytes:
+def _pack(mesh: Mesh) -> bytes:
     parts = [
         {
             "name": part.name,
@@ -182,7 +182,7 @@ def _packed(mesh: Mesh) -> bytes:
     return stream.getvalue()
 
 
-def _unpacked(data: bytes, path: Path) -> Mesh:
+def _unpack(data: bytes, path: Path) -> Mesh:
     with np.load(io.BytesIO(data)) as arrays:
         head = json.loads(arrays["head"].tobytes())
         parts = []

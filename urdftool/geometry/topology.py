@@ -58,7 +58,7 @@ class Edges:
         return bool(np.array_equal(self.forward, self.backward))
 
 
-def unit_suspicion(extent: float) -> Diagnostic | None:
+def explain_unit_suspicion(extent: float) -> Diagnostic | None:
     """Explain why the size of one link's mesh suggests a wrong unit; None if it does not.
 
     Of 4,325 meshes in public robots, all but ten have an extent below 2.03 m. Those ten are above
@@ -70,14 +70,14 @@ def unit_suspicion(extent: float) -> Diagnostic | None:
     if extent > LARGE_EXTENT:
         return make_warning(
             "mesh-in-millimeters",
-            f"The mesh is {extent:.4g} m long, so its unit is probably the millimetre; "
+            f"The mesh is {extent:.4g} m long, so its unit is probably the millimeter; "
             'scale="0.001 0.001 0.001" would make it a link\'s size.',
             extent=extent,
         )
     if 0 < extent < SMALL_EXTENT:
         return make_warning(
             "mesh-scaled-twice",
-            f"The mesh is {extent:.4g} m long, so it was probably scaled to metres twice; without "
+            f"The mesh is {extent:.4g} m long, so it was probably scaled to meters twice; without "
             "its scale it would be a link's size.",
             extent=extent,
         )
@@ -94,12 +94,12 @@ def weld(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
         Points, faces on them, and edges.
     """
     points, merged = merge_vertices(vertices, faces)
-    edges = edges_of(merged[~collapsed(merged)])
+    edges = find_edges(merged[~find_collapsed(merged)])
     if edges.cycle or not len(faces):
         return points, merged, edges
     tolerance = WELD_TOLERANCE * float(np.ptp(points, axis=0).max())
     nearer, welded = merge_vertices(points, merged, tolerance=tolerance)
-    closer = edges_of(welded[~collapsed(welded)])
+    closer = find_edges(welded[~find_collapsed(welded)])
     if closer.open_count < edges.open_count:
         return nearer, welded, closer
     return points, merged, edges
@@ -121,7 +121,7 @@ def weld_on_grids(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]
         _, merged = merge_vertices(rounded, faces)
         points = np.empty((int(merged.max()) + 1, 3))
         points[merged.reshape(-1)] = vertices[faces.reshape(-1)]
-        edges = edges_of(merged[~collapsed(merged)])
+        edges = find_edges(merged[~find_collapsed(merged)])
         if best is None or edges.open_count < best[2].open_count:
             best = points, merged, edges
         if edges.closed:
@@ -144,12 +144,12 @@ def merge_vertices(
         from scipy.spatial import cKDTree
 
         pairs = cKDTree(vertices).query_pairs(tolerance, output_type="ndarray")
-        inverse = components(len(vertices), pairs[:, 0], pairs[:, 1])
+        inverse = label_components(len(vertices), pairs[:, 0], pairs[:, 1])
         first = np.unique(inverse, return_index=True)[1]
     else:
         # adding zero maps -0.0 to 0.0, so that equal points have equal bits
         bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)
-        _, first, inverse = np.unique(_hashes(bits), return_index=True, return_inverse=True)
+        _, first, inverse = np.unique(_hash_rows(bits), return_index=True, return_inverse=True)
         if not np.array_equal(bits[first[inverse]], bits):
             _, first, inverse = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
     merged = inverse.reshape(-1)[faces]
@@ -159,7 +159,7 @@ def merge_vertices(
     return vertices[first[seen]], renumbered[merged].astype(np.int64)
 
 
-def used_vertices(faces: Faces, count: int) -> npt.NDArray[np.int64]:
+def find_used_vertices(faces: Faces, count: int) -> npt.NDArray[np.int64]:
     """Return the indices of the vertices that faces use, ascending.
 
     Args:
@@ -171,14 +171,14 @@ def used_vertices(faces: Faces, count: int) -> npt.NDArray[np.int64]:
     return np.flatnonzero(used)
 
 
-def collapsed(faces: Faces) -> npt.NDArray[np.bool_]:
+def find_collapsed(faces: Faces) -> npt.NDArray[np.bool_]:
     """Find the faces that use one vertex twice."""
     return np.asarray(
         (faces[:, 0] == faces[:, 1]) | (faces[:, 1] == faces[:, 2]) | (faces[:, 2] == faces[:, 0])
     )
 
 
-def edges_of(faces: Faces) -> Edges:
+def find_edges(faces: Faces) -> Edges:
     """Find the edges of faces on merged vertices, none of them collapsed."""
     begin = faces.reshape(-1)
     end = faces[:, [1, 2, 0]].reshape(-1)
@@ -195,7 +195,7 @@ def edges_of(faces: Faces) -> Edges:
     return Edges(pairs, forward, sizes - forward, order, starts)
 
 
-def neighbors(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+def find_neighbors(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """Return pairs of faces that share an edge; an edge of more than two faces gives a chain."""
     face = edges.order // 3
     same = np.ones(len(face), dtype=bool)
@@ -204,12 +204,12 @@ def neighbors(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64
     return face[later - 1], face[later]
 
 
-def body_labels(count: int, edges: Edges) -> npt.NDArray[np.int64]:
+def label_bodies(count: int, edges: Edges) -> npt.NDArray[np.int64]:
     """Number the connected bodies from 0, and return the number of each of ``count`` faces."""
-    return components(count, *neighbors(edges))
+    return label_components(count, *find_neighbors(edges))
 
 
-def components(
+def label_components(
     count: int, first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]
 ) -> npt.NDArray[np.int64]:
     """Number the connected components of items; ``first[i]`` is linked to ``second[i]``."""
@@ -221,7 +221,7 @@ def components(
     return np.asarray(labels, dtype=np.int64)
 
 
-def _hashes(bits: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint64]:
+def _hash_rows(bits: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint64]:
     """Hash each row of three; equal rows have equal hashes, and collisions are rare."""
     mixed = np.zeros(len(bits), dtype=np.uint64)
     for axis, factor in enumerate((0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)):

@@ -104,9 +104,11 @@ class MeshBody:
 
     def _with_suspicion(self) -> MeshBody:
         """Set the suspicion by the size."""
-        from ..geometry.topology import unit_suspicion
+        from ..geometry.topology import explain_unit_suspicion
 
-        return replace(self, suspicion=unit_suspicion(float((self.upper - self.lower).max())))
+        return replace(
+            self, suspicion=explain_unit_suspicion(float((self.upper - self.lower).max()))
+        )
 
     def as_dict(self) -> dict[str, Any]:
         """Return the JSON form of everything but the mass properties."""
@@ -132,9 +134,9 @@ def get_cached_mesh_body(
     """
     if cache.folder is None or not path.is_file():
         return integrate_mesh_body(path, surface=surface, gltf_up=gltf_up)
-    from ..geometry.thin import content_key
+    from ..geometry.thin import compute_content_key
 
-    key = cache_key(_REVISION, ["body", surface, gltf_up], [content_key(path).encode()])
+    key = cache_key(_REVISION, ["body", surface, gltf_up], [compute_content_key(path).encode()])
     data = cache.get(key)
     if data is not None:
         return _unpack(data, path)
@@ -176,10 +178,10 @@ def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = 
         MeshError: The file cannot be read or encloses no volume.
     """
     from ..geometry.load import load_mesh
-    from ..geometry.topology import used_vertices
+    from ..geometry.topology import find_used_vertices
 
     mesh = load_mesh(path, gltf_up=gltf_up)
-    used = mesh.vertices[used_vertices(mesh.faces, len(mesh.vertices))]
+    used = mesh.vertices[find_used_vertices(mesh.faces, len(mesh.vertices))]
     box = used.min(axis=0), used.max(axis=0)
     count = len(mesh.faces)
     if surface:

@@ -24,7 +24,7 @@ import numpy.typing as npt
 
 from ..errors import MeshError
 from ..geometry.mesh import Array, Faces, Points
-from ..geometry.topology import Edges, body_labels, collapsed, edges_of, weld
+from ..geometry.topology import Edges, find_collapsed, find_edges, label_bodies, weld
 from ..mechanics.spatial_inertia import SpatialInertia
 from .hull import compute_hull_moments
 from .inertia_error import InertiaError
@@ -104,7 +104,7 @@ def estimate_mass_properties(
     """
     _check_amount(mass, density)
     points, merged, edges = weld(vertices, faces)
-    kept = merged[~collapsed(merged)]
+    kept = merged[~find_collapsed(merged)]
     if len(kept) < 4:
         raise MeshError(
             f"the mesh has {len(kept)} triangles with an area; a solid requires at least four"
@@ -112,7 +112,7 @@ def estimate_mass_properties(
     # normalized to size 1, so that thresholds are independent of units
     middle, size = _choose_frame(points)
     points = (points - middle) / size
-    labels = body_labels(len(kept), edges)
+    labels = label_bodies(len(kept), edges)
     bodies = int(labels.max()) + 1
     solid = _integrate_exact(points, kept, edges, labels) or _estimate_open(points, kept)
     hull = None if solid.method == "exact" else compute_hull_moments(points).measure * size**3
@@ -164,7 +164,7 @@ def _integrate_exact(
     if not edges.cycle:
         return None
     if labels is None:
-        labels = body_labels(len(faces), edges)
+        labels = label_bodies(len(faces), edges)
     volumes, areas = _compute_measures(points, faces, labels)
     sheets = np.abs(volumes) < _SHEET * areas**1.5
     if sheets.all() or areas[sheets].sum() > 0.01 * areas.sum():
@@ -268,7 +268,7 @@ def _estimate_open(points: Points, faces: Faces) -> _Solid:
     if turned:
         notes.append(f"Faces reversed to agree with their neighbors: {turned}.")
     filling = fill_holes(points, wound)
-    filled = _integrate_exact(filling.vertices, filling.faces, edges_of(filling.faces))
+    filled = _integrate_exact(filling.vertices, filling.faces, find_edges(filling.faces))
     opening = (
         filling.area / _compute_measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
     )

@@ -243,7 +243,7 @@ def _compute_mesh_box(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None
             return None
         if points is None:
             return None
-        box = Bounds(*points.box(mesh.scale, *pose))
+        box = Bounds(*points.compute_box(mesh.scale, *pose))
     # a mesh in a wrong unit is reported for its size and is not evidence here
     return box if SMALLEST < max(box.size) < LARGEST else None
 

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
-from ..geometry.topology import components, edges_of
+from ..geometry.topology import find_edges, label_components
 
 CAP_RISE = 0.1
 """Assumed bulge of a surface over a hole, relative to the hole's size, for the error of a cap."""
@@ -62,14 +62,14 @@ def orient(vertices: Points, faces: Faces) -> tuple[Faces, int]:
     cavity.
     """
     count = len(faces)
-    edges = edges_of(faces)
+    edges = find_edges(faces)
     sizes = np.diff(np.r_[edges.starts, len(edges.order)])
     pairs = edges.starts[sizes == 2]
     left, right = edges.order[pairs] // 3, edges.order[pairs + 1] // 3
     agree = edges.forward[sizes == 2] == 1
     other = np.where(agree, right, right + count)
     mirrored = np.where(agree, right + count, right)
-    labels = components(2 * count, np.r_[left, left + count], np.r_[other, mirrored])
+    labels = label_components(2 * count, np.r_[left, left + count], np.r_[other, mirrored])
     corners = vertices[faces]
     areas = np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
@@ -90,7 +90,7 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
     a cap is its area times the sum of the loop's deviation from a plane and ``CAP_RISE`` times its
     size.
     """
-    edges = edges_of(faces)
+    edges = find_edges(faces)
     surplus = edges.forward - edges.backward
     rim = np.flatnonzero(surplus)
     repeat = np.abs(surplus[rim])

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..collision.compute import Result, Task, shown_scale
+from ..collision.compute import Result, Task, format_scale
 from ..collision.notes import MORE_PIECES, SHOWN
-from ..collision.rewrite import geometry_tag
+from ..collision.rewrite import format_geometry_tag
 from ..collision.robot import Written
 from .tables import render_table
 
@@ -218,7 +218,7 @@ def summarize(report: Report) -> str:
 def _label(row: Row) -> str:
     if not row.source:
         return row.name
-    scale = shown_scale(row.scale)
+    scale = format_scale(row.scale)
     return f"{row.name} {Path(row.mesh).name}{' ' + scale if scale else ''}"
 
 
@@ -253,7 +253,7 @@ def _build_piece(result: Result, index: int, file: str) -> dict[str, Any]:
     return {
         "kind": piece.kind,
         "size": list(piece.size),
-        "centre": piece.centre.tolist(),
+        "centre": piece.center.tolist(),
         "rotation": piece.rotation.tolist(),
-        "urdf": geometry_tag(piece),
+        "urdf": format_geometry_tag(piece),
     }

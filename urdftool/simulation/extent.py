@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..formats.common.extent import get_shape_points, transform_to_link
-from ..geometry.hull import convex_hull
+from ..geometry.hull import compute_convex_hull
 from ..model.elements import Box, Capsule, Collision, Cylinder, Mesh, Robot, Sphere, Visual
 from .mesh_cache import get_outermost_points
 from .recording import Array
@@ -94,5 +94,5 @@ def _compute_volume(shape: Collision | Visual, points: Array) -> float:
         return float(np.pi * geometry.radius**2 * (geometry.length + ends))
     if not isinstance(geometry, Mesh):
         return 0.0
-    found = convex_hull(points)
+    found = compute_convex_hull(points)
     return 0.0 if found is None else found.volume()

@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..errors import UrdftoolError
-from ..geometry.convex_points import extreme_points, read_convex_points
+from ..geometry.convex_points import read_convex_points, select_extreme_points
 from ..geometry.load import load_named
 from ..geometry.mesh import Mesh as Triangles
 from ..geometry.mesh import Points
@@ -86,7 +86,7 @@ def get_outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
         if found is not None:
             points = np.array(found.points) * geometry.scale
         else:
-            points = extreme_points(load_triangles(robot, geometry).vertices)
+            points = select_extreme_points(load_triangles(robot, geometry).vertices)
         return [(points, np.zeros((0, 3), dtype=np.int64))]
 
     def read() -> Points | None:

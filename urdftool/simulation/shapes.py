@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import ModelError, UrdftoolError
-from ..geometry.hull import convex_hull, hull_surface
+from ..geometry.hull import compute_convex_hull, extract_hull_surface
 from ..geometry.mesh import Faces
 from ..geometry.mesh import Mesh as Triangles
 from ..geometry.tessellate import tessellate
@@ -186,7 +186,7 @@ def _collect_pieces(
 
 def _list_convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
     """Yield the hull of each object of a mesh, as engines make it."""
-    parts = [mesh.part_faces(part) for part in mesh.parts]
+    parts = [mesh.get_part_faces(part) for part in mesh.parts]
     if mesh.format == "stl" or not 1 < len(parts) <= MOST_PIECES:
         parts = [mesh.faces]
     for faces in parts:
@@ -197,13 +197,13 @@ def _list_convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
 
 def compute_hull(points: Array) -> tuple[Array, Faces]:
     """Compute corners and triangles of the convex hull of points; of flat ones, the points."""
-    found = convex_hull(points)
+    found = compute_convex_hull(points)
     if found is not None and found.num_vert() > MOST_VERTICES:
-        found = convex_hull(_choose_extreme_points(hull_surface(found)[0]))
+        found = compute_convex_hull(_choose_extreme_points(extract_hull_surface(found)[0]))
     if found is None:
         points = _choose_extreme_points(points) if len(points) > MOST_VERTICES else points
         return points, _make_fan(len(points))
-    return hull_surface(found)
+    return extract_hull_surface(found)
 
 
 def _make_fan(count: int) -> Faces:

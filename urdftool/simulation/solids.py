@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..geometry.convex_points import extreme_points
-from ..geometry.hull import convex_hull
+from ..geometry.convex_points import select_extreme_points
+from ..geometry.hull import compute_convex_hull
 from ..model.pose import Pose
 from .recording import Array
 
@@ -61,7 +61,7 @@ class Solids:
 
 def find_outermost(clouds: Iterable[Array]) -> list[Array]:
     """Choose the outermost points of each cloud, whose hull is nearly that of all its points."""
-    return [extreme_points(points) for points in clouds]
+    return [select_extreme_points(points) for points in clouds]
 
 
 def compute_hulls(clouds: Iterable[Array]) -> Solids:
@@ -70,5 +70,5 @@ def compute_hulls(clouds: Iterable[Array]) -> Solids:
     Pass large clouds through :func:`find_outermost`. Results are not kept in the memo of a robot:
     manifold3d prints a warning for each hull that exists when Python ends.
     """
-    found = map(convex_hull, clouds)
+    found = map(compute_convex_hull, clouds)
     return Solids(part for part in found if part is not None)

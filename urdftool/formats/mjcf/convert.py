@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import MeshError
-from ...geometry.hull import convex_hull
+from ...geometry.hull import compute_convex_hull
 from ...geometry.load import load_mesh
 from ...geometry.mesh import Faces, Mesh, MeshNote, Part, Points
 from ...geometry.stl_header import read_stl_header
@@ -149,7 +149,7 @@ def _group_by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
         looks.setdefault((part.rgba, get_part_image(part)), []).append(part)
     groups = []
     for parts in looks.values():
-        faces = np.concatenate([mesh.part_faces(part) for part in parts])
+        faces = np.concatenate([mesh.get_part_faces(part) for part in parts])
         known = [part.uv for part in parts if part.uv is not None and np.isfinite(part.uv).all()]
         uv = np.concatenate(known) if len(known) == len(parts) else None
         groups.append((parts[0], faces, uv))
@@ -208,7 +208,7 @@ def _compute_hull_ratio(mesh: Mesh) -> float | None:
     volume = compute_signed_volume(mesh.vertices, mesh.faces)
     if volume <= 0:
         return None
-    hull = convex_hull(mesh.vertices)
+    hull = compute_convex_hull(mesh.vertices)
     return None if hull is None else float(hull.volume()) / volume
 
 

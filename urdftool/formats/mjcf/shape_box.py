@@ -40,7 +40,7 @@ class ShapeBoxes:
             points = self._make_outline(geometry.filename)
             if points is None:
                 return None
-            return points.box(geometry.scale, pose.rotation, pose.translation)
+            return points.compute_box(geometry.scale, pose.rotation, pose.translation)
         size = None if geometry is None else get_shape_size(geometry)
         if size is None or not min(size[1]) >= 0:
             return None

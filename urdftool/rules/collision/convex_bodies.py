@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...geometry.penetration import Convex, convex_of, overlap
+from ...geometry.penetration import Convex, compute_overlap, make_convex
 from ...model.elements import Joint, Link, Mesh, Robot, Vector
 from ...model.kinematics import MOVABLE, add_mimic_positions, get_limits, link_poses
 from ...model.pose import IDENTITY, Pose, make_pose
@@ -42,7 +42,7 @@ class ConvexBodies:
             link = robot.link[name]
             for piece in self._get_pieces(link):
                 body = self.body_of.get(name, name)
-                self.bodies.setdefault(body, []).append((link, piece.moved(pose)))
+                self.bodies.setdefault(body, []).append((link, piece.transform(pose)))
         self.spheres = {name: _compute_sphere(found) for name, found in self.bodies.items()}
         self.neighbors = {frozenset((self._find_body_above(body), body)) for body in self.bodies}
 
@@ -61,7 +61,7 @@ class ConvexBodies:
         for collision in link.collisions:
             pose = make_pose(collision.origin)
             if not isinstance(collision.geometry, Mesh):
-                piece = convex_of(collision.geometry, pose)
+                piece = make_convex(collision.geometry, pose)
                 if piece is not None:
                     yield piece
                 continue
@@ -85,14 +85,14 @@ class ConvexBodies:
                 for against, fixed in self.bodies.get(other, ())
                 if math.dist(at, fixed.pose.translation) < piece.radius + fixed.radius
             ]
-            placed = piece if moved is IDENTITY or not near else piece.moved(moved)
+            placed = piece if moved is IDENTITY or not near else piece.transform(moved)
             for against, fixed in near:
                 enough = least
                 if not (placed.filled and fixed.filled):
                     enough = max(least, min(HOLLOW, 0.1 * min(placed.radius, fixed.radius)))
                 if found is not None:
                     enough = max(enough, found[2])
-                depth = overlap(placed, fixed, enough)
+                depth = compute_overlap(placed, fixed, enough)
                 if depth > enough:
                     found = link, against, depth
         return found

@@ -181,9 +181,9 @@ def _is_coincident(
 
 
 def _make_directions() -> list[Vector]:
-    from ...geometry.convex_points import directions
+    from ...geometry.convex_points import compute_directions
 
-    return directions()
+    return compute_directions()
 
 
 def _compute_extent(points: list[Vector], pose: Pose, way: Vector) -> float:

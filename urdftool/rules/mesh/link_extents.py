@@ -47,7 +47,7 @@ def compute_mesh_box(use: MeshUse, pose: Pose = IDENTITY) -> Bounds | None:
     """Compute the bounding box of a scaled mesh [m], in a frame in which its link has a pose."""
     found = get_convex_points(use)
     at = pose @ make_pose(use.shape.origin)
-    return None if found is None else Bounds(*found.box(use.mesh.scale, *at))
+    return None if found is None else Bounds(*found.compute_box(use.mesh.scale, *at))
 
 
 class LinkExtents:

@@ -76,9 +76,9 @@ def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
         return None if box is None else max(box.size)
     extent = sample_extent(use.workspace, use.path)
     if extent is not None and whole:
-        from ...geometry.stl import stl_bounds
+        from ...geometry.stl import compute_stl_bounds
 
-        bounds = stl_bounds(use.workspace.materialize(use.path))
+        bounds = compute_stl_bounds(use.workspace.materialize(use.path))
         if bounds is None:
             return None
         (a, b, c), (d, e, f) = bounds

@@ -44,9 +44,9 @@ def _compute_change_by_closing(workspace: Workspace, path: Path) -> float | None
 
 @memoize_by_workspace
 def _compute_hull_volume(workspace: Workspace, path: Path) -> float | None:
-    from ...geometry.surface import hull_volume
+    from ...geometry.surface import compute_hull_volume
 
-    return hull_volume(str(workspace.materialize(path)))
+    return compute_hull_volume(str(workspace.materialize(path)))
 
 
 def _read_surfaces(
