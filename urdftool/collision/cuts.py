@@ -111,8 +111,9 @@ class PlaneCutter:
             if _estimate(parts) >= _estimate(old):
                 break
             found = self._finish(parts, max_error)
-            if found.measures.error < best.measures.error:
-                best = found
+            if found.measures.error >= best.measures.error:
+                break
+            best = found
         return best
 
     def _search(self, parts: Sequence[Part], most: int, goal: float, *, dense: bool) -> list[Part]:
