@@ -40,6 +40,7 @@ BELOW = {
         *("lint", "rules", "finding", "mechanics", "model", "source", "geometry", "output"),
         *BASE,
     ),
+    "bundle": ("formats", "finding", "geometry", "model", "source", "output", *BASE),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),
@@ -64,6 +65,7 @@ PLACES = {
     "concurrent": (),
     "subprocess": (
         "isolated.py",
+        "bundle/origin.py",  # git
         "compare/revision.py",  # git
         "formats/sdf/verify/loader.py",  # gz sdf
     ),

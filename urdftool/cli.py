@@ -25,6 +25,7 @@ from .terminal import install, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
+    "bundle",
     "export",
 )
 

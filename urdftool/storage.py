@@ -10,7 +10,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
@@ -74,12 +74,15 @@ def write_files(files: Mapping[Path, Content], *, follow_links: bool = True) -> 
                 old.unlink(missing_ok=True)
 
 
-def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
+def write_folder(
+    target: str | Path, files: Mapping[str, Content], *, dropped: Collection[str] = ()
+) -> None:
     """Write a folder: its new state is created next to it and renamed.
 
     Args:
         target: The folder; other files in it are kept.
         files: Content by relative path.
+        dropped: Relative paths of existing files that are not kept.
 
     Raises:
         OutputError: The folder cannot be written; its previous state is restored.
@@ -98,7 +101,7 @@ def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
             place.parent.mkdir(parents=True, exist_ok=True)
             _write(place, content)
         if folder.is_dir():
-            _copy_entries(folder, staged)
+            _copy_entries(folder, staged, {folder / name for name in dropped})
         _take_place(staged, folder)
     except OSError as error:
         raise OutputError(f"cannot be written: {_get_reason(error)}", path=target) from None
@@ -175,18 +178,26 @@ def _restore(place: Path, old: Path, *, alone: bool) -> None:
         place.unlink(missing_ok=True)
 
 
-def _copy_entries(folder: Path, staged: Path) -> None:
+def _copy_entries(folder: Path, staged: Path, dropped: Collection[Path] = ()) -> None:
     """Copy the entries of a folder that its new state does not contain."""
     import shutil
 
+    emptied = {place.parent for place in dropped}
     for place in sorted(folder.rglob("*")):
         copy = staged / place.relative_to(folder)
+        if place in dropped or (place in emptied and not _has_others(place, dropped)):
+            continue
         if place.is_symlink() or not place.is_dir():
             if not os.path.lexists(copy):
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(place, copy, follow_symlinks=False)
         else:
             copy.mkdir(parents=True, exist_ok=True)
+
+
+def _has_others(folder: Path, dropped: Collection[Path]) -> bool:
+    """Tell whether a folder contains an entry that is not dropped."""
+    return any(place not in dropped for place in folder.iterdir())
 
 
 def _take_place(staged: Path, folder: Path) -> None:

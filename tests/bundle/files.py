@@ -1,0 +1,67 @@
+"""Small mesh and image files for tests of bundles."""
+
+import json
+import struct
+
+PNG = b"\x89PNG\r\n\x1a\n" + b"\0" * 32
+TRIANGLE = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
+
+
+def stl(size=1.0):
+    """A binary STL of one triangle."""
+    corners = struct.pack("<12f", 0, 0, 1, *(size * x for point in TRIANGLE for x in point))
+    return b"urdftool test".ljust(80) + struct.pack("<I", 1) + corners + b"\0\0"
+
+
+def obj(library="arm.mtl"):
+    """An OBJ of one triangle with a material."""
+    return f"mtllib {library}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n".encode()
+
+
+def mtl(image="paint.png"):
+    """A material with an image."""
+    return f"newmtl paint\nKd 1 0 0\nmap_Kd -s 1 1 1 {image}\n".encode()
+
+
+def dae(image):
+    """A COLLADA file that names an image; the second init_from is the name of a surface."""
+    return (
+        '<?xml version="1.0"?>\n<COLLADA version="1.4.1">'
+        f'<library_images><image id="i"><init_from>{image}</init_from></image></library_images>'
+        '<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>'
+        "</COLLADA>\n"
+    ).encode()
+
+
+def gltf_document(buffer, image, size=12):
+    """The JSON of a glTF file with a buffer and an image."""
+    return json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "buffers": [{"byteLength": size, "uri": buffer}],
+            "images": [{"uri": image}, {"uri": "data:image/png;base64,AAAA"}],
+        }
+    ).encode()
+
+
+def glb(document, rest=b""):
+    """A GLB file of a JSON document."""
+    document += b" " * (-len(document) % 4)
+    chunk = struct.pack("<I4s", len(document), b"JSON") + document
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunk) + len(rest)) + chunk + rest
+
+
+LINK = (
+    '<link name="{0}"><visual><geometry><mesh filename="{1}"/></geometry></visual>'
+    '<collision><geometry><mesh filename="{2}"/></geometry></collision></link>'
+)
+
+
+def robot(*pairs, extra=""):
+    """A robot with a link for each pair of a visual and a collision mesh."""
+    links = [LINK.format(f"l{i}", *pair) for i, pair in enumerate(pairs)]
+    joints = [
+        f'<joint name="j{i}" type="fixed"><parent link="l0"/><child link="l{i}"/></joint>'
+        for i in range(1, len(pairs))
+    ]
+    return f'<robot name="arm">{"".join((*links, *joints, extra))}</robot>\n'

@@ -1,0 +1,210 @@
+"""Verification that a bundle is complete: nothing is missing, points out, or was changed."""
+
+from __future__ import annotations
+
+import os
+import stat
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
+from urllib.parse import unquote
+
+from ..errors import SourceError, UrdftoolError
+from ..source.document import parse, read_file
+from ..source.packages import find_own_package
+from .collect import is_outside
+from .manifest import MANIFEST, compute_digest, parse_manifest, read_digests
+from .output import is_zip
+from .references import find_references, has_references, list_readings
+
+_MOST_BYTES = 8 << 30
+_NAMES_A_FILE = {
+    "mesh": ("filename", "file"),
+    "texture": ("filename", "file"),
+    "hfield": ("file",),
+    "include": ("file",),
+}
+
+
+@dataclass(frozen=True)
+class Defect:
+    """Defect of a bundle.
+
+    Attributes:
+        code: Kind of the defect, such as ``missing-file``.
+        path: File in the bundle.
+        message: Sentence about the file.
+    """
+
+    code: str
+    path: str
+    message: str
+
+    def __str__(self) -> str:
+        """Return ``FILE: message [code]``."""
+        return f"{self.path}: {self.message} [{self.code}]"
+
+
+def is_bundle(path: str | Path) -> bool:
+    """Tell whether a path is a folder with a ``bundle.json``, or a zip file."""
+    return (Path(path) / MANIFEST).is_file() or (is_zip(path) and os.path.isfile(path))
+
+
+def check_bundle(path: str | Path) -> list[Defect]:
+    """Find the defects of a bundle.
+
+    Args:
+        path: A folder or a zip file.
+
+    Raises:
+        SourceError: It is not a bundle, or the zip file cannot be read.
+    """
+    with open_bundle(path) as folder:
+        return list(_find_defects(folder))
+
+
+@contextmanager
+def open_bundle(path: str | Path) -> Iterator[Path]:
+    """Provide the folder of a bundle; a zip file is extracted to a temporary folder.
+
+    Raises:
+        SourceError: It is not a bundle, or the zip file is damaged or has unsafe entries.
+    """
+    if not is_zip(path):
+        folder = Path(os.path.realpath(path))
+        if not (folder / MANIFEST).is_file():
+            raise SourceError(f"is not a bundle: it has no {MANIFEST}", path=path)
+        yield folder
+        return
+    with TemporaryDirectory(prefix="urdftool-") as name:
+        place = Path(os.path.realpath(name))
+        try:
+            with zipfile.ZipFile(path) as archive:
+                _check_entries(archive, path)
+                archive.extractall(place)
+        except (zipfile.BadZipFile, OSError, NotImplementedError, RuntimeError) as error:
+            raise SourceError(f"cannot be read as a zip file: {error}", path=path) from None
+        manifests = sorted(place.glob(f"*/{MANIFEST}"))
+        others = [entry for entry in place.iterdir() if not (entry / MANIFEST).is_file()]
+        if len(manifests) != 1 or others:
+            raise SourceError(
+                f"is not a bundle: it requires one folder with a {MANIFEST}", path=path
+            )
+        yield manifests[0].parent
+
+
+def _check_entries(archive: zipfile.ZipFile, path: str | Path) -> None:
+    """Refuse entries that leave the folder, links, and immense content.
+
+    Raises:
+        SourceError: The zip file has such an entry.
+    """
+    size = 0
+    for entry in archive.infolist():
+        name = PurePosixPath(entry.filename.replace("\\", "/"))
+        mode = entry.external_attr >> 16
+        if name.is_absolute() or ".." in name.parts or ":" in entry.filename:
+            raise SourceError(f"has an entry outside of its folder: {entry.filename}", path=path)
+        if stat.S_ISLNK(mode):
+            raise SourceError(f"has a symbolic link: {entry.filename}", path=path)
+        size += entry.file_size
+    if size > _MOST_BYTES:
+        raise SourceError(f"has {size / 1e9:.1f} GB of content, more than the limit", path=path)
+
+
+def _find_defects(folder: Path) -> Iterator[Defect]:
+    data = (folder / MANIFEST).read_bytes()
+    document, digests = parse_manifest(data), read_digests(data)
+    if document is None or digests is None:
+        yield Defect("invalid-manifest", MANIFEST, "is not a manifest that urdftool wrote")
+        return
+    present = {}
+    for where, folders, names in os.walk(folder):
+        for name in (*folders, *names):
+            path = Path(where, name)
+            inner = path.relative_to(folder).as_posix()
+            if path.is_symlink():
+                yield Defect("link", inner, "is a symbolic link; a bundle contains files only")
+            elif not path.is_dir():
+                present[inner] = path
+    for inner in sorted(digests.keys() - present.keys()):
+        yield Defect("missing-file", inner, f"is listed in {MANIFEST}, but does not exist")
+    for inner, path in sorted(present.items()):
+        if inner == MANIFEST:
+            continue
+        if inner not in digests:
+            yield Defect("unlisted-file", inner, f"is not listed in {MANIFEST}")
+        elif not path.is_file() or compute_digest(path) != digests[inner]:
+            yield Defect("changed-file", inner, "was changed since it was bundled")
+        else:
+            yield from _check_references(folder, inner, path)
+    if document["description"] not in present:
+        yield Defect("missing-file", document["description"], "the description does not exist")
+
+
+def _check_references(folder: Path, inner: str, path: Path) -> Iterator[Defect]:
+    """Yield the references of a file that are missing or point out."""
+    suffix = path.suffix.lower()
+    if suffix in (".urdf", ".sdf") or (suffix == ".xml" and path.name != "package.xml"):
+        yield from _check_description(folder, inner, path)
+    elif has_references(suffix):
+        for reference in find_references(suffix, path.read_bytes()):
+            yield from _check_reference(folder, inner, path.parent, reference.written, is_url=True)
+
+
+def _check_description(folder: Path, inner: str, path: Path) -> Iterator[Defect]:
+    try:
+        root = parse(read_file(path)).root
+    except UrdftoolError as error:
+        yield Defect("malformed-xml", inner, error.message)
+        return
+    base = path.parent
+    for element in root.walk():
+        if element.tag == "compiler" and path.suffix == ".xml":
+            base = base / element.attributes.get("meshdir", "")
+        names = _NAMES_A_FILE.get(element.tag, ())
+        for name, value in element.attributes.items():
+            if name in names or is_outside(value):
+                yield from _check_reference(folder, inner, base, value)
+        text = element.text.strip()
+        if is_outside(text) or (element.tag == "uri" and "://" not in text and "/" in text):
+            yield from _check_reference(folder, inner, base, text)
+
+
+def _check_reference(
+    folder: Path, inner: str, base: Path, written: str, *, is_url: bool = False
+) -> Iterator[Defect]:
+    where = [
+        _resolve(folder, base, name)
+        for name in (list_readings(written) if is_url else [written.strip()])
+    ]
+    if any(path is not None and path.is_file() for path in where):
+        return
+    if all(path is None for path in where):
+        message = f"'{written}' points out of the bundle"
+        yield Defect("points-out", inner, message)
+    else:
+        yield Defect("missing-reference", inner, f"'{written}' does not exist in the bundle")
+
+
+def _resolve(folder: Path, base: Path, name: str) -> Path | None:
+    """Return the file of a reference; None if it is outside of the bundle."""
+    scheme, separator, rest = name.partition("://")
+    if separator:
+        own = find_own_package(folder / "-")
+        if scheme == "package" and own is not None and own[1] == folder:
+            package, _, inner = rest.partition("/")
+            path = folder / inner
+            if package != own[0]:
+                return None
+        elif scheme == "file":
+            path = Path(unquote(rest))
+        else:
+            return None
+    else:
+        path = base / name
+    path = Path(os.path.normpath(path))
+    return path if path.is_relative_to(folder) else None

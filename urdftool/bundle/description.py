@@ -1,0 +1,136 @@
+"""URDF text of a bundle: the description with new URIs and without xacro."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from .. import __version__
+from ..errors import ModelError
+from ..model.elements import Robot
+from ..source.document import Element
+from ..source.edit import Edit, Source, apply, parse_source, remove_element, set_attribute
+from ..source.escape import escape
+from ..source.location import SourceFile
+from ..source.xacro_write import write_xml
+
+_ENCODING = re.compile(rb"""(<\?xml[^>]*?)\s+encoding\s*=\s*("[^"]*"|'[^']*')""")
+
+
+def make_urdf(robot: Robot, name: str) -> SourceFile:
+    """Return the description as plain URDF in UTF-8; xacro is expanded.
+
+    Args:
+        robot: A robot that was read from URDF or xacro.
+        name: Path of the file, for messages.
+
+    Raises:
+        ModelError: The robot was read from another format.
+    """
+    if robot.source is None or robot.xml is None:
+        raise ModelError("the robot was not read from URDF or xacro")
+    if robot.source.expansion is not None:
+        text = write_xml(robot.source.expansion.tree, [])
+        return SourceFile(name, text.encode())
+    file = robot.source.document.file
+    if file.encoding.replace("-", "").lower() in ("utf8", "ascii", "usascii"):
+        return SourceFile(name, file.data.removeprefix(b"\xef\xbb\xbf"))
+    data = file.data.decode(file.encoding).encode()
+    return SourceFile(name, _ENCODING.sub(rb"\1", data, count=1))
+
+
+def rewrite(
+    file: SourceFile, uris: Mapping[str, str], missing: set[str], *, comment: str, strippath: bool
+) -> bytes:
+    """Return a description with new URIs.
+
+    Args:
+        file: Plain URDF.
+        uris: New URIs of files by those written.
+        missing: URIs of meshes and textures whose elements are removed.
+        comment: Text of a comment before the root element.
+        strippath: Whether to set the option with which MuJoCo before version 4 keeps the folders
+            of mesh paths.
+    """
+    source = parse_source(file)
+    root = source.document.root
+    edits = [Edit(root.start, root.start, f"<!-- {comment} -->\n".encode())]
+    removed = {id(element) for element in _find_missing_parts(root, missing)}
+    for element in root.walk():
+        if any(id(above) in removed for above in _list_ancestors(element)):
+            continue
+        if id(element) in removed:
+            edits.append(remove_element(source, element))
+            continue
+        for name, value in element.attributes.items():
+            if value.strip() in uris and _may_be_file(element, name):
+                edits.append(set_attribute(source, element, name, uris[value.strip()]))
+        if element.text.strip() in uris and not element.children:
+            edits.append(_set_text(source, element, uris[element.text.strip()]))
+    if strippath:
+        edits += _keep_paths(source, root)
+    return apply(file, edits)
+
+
+def format_comment(name: str) -> str:
+    """Return the comment of a bundled description.
+
+    Args:
+        name: Name of the source file.
+    """
+    plain = re.sub(r"-{2,}|[<>:]", "_", name)
+    return f"Bundled by urdftool {__version__} from {plain}. The file bundle.json lists the sources"
+
+
+def _may_be_file(element: Element, attribute: str) -> bool:
+    """Tell whether an attribute may name a file: in a mesh, a texture, or a ``<gazebo>`` block."""
+    if element.tag in ("mesh", "texture"):
+        return attribute == "filename"
+    return any(above.tag == "gazebo" for above in (element, *_list_ancestors(element)))
+
+
+def _list_ancestors(element: Element) -> Iterator[Element]:
+    parent = element.parent
+    while parent is not None:
+        yield parent
+        parent = parent.parent
+
+
+def _find_missing_parts(root: Element, missing: set[str]) -> Iterator[Element]:
+    """Yield the visuals, collisions and textures that refer to missing files."""
+    for element in root.walk():
+        if (element.get("filename") or "").strip() not in missing:
+            continue
+        if element.tag == "texture":
+            yield element
+        elif element.tag == "mesh":
+            for above in _list_ancestors(element):
+                if above.tag in ("visual", "collision"):
+                    yield above
+                    break
+
+
+def _set_text(source: Source, element: Element, text: str) -> Edit:
+    """Return the edit that replaces the text of an element without children."""
+    data = source.file.data
+    start = source.file.find_tag_end(element.start)
+    end = data.rfind(b"</", start, element.end)
+    return Edit(start, end, escape(text).encode())
+
+
+def _keep_paths(source: Source, root: Element) -> list[Edit]:
+    """Return the edits after which MuJoCo uses mesh paths as they are written."""
+    for block in root.list_children("mujoco"):
+        compiler = block.find_child("compiler")
+        if compiler is not None:
+            edits = [set_attribute(source, compiler, "strippath", "false")]
+            for name in ("meshdir", "assetdir"):
+                if name in compiler.attributes:
+                    edits.append(set_attribute(source, compiler, name, "."))
+            return edits
+    at = source.file.find_tag_end(root.start)
+    if source.file.data[at - 2 : at] == b"/>":
+        return []
+    line = source.line_end + source.step
+    text = b'<mujoco><compiler strippath="false"/></mujoco>'
+    return [Edit(at, at, line + text)]

@@ -1,0 +1,197 @@
+"""Origin of a bundle: path of each source in its package, licenses, and git commits."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from hashlib import sha1, sha256
+from pathlib import Path
+
+from ..source.packages import find_own_package
+from .layout import make_portable
+
+_LICENSE = re.compile(r"(?i)(licen[cs]es?|copying|notice|copyright|unlicense)([-._].*)?")
+_LICENSE_TAG = re.compile(rb"<license\b[^>]*>\s*([^<]*?)\s*</license\s*>")
+_MOST_BYTES = 1 << 20
+_MAX_CLIMB = 8
+
+
+@dataclass(frozen=True)
+class Repository:
+    """Commit of a git repository that contains sources of a bundle.
+
+    Attributes:
+        commit: Hash of the checked out commit.
+        packages: Packages whose files are in the repository.
+        modified: Sources that differ from the commit or are not in it.
+    """
+
+    commit: str
+    packages: list[str] = field(default_factory=list)
+    modified: list[str] = field(default_factory=list)
+
+
+def name_source(path: str | Path, description: Path) -> str:
+    """Return a path without absolute folders: as a package URI, or relative to the description.
+
+    Args:
+        path: A source file.
+        description: The description.
+    """
+    full = Path(os.path.abspath(path))
+    own = find_own_package(full)
+    if own is not None:
+        return f"package://{own[0]}/{full.relative_to(own[1]).as_posix()}"
+    return Path(os.path.relpath(full, description.parent)).as_posix()
+
+
+def find_licenses(sources: Iterable[Path]) -> dict[str, Path]:
+    """Find the license files of the sources: in their folders, packages and repositories.
+
+    Args:
+        sources: Source files.
+
+    Returns:
+        License files by their path in the bundle.
+    """
+    found: dict[str, Path] = {}
+    seen: set[str] = set()
+    for folder in dict.fromkeys(path.parent for path in sources):
+        for place in _list_folders(folder):
+            if str(place) in seen:
+                continue
+            seen.add(str(place))
+            own = find_own_package(place / "-")
+            group = make_portable(own[0]) if own is not None else "repository"
+            for path in _list_licenses(place):
+                name = f"licenses/{group}/{_make_file_name(path.name)}"
+                number = 1
+                while name in found:
+                    number += 1
+                    name = f"licenses/{group}/{number}_{_make_file_name(path.name)}"
+                found[name] = path
+    return found
+
+
+def list_declared_licenses(sources: Iterable[Path]) -> dict[str, list[str]]:
+    """Return the ``<license>`` values of the packages of the sources, by package."""
+    found: dict[str, list[str]] = {}
+    for folder in dict.fromkeys(path.parent for path in sources):
+        own = find_own_package(folder / "-")
+        if own is None or own[0] in found:
+            continue
+        try:
+            data = (own[1] / "package.xml").read_bytes()
+        except OSError:
+            continue
+        names = [match[1].decode("utf-8", "replace") for match in _LICENSE_TAG.finditer(data)]
+        found[own[0]] = [name for name in names if name]
+    return dict(sorted(found.items()))
+
+
+def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:
+    """Return the git commits of the sources.
+
+    The comparison with the commit reads objects only: no filter, hook or program that the
+    repository configures is started.
+
+    Args:
+        sources: Names in the bundle by source file.
+    """
+    by_root: dict[Path, dict[Path, str]] = {}
+    for path, name in sources.items():
+        real = Path(os.path.realpath(path))
+        root = _find_repository(real.parent)
+        if root is not None:
+            by_root.setdefault(root, {})[real] = name
+    found = []
+    for root, files in sorted(by_root.items()):
+        commit = _run_git(root, "rev-parse", "--verify", "--quiet", "HEAD")
+        if not commit:
+            continue
+        repository = Repository(commit.decode().strip())
+        repository.modified.extend(sorted(_find_modified(root, files)))
+        owners = (find_own_package(path) for path in files)
+        repository.packages.extend(sorted({own[0] for own in owners if own is not None}))
+        found.append(repository)
+    return found
+
+
+def _list_folders(folder: Path) -> Iterator[Path]:
+    """Yield a folder and those above it up to its repository, or else its package."""
+    root = _find_repository(folder)
+    own = find_own_package(folder / "-")
+    top = root or (own[1] if own is not None else folder)
+    for _ in range(_MAX_CLIMB):
+        yield folder
+        if folder in (top, folder.parent):
+            return
+        folder = folder.parent
+
+
+def _find_repository(folder: Path) -> Path | None:
+    for place in (folder, *folder.parents):
+        if (place / ".git").exists():
+            return place
+    return None
+
+
+def _list_licenses(folder: Path) -> Iterator[Path]:
+    """Yield the license files of a folder: text files that are not links to other folders."""
+    try:
+        names = sorted(os.listdir(folder))
+    except OSError:
+        return
+    for name in names:
+        path = folder / name
+        if not _LICENSE.fullmatch(name) or not path.is_file():
+            continue
+        if os.path.dirname(os.path.realpath(path)) != os.path.realpath(folder):
+            continue
+        with open(path, "rb") as stream:
+            data = stream.read(_MOST_BYTES + 1)
+        if 0 < len(data) <= _MOST_BYTES and b"\0" not in data:
+            yield path
+
+
+def _make_file_name(name: str) -> str:
+    stem, dot, suffix = name.rpartition(".")
+    if not dot:
+        return make_portable(name)
+    return f"{make_portable(stem)}.{make_portable(suffix)}"
+
+
+def _find_modified(root: Path, files: Mapping[Path, str]) -> Iterator[str]:
+    relative = {path.relative_to(root).as_posix(): path for path in files}
+    listing = _run_git(root, "ls-tree", "-r", "-z", "HEAD", "--", *relative) or b""
+    blobs = {}
+    for line in listing.split(b"\0"):
+        facts, tab, entry = line.partition(b"\t")
+        if tab:
+            blobs[os.fsdecode(entry)] = facts.split()[2].decode()
+    for name, path in relative.items():
+        data = path.read_bytes()
+        pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:%s\nsize %d\n" % (
+            sha256(data).hexdigest().encode(),
+            len(data),
+        )
+        forms = data, data.replace(b"\r\n", b"\n"), pointer
+        if blobs.get(name) not in {_compute_blob_name(form) for form in forms}:
+            yield files[path]
+
+
+def _compute_blob_name(data: bytes) -> str:
+    return sha1(b"blob %d\0" % len(data) + data, usedforsecurity=False).hexdigest()
+
+
+def _run_git(folder: Path, *words: str) -> bytes | None:
+    """Return the output of git; None if it fails or is not installed."""
+    command = ["git", "-C", str(folder), "--literal-pathspecs", *words]
+    try:
+        done = subprocess.run(command, capture_output=True, check=False)
+    except OSError:
+        return None
+    return done.stdout if done.returncode == 0 else None

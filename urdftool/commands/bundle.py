@@ -1,0 +1,141 @@
+"""``urdftool bundle``: a robot with all its files in one folder or zip file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..console import Console
+from .grouped_help import GroupedCommand
+from .options import add_gltf_option, add_package_options, add_robot_argument
+from .read_other import read_any
+
+if TYPE_CHECKING:
+    from ..bundle.make import Bundle, BundleOptions
+
+_GROUPS = {
+    "Output": "output uri package_name overwrite",
+    "Verification": "check force",
+}
+
+
+@click.command("bundle", cls=GroupedCommand, groups=_GROUPS)
+@add_robot_argument
+@click.option("-o", "--output", metavar="OUT", help="Output folder, or .zip file.")
+@click.option(
+    "--uri",
+    type=click.Choice(("relative", "package", "file")),
+    default="relative",
+    show_default=True,
+    metavar="FORM",
+    help="Form of mesh URIs: relative to the URDF, package:// (OUT is a ROS 2 package), file://.",
+)
+@click.option(
+    "--package-name",
+    metavar="NAME",
+    help="Name of the ROS package with --uri package.  [default: ROBOT_description]",
+)
+@click.option("--overwrite", is_flag=True, help="Overwrite files not written by urdftool.")
+@click.option(
+    "--check", is_flag=True, help="Verify the bundle IN, or the new bundle: all files are in it."
+)
+@click.option(
+    "--force", is_flag=True, help="Leave out visuals and collisions whose mesh file is missing."
+)
+@add_gltf_option
+@add_package_options
+@click.pass_obj
+def command(
+    console: Console,
+    /,
+    robot: tuple[str, dict[str, str]],
+    output: str | None,
+    check: bool,
+    package: dict[str, Path],
+    package_path: tuple[str, ...],
+    overwrite: bool,
+    **choices: Any,
+) -> int:
+    """Write the robot IN with all meshes, textures and licenses into one folder or zip file.
+
+    The result requires no ROS, environment variable or option. File names are portable, equal files
+    are stored once, and bundle.json lists each file with its digest and source.
+
+    \b
+        urdftool bundle arm.urdf.xacro prefix:=left_ -o arm/
+        urdftool bundle arm.urdf -o arm.zip
+        urdftool bundle arm/ --check
+    """  # noqa: D301 -- click reads the escape
+    from ..bundle.check import is_bundle
+    from ..bundle.make import make_bundle
+    from ..bundle.output import write_bundle
+    from ..formats.defects import Refused
+
+    if output is None:
+        if check and is_bundle(robot[0]):
+            return _check(console, robot[0])
+        raise click.UsageError("missing option -o OUT: a folder or a .zip file")
+    options = _make_options(output, choices)
+    model = read_any(console, robot, package, package_path, edit="bundle")
+    try:
+        bundle = make_bundle(model, options)
+    except Refused as refused:
+        from .export_report import report_refused
+
+        return report_refused(refused.findings, as_json=False)
+    _report_notes(console, bundle)
+    write_bundle(output, bundle, overwrite=overwrite)
+    _report(console, bundle, output)
+    return _check(console, output) if check else 0
+
+
+def _make_options(output: str, choices: dict[str, Any]) -> BundleOptions:
+    """Make the options of the bundle from those of the command line.
+
+    Raises:
+        UsageError: Options exclude each other.
+    """
+    from ..bundle.make import BundleOptions
+    from ..bundle.output import is_zip
+
+    uri, name = choices["uri"], choices["package_name"]
+    if uri == "file" and is_zip(output):
+        raise click.UsageError("--uri file requires a folder, since its URIs contain the path")
+    if name and uri != "package":
+        raise click.UsageError("--package-name requires --uri package")
+    return BundleOptions(uri, name or "", Path(output).absolute(), choices["force"])
+
+
+def _report_notes(console: Console, bundle: Bundle) -> None:
+    from ..diagnostic import Severity
+    from ..formats.common.loss_report import format_lines
+
+    shown = [f for f in bundle.notes if f.severity > Severity.INFO or console.verbosity > 0]
+    for line in format_lines(shown):
+        console.print_note(line)
+
+
+def _report(console: Console, bundle: Bundle, output: str) -> None:
+    """Print the number and size of the files."""
+    from ..report.counted import format_count
+
+    total = sum(entry["bytes"] for entry in bundle.manifest.files.values())
+    count = format_count(len(bundle.files), "file")
+    console.print_note(f"{output}: {bundle.description}, {count}, {total / 1e6:.1f} MB")
+
+
+def _check(console: Console, path: str) -> int:
+    """Verify a bundle and print its defects; return the exit code."""
+    from ..bundle.check import check_bundle
+    from ..report.counted import format_count
+
+    defects = check_bundle(path)
+    for line in defects:
+        click.echo(line)
+    if not defects:
+        console.print_note(f"{path}: complete")
+        return 0
+    console.print_note(f"{path}: {format_count(len(defects), 'defect')}")
+    return 1
