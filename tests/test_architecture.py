@@ -40,7 +40,7 @@ BELOW = {
         *("lint", "rules", "finding", "mechanics", "model", "source", "geometry", "output"),
         *BASE,
     ),
-    "bundle": ("formats", "finding", "geometry", "model", "source", "output", *BASE),
+    "bundle": ("drawing", "formats", "finding", "geometry", "model", "source", "output", *BASE),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),
@@ -78,7 +78,7 @@ PLACES = {
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
         *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "formats/"),
-        *("collision/", "simulation/"),
+        *("collision/", "simulation/", "bundle/mesh_formats.py"),
     ),
     "coacd": ("collision/coacd_child.py",),
     "distributed": ("collision/cluster.py",),

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
+from ..diagnostic import Severity
 from ..errors import ConfigError
 from ..finding import Finding
 from ..formats.defects import refuse
-from ..model.elements import Robot
+from ..model.elements import Mesh, Robot
 from ..source.document import STDIN
-from .collect import Asset, Collection, collect
+from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
-from .layout import Layout, make_portable
+from .layout import make_portable
 from .manifest import MANIFEST, Manifest, compute_digest
+from .mesh_formats import MeshFormat
 from .origin import find_licenses, find_repositories, list_declared_licenses, name_source
-from .references import rewrite_references
+from .presets import PRESETS
 from .ros_package import make_package_files
+from .store import Content, Conversion, Stored, store_assets
 
 Uri = Literal["relative", "package", "file"]
-Content = bytes | Path
 
 PACKAGE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 
@@ -32,16 +34,28 @@ class BundleOptions:
     """Options of a bundle.
 
     Attributes:
-        uri: Form of mesh URIs: relative to the description, ``package://`` or ``file://``.
+        uri: Form of mesh URIs: relative to the description, ``package://`` or ``file://``;
+            empty for that of the preset.
         package: Name of the ROS package of ``package://`` URIs; empty for that of the robot.
         folder: Absolute path of the bundle, for ``file://`` URIs.
         force: Whether to leave out visuals and collisions without a mesh file.
+        meshes: Format of all meshes; ``keep`` keeps the format of each.
+        preset: Name of the reader in ``PRESETS`` whose options apply; empty for none.
     """
 
-    uri: Uri = "relative"
+    uri: Uri | Literal[""] = ""
     package: str = ""
     folder: Path = Path()
     force: bool = False
+    meshes: MeshFormat | Literal["keep"] = "keep"
+    preset: str = ""
+
+    @property
+    def uri_form(self) -> Uri:
+        """Return the form of URIs; that of the preset if none is set."""
+        if self.uri:
+            return self.uri
+        return PRESETS[self.preset].uri if self.preset else "relative"
 
 
 @dataclass
@@ -77,26 +91,28 @@ def make_bundle(robot: Robot, options: BundleOptions | None = None) -> Bundle:
     """
     options = options or BundleOptions()
     name = make_portable(robot.name, "robot")
-    folder = "urdf/" if options.uri == "package" else ""
+    folder = "urdf/" if options.uri_form == "package" else ""
     description = f"{folder}{name}.urdf"
     file = make_urdf(robot, description)
     package = _choose_package_name(options, name)
     found = collect(robot)
     refuse(found.defects, force=options.force, fatal=frozenset())
-    stored = store_assets(found)
+    stored = store_assets(found, _choose_conversion(robot, options))
     uris = {uri: _format_uri(stored.places[a], options, package) for uri, a in found.assets.items()}
     bundle = Bundle(description, dict(stored.contents), _make_manifest(robot, description, options))
     source = Path(bundle.manifest.source).name
-    relative = options.uri == "relative" and any(a.kind == "mesh" for a in found.assets.values())
+    relative = options.uri_form == "relative" and any(
+        a.kind == "mesh" for a in found.assets.values()
+    )
     bundle.files[description] = rewrite(
         file, uris, found.missing, comment=format_comment(source), strippath=relative
     )
     if relative:
         bundle.manifest.changes.append('<compiler strippath="false"/> in <mujoco>')
     bundle.manifest.missing = sorted(found.missing)
-    bundle.notes = [*found.notes, *found.defects]
+    bundle.notes = [*found.notes, *found.defects, *_report_conversions(robot, found, stored)]
     _add_origin(bundle, robot, stored)
-    if options.uri == "package":
+    if options.uri_form == "package":
         licenses = [text for texts in bundle.manifest.licenses.values() for text in texts]
         folders = {path.partition("/")[0] for path in bundle.files if "/" in path}
         bundle.files |= make_package_files(package, robot.name, description, licenses, folders)
@@ -115,77 +131,50 @@ def add_manifest(bundle: Bundle) -> None:
     bundle.files[MANIFEST] = bundle.manifest.to_json()
 
 
-@dataclass
-class Stored:
-    """Files of a bundle, each content once.
-
-    Attributes:
-        places: Path in the bundle by asset.
-        contents: Content by path.
-        sources: Source files by path.
-    """
-
-    places: dict[Asset, str] = field(default_factory=dict)
-    contents: dict[str, Content] = field(default_factory=dict)
-    sources: dict[str, list[Path]] = field(default_factory=dict)
+def _choose_conversion(robot: Robot, options: BundleOptions) -> Conversion | None:
+    """Return the conversion of meshes; None keeps them."""
+    gltf_up = "y" if robot.source is None else robot.source.gltf_up
+    if options.meshes != "keep":
+        suffix = f".{options.meshes}"
+        return Conversion(options.meshes, lambda path: path.suffix.lower() == suffix, gltf_up)
+    if options.preset:
+        preset = PRESETS[options.preset]
+        return Conversion(preset.meshes, preset.is_accepted, gltf_up)
+    return None
 
 
-def store_assets(found: Collection, layout: Layout | None = None) -> Stored:
-    """Assign a path to each file and rewrite references between files.
-
-    Args:
-        found: The files.
-        layout: Names that are taken.
-    """
-    layout = layout or Layout()
-    stored = Stored()
-    by_content: dict[tuple[str, str, str], str] = {}
-    for asset in found.assets.values():
-        _store(asset, layout, stored, by_content)
-    return stored
-
-
-def _store(
-    asset: Asset, layout: Layout, stored: Stored, by_content: dict[tuple[str, str, str], str]
-) -> str:
-    if asset in stored.places:
-        return stored.places[asset]
-    names = {}
-    for written, other in asset.references.items():
-        if other is not None:
-            names[written] = Path(_store(other, layout, stored, by_content)).name
-        else:
-            names[written] = _remove_folders(written)
-    content: Content = asset.path
-    if any(old != new for old, new in names.items()):
-        content = rewrite_references(asset.suffix, asset.path.read_bytes(), names)
-    key = (asset.kind, asset.suffix, compute_digest(content))
-    place = by_content.get(key)
-    if place is None:
-        place = by_content[key] = layout.place(asset)
-        stored.contents[place] = content
-    stored.places[asset] = place
-    stored.sources.setdefault(place, []).append(asset.path)
-    return place
-
-
-def _remove_folders(written: str) -> str:
-    """Return the reference to a missing file without the folders, so that it stays inside."""
-    name = re.split(r"[/\\]", written.rstrip("/\\"))[-1]
-    return written if name == written else name or "missing"
+def _report_conversions(robot: Robot, found: Collection, stored: Stored) -> Iterator[Finding]:
+    """Yield what converted meshes lost, and which meshes are not converted."""
+    seen: set[str] = set()
+    for link, shape in robot.shapes:
+        mesh = shape.geometry
+        if not isinstance(mesh, Mesh) or mesh.filename in seen:
+            continue
+        seen.add(mesh.filename)
+        asset = found.assets.get(mesh.filename)
+        if asset is None:
+            continue
+        place = mesh.locate_attribute("filename")
+        for loss in stored.losses.get(asset, ()):
+            text = f"mesh '{mesh.filename}' of link '{link.name}' was converted: {loss}"
+            yield Finding("lossy-mesh", Severity.WARNING, text, place, "link", link.name)
+        if asset in stored.failed:
+            why = stored.failed[asset]
+            text = f"mesh '{mesh.filename}' of link '{link.name}' is not converted: {why}"
+            yield Finding("unconverted-mesh", Severity.WARNING, text, place, "link", link.name)
 
 
 def _format_uri(place: str, options: BundleOptions, package: str) -> str:
-    if options.uri == "package":
+    if options.uri_form == "package":
         return f"package://{package}/{place}"
-    if options.uri == "file":
+    if options.uri_form == "file":
         return (options.folder / place).as_uri()
     return place
 
 
 def _choose_package_name(options: BundleOptions, robot: str) -> str:
     name = options.package or f"{robot.lower()}_description"
-    if options.uri == "package" and not PACKAGE_NAME.fullmatch(name):
+    if options.uri_form == "package" and not PACKAGE_NAME.fullmatch(name):
         raise ConfigError(
             f"'{name}' is not a name of a ROS package: use lower-case letters, digits and "
             "underscores, a letter first"
@@ -198,7 +187,11 @@ def _make_manifest(robot: Robot, description: str, options: BundleOptions) -> Ma
     own = robot.source.path
     is_file = own not in ("-", STDIN)
     source = name_source(own, Path(own).absolute()) if is_file else "standard input"
-    changed: dict[str, Any] = {"uri": options.uri}
+    changed: dict[str, Any] = {"uri": options.uri_form}
+    if options.preset:
+        changed["for"] = options.preset
+    if options.meshes != "keep":
+        changed["meshes"] = options.meshes
     if options.force:
         changed["force"] = True
     arguments: Mapping[str, str] = robot.source.arguments

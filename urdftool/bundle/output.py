@@ -15,8 +15,9 @@ from pathlib import Path
 from ..errors import OutputError
 from ..output import check_folder, write_file
 from ..storage import write_folder
-from .make import Bundle, Content
+from .make import Bundle
 from .manifest import MANIFEST, compute_digest, read_digests
+from .store import Content
 
 _DATE = (1980, 1, 1, 0, 0, 0)
 _REGULAR_FILE = 0o100644 << 16

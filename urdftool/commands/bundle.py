@@ -15,8 +15,10 @@ from .read_other import read_any
 if TYPE_CHECKING:
     from ..bundle.make import Bundle, BundleOptions
 
+PRESET_NAMES = ("mujoco", "pybullet", "drake", "isaac", "genesis", "web", "foxglove")
+
 _GROUPS = {
-    "Output": "output uri package_name overwrite",
+    "Output": "output preset uri package_name meshes overwrite",
     "Verification": "check force",
 }
 
@@ -27,15 +29,30 @@ _GROUPS = {
 @click.option(
     "--uri",
     type=click.Choice(("relative", "package", "file")),
-    default="relative",
-    show_default=True,
     metavar="FORM",
-    help="Form of mesh URIs: relative to the URDF, package:// (OUT is a ROS 2 package), file://.",
+    help="Form of mesh URIs: relative to the URDF, package:// (OUT is a ROS 2 package), file://."
+    "  [default: relative, or that of --for]",
 )
 @click.option(
     "--package-name",
     metavar="NAME",
     help="Name of the ROS package with --uri package.  [default: ROBOT_description]",
+)
+@click.option(
+    "--for",
+    "preset",
+    type=click.Choice(PRESET_NAMES),
+    metavar="READER",
+    help="Options for one reader; meshes that it cannot read are converted: "
+    f"{', '.join(PRESET_NAMES)}.",
+)
+@click.option(
+    "--meshes",
+    type=click.Choice(("keep", "stl", "obj", "glb")),
+    default="keep",
+    show_default=True,
+    metavar="FORMAT",
+    help="Format of all meshes: keep, stl, obj (with materials and textures), glb.",
 )
 @click.option("--overwrite", is_flag=True, help="Overwrite files not written by urdftool.")
 @click.option(
@@ -100,12 +117,21 @@ def _make_options(output: str, choices: dict[str, Any]) -> BundleOptions:
     from ..bundle.make import BundleOptions
     from ..bundle.output import is_zip
 
-    uri, name = choices["uri"], choices["package_name"]
+    name = choices["package_name"]
+    options = BundleOptions(
+        choices["uri"] or "",
+        name or "",
+        Path(output).absolute(),
+        choices["force"],
+        choices["meshes"],
+        choices["preset"] or "",
+    )
+    uri = options.uri_form
     if uri == "file" and is_zip(output):
         raise click.UsageError("--uri file requires a folder, since its URIs contain the path")
     if name and uri != "package":
         raise click.UsageError("--package-name requires --uri package")
-    return BundleOptions(uri, name or "", Path(output).absolute(), choices["force"])
+    return options
 
 
 def _report_notes(console: Console, bundle: Bundle) -> None:

@@ -1,0 +1,150 @@
+"""Robots before and after ``urdftool bundle``, as seven readers load them.
+
+``python -m tests.benchmarks.bundle FOLDER`` bundles the robots of example-robot-data, pybullet_data
+and the corpus into FOLDER, moves the bundles, and loads each description with every reader in an
+empty environment and another working folder. ``URDFTOOL_YOURDFPY`` is a Python with yourdfpy and
+``URDFTOOL_NODE`` a folder with ``npm install urdf-loader three jsdom``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from urdftool import cli
+
+from . import peers
+from .robots import CORPUS, bullet_robots, example_robots, manifest, options_of
+
+READERS = Path(__file__).parent / "bundle_readers"
+PEERS = str(peers.FOLDER / "bin" / "python")
+YOURDFPY = os.environ.get("URDFTOOL_YOURDFPY", sys.executable)
+NODE = os.environ.get("URDFTOOL_NODE", "")
+COMMANDS: dict[str, list[str]] = {
+    "pinocchio": [PEERS, str(READERS / "load.py"), "pinocchio"],
+    "mujoco": [PEERS, str(READERS / "load.py"), "mujoco"],
+    "pybullet": [PEERS, str(READERS / "load.py"), "pybullet"],
+    "yourdfpy": [YOURDFPY, str(READERS / "load.py"), "yourdfpy"],
+    "drake": [PEERS, str(READERS / "load.py"), "drake"],
+    "urdf-loader": ["node", str(READERS / "load.mjs"), NODE],
+}
+
+
+def robots() -> list[tuple[Path, list[str]]]:
+    """List the descriptions, each with its xacro arguments and options."""
+    found = [(path, options_of(path)) for path in (*example_robots(), *bullet_robots())]
+    for row in manifest():
+        path = CORPUS / row["path"]
+        if row["error"] and row["check_urdf_rc"] != "0" and row["kind"] != "xacro":
+            continue
+        arguments = row["xacro_args"].split() if row["xacro_args"] else []
+        found.append((path, [*arguments, "--package-path", str(CORPUS)]))
+    return found
+
+
+def bundle_all(folder: Path, options: Sequence[str] = ()) -> list[dict[str, object]]:
+    """Bundle every robot; return the source, the new description and the time of each [s]."""
+    rows: list[dict[str, object]] = []
+    for number, (path, words) in enumerate(robots()):
+        made, moved = folder / "made" / str(number), folder / "moved" / str(number)
+        moved.parent.mkdir(parents=True, exist_ok=True)
+        start = time.perf_counter()
+        code = cli.call(["-q", "bundle", str(path), *words, "-o", str(made), *options])
+        row: dict[str, object] = {"source": str(path), "words": words, "code": code}
+        row["seconds"] = time.perf_counter() - start
+        if code == 0:
+            made.rename(moved)
+            document = json.loads((moved / "bundle.json").read_text("utf-8"))
+            row["bundle"] = str(moved / document["description"])
+            row["bytes"] = sum(entry["bytes"] for entry in document["files"])
+        rows.append(row)
+    return rows
+
+
+def load_all(reader: str, paths: Sequence[str]) -> dict[str, dict[str, object]]:
+    """Load descriptions with a reader in an empty environment; return its answers by path."""
+    command = [shutil.which(COMMANDS[reader][0]) or COMMANDS[reader][0], *COMMANDS[reader][1:]]
+    done = subprocess.run(
+        command,
+        input="\n".join(paths) + "\n",
+        capture_output=True,
+        text=True,
+        env={"PATH": "/usr/bin:/bin"},
+        cwd="/",
+        check=False,
+    )
+    answers = {}
+    for line in done.stdout.splitlines():
+        if line.startswith("{"):
+            answer = json.loads(line)
+            answers[answer.pop("path")] = answer
+    return answers
+
+
+def check_urdf(paths: Sequence[str]) -> dict[str, dict[str, object]]:
+    """Load descriptions with check_urdf of urdfdom."""
+    program = shutil.which("check_urdf")
+    answers: dict[str, dict[str, object]] = {}
+    for path in paths if program else ():
+        done = subprocess.run(
+            [str(program), path], capture_output=True, text=True, env={}, cwd="/", check=False
+        )
+        answers[path] = {"ok": done.returncode == 0, "why": done.stderr[:300]}
+    return answers
+
+
+def measure(folder: Path, options: Sequence[str]) -> list[dict[str, object]]:
+    """Bundle all robots, or return the rows of an earlier run in the folder."""
+    known = folder / "rows.json"
+    if not known.exists():
+        known.write_text(json.dumps(bundle_all(folder, options), indent=1), "utf-8")
+    rows: list[dict[str, object]] = json.loads(known.read_text("utf-8"))
+    return rows
+
+
+def has_links(path: str) -> bool:
+    """Tell whether a description is a robot; a xacro file of macros has no links."""
+    return b"<link" in Path(path).read_bytes()
+
+
+def read(folder: Path, reader: str, paths: Sequence[str]) -> dict[str, dict[str, object]]:
+    """Load all descriptions with a reader, or return the answers of an earlier run."""
+    known = folder / f"{reader}.json"
+    if not known.exists():
+        answers = check_urdf(paths) if reader == "check_urdf" else load_all(reader, paths)
+        known.write_text(json.dumps(answers, indent=1), "utf-8")
+    found: dict[str, dict[str, object]] = json.loads(known.read_text("utf-8"))
+    return found
+
+
+def main(words: list[str]) -> int:
+    """Bundle the robots, load them with each reader, and print a table."""
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.bundle", description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("options", nargs="*", help="options of bundle, after --")
+    parser.add_argument("--reader", action="append", choices=("check_urdf", *COMMANDS))
+    arguments = parser.parse_args(words)
+    folder = arguments.folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = measure(folder, arguments.options)
+    written = [row for row in rows if "bundle" in row and has_links(str(row["bundle"]))]
+    sources = [str(row["source"]) for row in written]
+    bundles = [str(row["bundle"]) for row in written]
+    print(f"{len(rows)} descriptions, {len(written)} bundles")
+    for reader in arguments.reader or ("check_urdf", *COMMANDS):
+        answers = read(folder, reader, [*sources, *bundles])
+        before = sum(bool(answers.get(path, {}).get("ok")) for path in sources)
+        after = sum(bool(answers.get(path, {}).get("ok")) for path in bundles)
+        print(f"{reader:12} before {before:4}   after {after:4}   of {len(written)}", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
