@@ -19,7 +19,7 @@ from ...output import check_folder
 from ...storage import write_files, write_folder
 from ..written import Written
 
-_MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")
+_MARK = re.compile(rb"(?:<!--|#) Exported by urdftool [^;\n]*; ([0-9a-f]{12})(?: -->)?\n?")
 _HEAD = 4096
 
 
@@ -32,9 +32,24 @@ def mark(xml: bytes, source: str) -> bytes:
     """
     start = xml.find(b"?>") + 2 if xml.startswith(b"<?xml") else 0
     head, rest = xml[:start], xml[start:].lstrip(b"\n")
-    name = re.sub(r"[-;<>]*[;<>][-;<>]*|-{2,}", "-", source)
-    comment = f"<!-- Exported by urdftool {__version__} from {name}; {_format_digest(rest)} -->\n"
-    return (head + b"\n" if head else b"") + comment.encode() + rest
+    comment = f"<!-- {_format_sentence(rest, source)} -->\n".encode()
+    return (head + b"\n" if head else b"") + comment + rest
+
+
+def mark_usda(text: bytes, source: str) -> bytes:
+    """Return a layer of USD as text with the mark after its first line.
+
+    Args:
+        text: The layer.
+        source: Name of the source description.
+    """
+    head, _, rest = text.partition(b"\n")
+    return head + f"\n# {_format_sentence(rest, source)}\n".encode() + rest
+
+
+def _format_sentence(rest: bytes, source: str) -> str:
+    name = re.sub(r"[-;<>]*[;<>][-;<>]*|-{2,}|[\r\n]+", "-", source)
+    return f"Exported by urdftool {__version__} from {name}; {_format_digest(rest)}"
 
 
 def is_ours(data: bytes) -> bool:

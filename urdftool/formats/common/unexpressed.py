@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from typing import NamedTuple
 
 from ...diagnostic import Severity
@@ -27,14 +27,17 @@ class _Kind(NamedTuple):
     severity: Severity = Severity.WARNING
 
 
-def report_unexpressed(robot: Robot, written: Written) -> None:
+def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[str] = ()) -> None:
     """Report each part that the writers do not express; a robot read from URDF has none.
 
     Args:
         robot: The source.
         written: The export, which receives the losses.
+        expressed: Codes after ``lossy-`` of the kinds that the writer expresses.
     """
     for code, what, parts, severity in _list_kinds(robot):
+        if code in expressed:
+            continue
         for part, name in parts:
             message = f"{what} '{name}' is dropped" if name else f"a {what} is dropped"
             written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from lxml import etree
 
+from ..common.srdf import Srdf
 from .body import Bodies
 from .loops import list_loops
 from .options import Exclude
-from .srdf import Srdf
 from .structure import Structure
 
 

@@ -10,6 +10,7 @@ from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.pose import Pose, quaternion_from_rotation
 from ..common.naming import UniqueNames
+from ..common.srdf import Srdf
 from ..written import Written
 from .actuator import Drive, build_actuator_section
 from .base_sensors import add_base_sensors
@@ -34,7 +35,6 @@ from .material import Materials
 from .meshes import Assets
 from .options import Options
 from .sensor import build_sensor_section
-from .srdf import Srdf
 from .structure import WORLD, Structure
 
 

@@ -17,6 +17,7 @@ from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
 from ..common.directory import mark
 from ..common.naming import replace_file_name
+from ..common.srdf import read_srdf
 from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL, make_defect, refuse, report_defects, report_taken_world
 from ..written import Written
@@ -28,7 +29,6 @@ from .model import build_model_text
 from .options import Base, Options
 from .scene import create_scene_file
 from .shape_box import ShapeBoxes
-from .srdf import read_srdf
 from .standing import explain_free_base
 from .structure import Structure, create_structure
 
