@@ -31,6 +31,7 @@ MENU = {
     ),
     "Reference": (
         *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "formats/mjcf_runs"),
+        "formats/usd",
         *("python", "completion"),
     ),
     "Measurements": (

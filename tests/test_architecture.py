@@ -82,6 +82,8 @@ PLACES = {
     ),
     "coacd": ("collision/coacd_child.py",),
     "distributed": ("collision/cluster.py",),
+    "pxr": ("formats/usd/",),
+    "newton": ("formats/usd/newton_child.py",),
     "mujoco": ("formats/mjcf/", "simulation/engines/mujoco/"),
     "PIL": (
         *("drawing/", "formats/mjcf/texture.py"),

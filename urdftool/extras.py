@@ -17,10 +17,16 @@ EXTRA_OF = {
     "mujoco": "mujoco",
     "viser": "view",
     "distributed": "dask",
+    "pxr": "usd",
+    "newton": "usd-verify",
 }
 """Extra that installs each optional library, by import name."""
 
-DISTRIBUTION_OF = {"PIL": "Pillow", "matplotlib": "Matplotlib"}
+DISTRIBUTION_OF = {
+    "PIL": "Pillow",
+    "matplotlib": "Matplotlib",
+    "pxr": "usd-core",
+}
 """Names on the package index that differ from the import name."""
 
 

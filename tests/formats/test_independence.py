@@ -7,7 +7,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "urdftool"
 FORMATS = PACKAGE / "formats"
-FOLDERS = ("urdf", "sdf", "mjcf")
+FOLDERS = ("urdf", "sdf", "mjcf", "usd")
 MODULES = sorted(FORMATS.rglob("*.py"))
 PROOFS = [
     path
@@ -23,6 +23,7 @@ OPEN = (
     *("check", "mechanics", "written", "common.losses", "common.directory"),
     *("common.actuator_config", "common.force_fallbacks"),
     *("sdf.options", "sdf.write", "sdf.colors", "sdf.verify"),
+    *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),
     *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
 )
 

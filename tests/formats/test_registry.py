@@ -44,6 +44,7 @@ FILES = {
     "urdf": EVERYTHING,
     "sdf": FIXTURES / "formats" / "sdf" / "gripper_arm.gz.sdf",
     "mjcf": FIXTURES / "formats" / "mjcf" / "arm.xml",
+    "usd": FIXTURES / "formats" / "usd" / "arm.usda",
 }
 
 

@@ -11,8 +11,8 @@ from ..model.elements import Robot
 from ..source.document import Element
 from ..source.edit import Edit, Source, apply, parse_source, remove_element, set_attribute
 from ..source.escape import escape
+from ..source.expansion import write_xml
 from ..source.location import SourceFile
-from ..source.xacro_write import write_xml
 
 _ENCODING = re.compile(rb"""(<\?xml[^>]*?)\s+encoding\s*=\s*("[^"]*"|'[^']*')""")
 

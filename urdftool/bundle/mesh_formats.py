@@ -78,7 +78,7 @@ def encode_obj(mesh: Mesh, names: MaterialNames) -> bytes:
     first = 1
     for number, part in enumerate(mesh.parts):
         lines.append(f"usemtl material_{number}")
-        faces = (mesh.part_faces(part) + 1).tolist()
+        faces = (mesh.get_part_faces(part) + 1).tolist()
         shading = (normal_of[part.first : part.first + part.count] + 1).tolist()
         if number in names.images and part.uv is not None:
             points, texel_of = _number_rows(part.uv)

@@ -17,10 +17,10 @@ def make_export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
     """Make a decorator that adds the options of meshes, strictness, verification and output.
 
     Args:
-        mesh_dir: Default of ``--mesh-dir``.
+        mesh_dir: Default of ``--mesh-dir``; empty for a format without mesh files.
         verify: Help text of ``--verify``.
     """
-    options = [
+    folder = [
         click.option(
             "--mesh-dir",
             metavar="DIR",
@@ -29,6 +29,9 @@ def make_export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
             callback=_parse_mesh_folder,
             help="Folder of the mesh files, relative to the model.",
         ),
+    ]
+    options = [
+        *(folder if mesh_dir else ()),
         click.option("--overwrite", is_flag=True, help="Overwrite files not written by urdftool."),
         click.option(
             "--strict",

@@ -1,4 +1,4 @@
-"""The format of a file, by its root element."""
+"""The format of a file, by its root element or its first bytes."""
 
 from __future__ import annotations
 
@@ -10,11 +10,16 @@ from .registry import Format, format_named
 _PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
 _TAG = re.compile(rb"<([\w:.-]+)")
 
+_USD = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
+"""First bytes of a stage as text, binary and package."""
+
 _FORMAT_OF = {b"sdf": "sdf", b"mujoco": "mjcf", b"mujocoinclude": "mjcf"}
 
 
 def format_of(file: SourceFile) -> Format:
     """Return the format of a file; URDF if the root element belongs to no format."""
+    if file.data.startswith(_USD):
+        return format_named("usd")
     data = file.data.removeprefix(b"\xef\xbb\xbf")
     at = 0
     while skipped := _PROLOG.match(data, at):

@@ -151,6 +151,21 @@ FORMATS = (
             "lossy-velocity",
         ),
     ),
+    Format(
+        "usd",
+        "USD, for Isaac Sim and Newton",
+        (".usda", ".usdc", ".usdz", ".usd"),
+        can_read=True,
+        can_write=True,
+        cannot_express=(
+            "lossy-calibration",
+            "lossy-safety-controller",
+            "lossy-plugin",
+            "lossy-sensor",
+            "lossy-transmission",
+            "lossy-ros2-control",
+        ),
+    ),
 )
 """Every format."""
 

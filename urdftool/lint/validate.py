@@ -147,11 +147,12 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("bad-extension-number", _make_conditions(is_loop=(True,))),
             Requirement("bad-extension-number", _make_conditions(holder=("mujoco",))),
         ),
+        "export:usd": (Requirement("empty-geometry"), Requirement("unsupported-shape")),
     }
 )
 """What each purpose requires of a robot, in the order in which it is reported.
 
-``export:sdf`` and ``export:mjcf`` come on top of ``export``."""
+``export:sdf``, ``export:mjcf`` and ``export:usd`` come on top of ``export``."""
 
 
 _FAMILIES = ("tree", "inertia")

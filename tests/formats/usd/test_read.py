@@ -1,0 +1,149 @@
+"""Stages of other tools: units, up axis, joint frames, planar joints, loops."""
+
+import math
+
+import pytest
+
+from tests.formats.usd.stages import export, joint, link, robot
+
+pytestmark = pytest.mark.library("pxr")
+
+HEAD = '#usda 1.0\n(\n    defaultPrim = "r"\n    metersPerUnit = {}\n    upAxis = "{}"\n)\n'
+
+BODY = """    def Xform "{name}" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+    )
+    {{
+        float physics:mass = {mass}
+        point3f physics:centerOfMass = (0, 0, 0)
+        float3 physics:diagonalInertia = (1, 2, 2.5)
+        double3 xformOp:translate = {at}
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+{more}
+    }}
+"""
+
+
+def body(name, mass=1, at="(0, 0, 0)", more=""):
+    return BODY.format(name=name, mass=mass, at=at, more=more)
+
+
+def stage(*parts, unit=1, up="Z"):
+    return HEAD.format(unit, up) + 'def Xform "r"\n{\n' + "".join(parts) + "}\n"
+
+
+def turning(name, first, second, more=""):
+    return f"""    def PhysicsRevoluteJoint "{name}"
+    {{
+        rel physics:body0 = </r/{first}>
+        rel physics:body1 = </r/{second}>
+        uniform token physics:axis = "Z"
+{more}
+    }}
+"""
+
+
+@pytest.fixture
+def read(write, tmp_path):
+    """Read the text of a stage; gives the reading."""
+
+    def reader(text):
+        from urdftool.formats.usd.read import read
+
+        return read(write("s.usda", text), mesh_folder=tmp_path / "meshes")
+
+    return reader
+
+
+def test_units_are_converted(read):
+    text = stage(
+        body("a", at="(0, 0, 0)"),
+        body("b", at="(100, 0, 0)"),
+        turning("j", "a", "b", "        point3f physics:localPos0 = (100, 0, 0)"),
+        unit=0.01,
+    )
+    robot = read(text).robot
+    assert robot.joint["j"].origin.xyz == pytest.approx((1, 0, 0))
+    assert robot.joint["j"].type == "continuous"
+    assert robot.link["a"].inertial.inertia.ixx == pytest.approx(1e-4)
+
+
+def test_y_up_turns_the_base(read):
+    base = read(stage(body("a"), up="Y")).robot.base
+    assert base.is_free
+    assert base.origin.rpy == pytest.approx((math.pi / 2, 0, 0))
+
+
+def test_a_link_moves_to_the_axis_of_its_joint(read):
+    text = stage(
+        body("a"),
+        body("b", at="(1, 0, 0)"),
+        turning(
+            "j",
+            "a",
+            "b",
+            "        point3f physics:localPos0 = (0.5, 0, 0)\n"
+            "        point3f physics:localPos1 = (-0.5, 0, 0)",
+        ),
+    )
+    robot = read(text).robot
+    assert robot.joint["j"].origin.xyz == pytest.approx((0.5, 0, 0))
+    assert robot.link["b"].inertial.origin.xyz == pytest.approx((0.5, 0, 0))
+    assert [(frame.link, frame.kind) for frame in robot.frames] == [("b", "body")]
+
+
+def test_a_joint_that_points_to_the_root_is_reversed(read):
+    root = '    def PhysicsFixedJoint "hold"\n    {\n        rel physics:body1 = </r/a>\n    }\n'
+    text = stage(body("a"), body("b"), turning("j", "b", "a"), root)
+    robot = read(text).robot
+    assert (robot.joint["j"].parent, robot.joint["j"].child) == ("a", "b")
+    assert robot.joint["j"].axis.xyz == pytest.approx((0, 0, -1))
+    assert not robot.base.is_free
+
+
+def test_a_cycle_becomes_a_closure(read):
+    text = stage(
+        body("a"), body("b"), body("c"),
+        turning("one", "a", "b"), turning("two", "b", "c"),
+        turning("three", "c", "a", "        bool physics:excludeFromArticulation = 1"),
+    )  # fmt: skip
+    robot = read(text).robot
+    assert sorted(robot.joint) == ["one", "two"]
+    assert [(c.name, c.parent, c.child) for c in robot.closures] == [("three", "c", "a")]
+
+
+def test_a_body_without_mass_is_reported(read):
+    reading = read(stage(body("a", mass=0)))
+    assert reading.robot.link["a"].inertial is None
+    assert [loss.code for loss in reading.losses] == ["unread-mass"]
+
+
+def test_places_are_lines_of_the_text(read):
+    text = stage(body("a"), body("b"))
+    place = read(text).robot.link["b"].place
+    assert text[place.start :].startswith('def Xform "b"')
+
+
+@pytest.mark.parametrize("text", ["", "#usda 1.0\n(", "not usd", "#usda 1.0\n"])
+def test_a_damaged_stage_is_an_error_with_a_place(read, text):
+    from urdftool.errors import UrdftoolError
+
+    with pytest.raises(UrdftoolError) as error:
+        read(text)
+    assert error.value.message
+
+
+def test_planar_and_ball_joints_come_back(write, tmp_path):
+    from urdftool.formats.usd.read import read
+
+    path = write("r.urdf", robot(
+        link("a"), link("b"), link("c"),
+        joint("p", "a", "b", "planar", '<axis xyz="0 1 0"/>'),
+        joint("q", "b", "c", "floating"),
+    ))  # fmt: skip
+    written = export(path, file="r.usda")
+    made = write("r.usda", written.files["r.usda"])
+    back = read(made, mesh_folder=tmp_path).robot
+    assert back.joint["p"].type == "planar"
+    assert back.joint["p"].axis.xyz == pytest.approx((0, 1, 0))
+    assert (back.joint["q"].type, back.joint["q"].parent) == ("floating", "b")

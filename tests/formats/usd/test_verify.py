@@ -1,0 +1,105 @@
+"""The comparison of a stage with its source, and that it finds a changed stage."""
+
+import pytest
+
+from tests.formats.usd.stages import BOX, export, joint, link, robot
+from urdftool.formats.check import is_faithful
+
+pytestmark = pytest.mark.library("pxr")
+
+ARM = robot(
+    link("base", 2, BOX, origin='<origin xyz="0.1 0 0" rpy="0.1 0.2 0.3"/>'),
+    joint("f", "base", "mount", more='<origin xyz="0 0 0.1" rpy="0 0 0.5"/>'),
+    link("mount", None, BOX),
+    joint("j", "mount", "arm", "revolute",
+          '<origin xyz="0 0 0.3" rpy="0 0.5 0"/><axis xyz="0 1 1"/>'
+          '<limit lower="-1" upper="2" effort="33.5" velocity="3"/>'
+          '<dynamics damping="0.5" friction="0.2"/>'),
+    link("arm", 1, BOX),
+    joint("s", "arm", "slide", "prismatic",
+          '<axis xyz="0 0 -1"/><limit lower="0" upper="0.1" effort="5" velocity="1"/>'),
+    link("slide", 0.5),
+    joint("m", "arm", "other", "revolute",
+          '<limit lower="-2" upper="2" effort="1" velocity="1"/>'
+          '<mimic joint="j" multiplier="-1.5" offset="0.2"/>'),
+    link("other", 0.25),
+)  # fmt: skip
+
+
+def checks_of(path, written, newton=None, **options):
+    import urdftool
+    from urdftool.formats.usd.options import Options
+    from urdftool.formats.usd.verify import verify_copy
+
+    return verify_copy(urdftool.load(path), Options(**options), written, newton=newton)
+
+
+@pytest.mark.parametrize("name", ["r.usda", "r.usdc", "r.usdz"])
+def test_an_export_is_equal_to_its_source(write, name):
+    path = write("arm.urdf", ARM)
+    written = export(path, file=name)
+    checks = our_rows(path, written)
+    assert {check.name: check.differing for check in checks if check.verdict != "equal"} == {}
+
+
+CHANGES = {
+    "physics:mass = 2": ("physics:mass = 2.1", "mass"),
+    "physics:centerOfMass = (0.1, 0, 0)": ("physics:centerOfMass = (0.2, 0, 0)", "center of mass"),
+    "maxForce = 33.5": ("maxForce = 34", "effort"),
+    "physics:upperLimit = 114.59156": ("physics:upperLimit = 110", "limits"),
+    "newton:velocityLimit = 171.88734": ("newton:velocityLimit = 170", "velocity"),
+    "newton:friction = 0.2": ("newton:friction = 0.3", "friction, damping"),
+    "newton:mimicCoef1 = -1.5": ("newton:mimicCoef1 = 1.5", "mimic"),
+    "xformOp:scale = (0.1, 0.2, 0.3)": ("xformOp:scale = (0.1, 0.2, 0.31)", "collisions"),
+    "rel physics:body1 = </r/slide>": ("rel physics:body1 = </r/base>", "tree"),
+    "physics:localPos0 = (0, 0, 0.4)": ("physics:localPos0 = (0, 0, 0.5)", "frames"),
+}
+
+
+@pytest.mark.parametrize("old", CHANGES)
+def test_a_changed_stage_differs(write, old):
+    new, row = CHANGES[old]
+    path = write("arm.urdf", ARM)
+    written = export(path, file="r.usda")
+    text = written.files["r.usda"].decode()
+    assert old in text
+    written.files["r.usda"] = text.replace(old, new, 1).encode()
+    checks = our_rows(path, written)
+    assert row in {check.name for check in checks if check.verdict == "differs"}
+
+
+def our_rows(path, written):
+    """The rows of our reader, without Newton's."""
+    return checks_of(path, written, newton=False, file=written.main)
+
+
+def test_the_command_verifies(urdftool, write):
+    path = write("arm.urdf", ARM)
+    result = urdftool("export", "usd", path, "-o", "arm.usda", "--verify")
+    assert result.code == 0
+    assert "differs" not in result.out
+    again = urdftool("export", "usd", path, "-o", "arm.usda")
+    assert again.code == 0
+    write("arm.usda", "#usda 1.0\n")
+    assert urdftool("export", "usd", path, "-o", "arm.usda").code == 2
+
+
+def test_only_reported_losses_excuse_a_difference(write):
+    path = write("arm.urdf", robot(link("a"), joint("j", "a", "b", "continuous"), link("b", None)))
+    written = export(path, file="r.usda")
+    assert is_faithful(our_rows(path, written))
+    written.losses.clear()
+    assert not is_faithful(our_rows(path, written))
+
+
+@pytest.mark.slow
+@pytest.mark.library("newton")
+def test_newton_reads_the_same(write):
+    path = write("arm.urdf", ARM)
+    written = export(path, file="r.usda")
+    rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
+    assert rows["Newton: import"].verdict == "equal"
+    assert all(row.verdict == "equal" for row in rows.values())
+    written.files["r.usda"] = written.files["r.usda"].replace(b"maxForce = 33.5", b"maxForce = 30")
+    rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
+    assert rows["Newton: joint values"].differing == ["effort of joint 'j'"]

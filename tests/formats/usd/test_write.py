@@ -1,0 +1,295 @@
+"""Stages as the simulators need them: each case was a silent error of a converter."""
+
+import math
+
+import pytest
+
+from tests.formats.usd.stages import BOX, codes, export, joint, link, robot, stage_of
+
+pytestmark = pytest.mark.library("pxr")
+
+LIMIT = '<limit lower="-1" upper="2" effort="33.5" velocity="3"/>'
+
+
+@pytest.fixture
+def stage(write, tmp_path):
+    """Convert a robot; gives the stage and the export."""
+    made = []
+
+    def convert(*parts, name="r", **options):
+        written = export(write("r.urdf", robot(*parts, name=name)), **options)
+        made.append(tmp_path / f"out{len(made)}")
+        return stage_of(written, made[-1]), written
+
+    return convert
+
+
+def value(prim, name):
+    return prim.GetAttribute(name).Get()
+
+
+def bodies(stage):
+    return [
+        str(prim.GetPath())
+        for prim in stage.Traverse()
+        if "PhysicsRigidBodyAPI" in prim.GetAppliedSchemas()
+    ]
+
+
+def test_a_link_without_mass_on_a_fixed_joint_is_a_frame(stage):
+    for mass in (0, None):
+        result, _ = stage(link("base"), joint("f", "base", "tip"), link("tip", mass, BOX))
+        assert bodies(result) == ["/r/base"]
+        assert result.GetPrimAtPath("/r/base/tip/collisions/box")
+        assert not result.GetPrimAtPath("/r/joints/f")
+
+
+def test_every_body_has_mass_center_inertia_and_axes(stage):
+    result, _ = stage(link("base", 2))
+    prim = result.GetPrimAtPath("/r/base")
+    assert value(prim, "physics:mass") == 2
+    assert tuple(value(prim, "physics:centerOfMass")) == (0, 0, 0)
+    assert prim.GetAttribute("physics:centerOfMass").HasAuthoredValue()
+    assert value(prim, "physics:diagonalInertia")[0] == pytest.approx(0.1)
+    assert value(prim, "physics:principalAxes").GetReal() == 1
+    assert list(value(prim, "newton:inertia")) == [0.1, 0.1, 0.1, 0, 0, 0]
+
+
+def test_a_massless_base_becomes_a_frame_of_its_heaviest_child(stage):
+    result, written = stage(
+        link("world", None),
+        joint("a", "world", "light", more='<origin xyz="1 0 0"/>'),
+        joint("b", "world", "heavy", more='<origin xyz="0 2 0"/>'),
+        link("light", 1),
+        link("heavy", 5),
+    )
+    assert bodies(result) == ["/r/light", "/r/heavy"]
+    roots = [p for p in result.GetPrimAtPath("/r/joints").GetChildren()
+             if not p.GetRelationship("physics:body0").GetTargets()]  # fmt: skip
+    assert [prim.GetName() for prim in roots] == ["root_joint"]
+    assert not any(code == "lossy-massless-body" for code, _ in codes(written))
+
+
+def test_a_moving_link_without_mass_gets_some_and_says_so(stage):
+    result, written = stage(link("a"), joint("j", "a", "b", "continuous"), link("b", None))
+    assert value(result.GetPrimAtPath("/r/b"), "physics:mass") == pytest.approx(1e-6)
+    assert ("lossy-massless-body", "b") in codes(written)
+
+
+SINGULAR = '<inertia ixx="1e-6" ixy="1e-6" ixz="1e-6" iyy="1e-6" iyz="1e-6" izz="1e-6"/>'
+
+
+def test_an_inconsistent_inertia_is_refused_unless_repaired(stage):
+    from urdftool.formats.defects import Refused
+
+    with pytest.raises(Refused) as refused:
+        stage(link("a"), joint("j", "a", "b", "continuous"), link("b", inertia=SINGULAR))
+    assert [f.code for f in refused.value.findings] == ["inertia-triangle-inequality"]
+    result, written = stage(
+        link("a"),
+        joint("j", "a", "b", "continuous"),
+        link("b", inertia=SINGULAR),
+        fix_inertia="lift",
+    )
+    moments = sorted(value(result.GetPrimAtPath("/r/b"), "physics:diagonalInertia"))
+    assert moments == pytest.approx([1.5e-6, 1.5e-6, 3e-6], rel=1e-5)
+    assert ("lossy-inertia", "b") in codes(written)
+
+
+def test_a_moment_below_the_floor_of_newton_is_raised(stage):
+    tensor = '<inertia ixx="1e-14" ixy="0" ixz="0" iyy="1e-14" iyz="0" izz="1e-14"/>'
+    result, written = stage(link("a", inertia=tensor))
+    assert min(value(result.GetPrimAtPath("/r/a"), "physics:diagonalInertia")) >= 1e-10
+    assert ("lossy-inertia-raised", "a") in codes(written)
+
+
+def test_joint_values_have_the_units_of_each_schema(stage):
+    dynamics = '<dynamics damping="0.5" friction="0.2"/>'
+    result, _ = stage(link("a"), joint("j", "a", "b", "revolute", LIMIT + dynamics), link("b"))
+    prim = result.GetPrimAtPath("/r/joints/j")
+    assert value(prim, "physics:lowerLimit") == pytest.approx(math.degrees(-1))
+    assert value(prim, "drive:angular:physics:maxForce") == 33.5
+    assert value(prim, "drive:angular:physics:stiffness") == 0
+    assert value(prim, "newton:velocityLimit") == pytest.approx(math.degrees(3))
+    assert value(prim, "newton:damping") == pytest.approx(math.radians(0.5))
+    assert value(prim, "newton:friction") == pytest.approx(0.2)
+    axis = "physxJointAxis:angular"
+    assert value(prim, f"{axis}:maxJointVelocity") == pytest.approx(math.degrees(3))
+    assert value(prim, f"{axis}:staticFrictionEffort") == pytest.approx(0.2)
+    assert value(prim, f"{axis}:viscousFrictionCoefficient") == pytest.approx(math.radians(0.5))
+
+
+def test_a_prismatic_joint_is_in_meters(stage):
+    result, _ = stage(link("a"), joint("j", "a", "b", "prismatic", LIMIT), link("b"))
+    prim = result.GetPrimAtPath("/r/joints/j")
+    assert value(prim, "physics:upperLimit") == 2
+    assert value(prim, "newton:velocityLimit") == 3
+    assert value(prim, "drive:linear:physics:maxForce") == 33.5
+
+
+@pytest.mark.parametrize(
+    ("axis", "token", "turned"),
+    [("0 0 2", "Z", False), ("0 1 0", "Y", False), ("0 0 -1", "X", True), ("1 1 1", "X", True)],
+)
+def test_axes_are_a_token_or_a_rotation(stage, axis, token, turned):
+    more = f'<axis xyz="{axis}"/>{LIMIT}'
+    result, _ = stage(link("a"), joint("j", "a", "b", "revolute", more), link("b"))
+    prim = result.GetPrimAtPath("/r/joints/j")
+    assert value(prim, "physics:axis") == token
+    assert (value(prim, "physics:localRot1").GetReal() != 1) == turned
+
+
+def test_a_planar_joint_locks_three_axes_and_frees_three(stage):
+    result, _ = stage(link("a"), joint("j", "a", "b", "planar", '<axis xyz="0 0 1"/>'), link("b"))
+    prim = result.GetPrimAtPath("/r/joints/j")
+    for name in ("transX", "transY", "rotZ"):
+        assert value(prim, f"limit:{name}:physics:low") == -math.inf
+    for name in ("transZ", "rotX", "rotY"):
+        assert value(prim, f"limit:{name}:physics:low") > value(prim, f"limit:{name}:physics:high")
+
+
+def mimic(leader, more=""):
+    return f'<mimic joint="{leader}" {more}/>' + LIMIT
+
+
+def test_chains_of_mimic_end_at_a_joint_that_follows_none(stage):
+    result, _ = stage(
+        link("a"), link("b"), link("c"), link("d"),
+        joint("one", "a", "b", "revolute", LIMIT),
+        joint("two", "b", "c", "revolute", mimic("one", 'multiplier="2" offset="0.1"')),
+        joint("three", "c", "d", "revolute", mimic("two", 'multiplier="3"')),
+    )  # fmt: skip
+    prim = result.GetPrimAtPath("/r/joints/three")
+    targets = prim.GetRelationship("newton:mimicJoint").GetTargets()
+    assert [str(path) for path in targets] == ["/r/joints/one"]
+    assert value(prim, "newton:mimicCoef1") == 6
+    assert value(prim, "newton:mimicCoef0") == pytest.approx(math.degrees(0.3))
+
+
+def test_a_mimic_on_a_fixed_joint_is_dropped_and_reported(stage):
+    result, written = stage(
+        link("a"), link("b"), link("c"),
+        joint("one", "a", "b", "revolute", LIMIT),
+        joint("two", "b", "c", "fixed", '<mimic joint="one"/>'),
+    )  # fmt: skip
+    schemas = [prim.GetMetadata("apiSchemas") for prim in result.Traverse()]
+    assert not any("NewtonMimicAPI" in str(schema) for schema in schemas)
+    assert ("lossy-mimic", "two") in codes(written)
+
+
+def test_a_velocity_limit_of_zero_is_left_out(stage):
+    more = '<limit lower="0" upper="1" effort="1" velocity="0"/>'
+    result, written = stage(link("a"), joint("j", "a", "b", "revolute", more), link("b"))
+    assert not result.GetPrimAtPath("/r/joints/j").GetAttribute("newton:velocityLimit")
+    assert ("lossy-velocity", "j") in codes(written)
+
+
+def test_names_become_identifiers_and_stay_in_the_custom_data(stage):
+    result, written = stage(
+        link("link_8.0"), link("8link"), link("größe"), link("joints"),
+        joint("a/b", "link_8.0", "8link", "continuous"),
+        joint("größe", "8link", "größe", "continuous"),
+        joint("joints", "größe", "joints", "continuous"),
+        name="my robot",
+    )  # fmt: skip
+    root = str(result.GetDefaultPrim().GetPath())
+    assert root == "/my_robot"
+    prims = map(result.GetPrimAtPath, bodies(result))
+    names = {str(prim.GetPath()): prim.GetCustomDataByKey("urdf:link") for prim in prims}
+    assert names == {
+        f"{root}/link_8_0": "link_8.0",
+        f"{root}/_8link": "8link",
+        f"{root}/gr__e": "größe",
+        f"{root}/joints_1": "joints",
+    }
+    assert {("lossy-name", "link_8.0"), ("lossy-name", "8link")} <= codes(written)
+
+
+def test_a_free_base_has_no_joint_to_the_world_and_the_root_on_its_body(stage):
+    fixed, _ = stage(link("a"))
+    assert fixed.GetPrimAtPath("/r/joints/root_joint")
+    assert "PhysicsArticulationRootAPI" in fixed.GetPrimAtPath("/r").GetAppliedSchemas()
+    free, _ = stage(link("a"), base="free")
+    assert not free.GetPrimAtPath("/r/joints/root_joint")
+    assert "PhysicsArticulationRootAPI" in free.GetPrimAtPath("/r/a").GetAppliedSchemas()
+
+
+def test_targets_choose_the_attributes(stage):
+    parts = (link("a"), joint("j", "a", "b", "revolute", LIMIT), link("b"))
+    newton = stage(*parts, target="newton")[0].ExportToString()
+    assert "physx" not in newton
+    assert "newton:velocityLimit" in newton
+    isaac = stage(*parts, target="isaac")[0].ExportToString()
+    assert "IsaacRobotAPI" in isaac
+    assert "physxJointAxis:angular:maxJointVelocity" in isaac
+
+
+TRIANGLES = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+def test_a_mesh_used_twice_is_instanced_and_a_mirrored_one_is_turned(stage, write):
+    write("m.obj", TRIANGLES)
+    shape = '<visual><geometry><mesh filename="m.obj"{}/></geometry></visual>'
+    result, _ = stage(link("a", shapes=shape.format("") * 2 + shape.format(' scale="-1 1 1"')))
+    prims = result.GetPrimAtPath("/r/a/visuals").GetChildren()
+    assert [prim.IsInstance() for prim in prims] == [True, True, False]
+    mesh = result.GetPrimAtPath("/r/a/visuals/mesh_2/mesh") or next(
+        child for child in prims[2].GetChildren()
+    )
+    assert value(mesh, "subdivisionScheme") == "none"
+    import numpy as np
+
+    points = np.array(value(mesh, "points"))
+    corners = points[np.array(value(mesh, "faceVertexIndices")).reshape(-1, 3)]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    assert volume == pytest.approx(1 / 6)
+
+
+def test_colors_are_linear_and_colliders_are_guides(stage):
+    visual = (
+        '<visual><geometry><sphere radius="1"/></geometry>'
+        '<material name="m"><color rgba="1 0.5 0 0.25"/></material></visual>'
+    )
+    result, _ = stage(link("a", shapes=visual + BOX))
+    shader = result.GetPrimAtPath("/r/materials/m/surface")
+    assert value(shader, "inputs:diffuseColor")[1] == pytest.approx(0.2140, abs=1e-4)
+    assert value(shader, "inputs:opacity") == 0.25
+    box = result.GetPrimAtPath("/r/a/collisions/box")
+    assert value(box, "purpose") == "guide"
+    assert tuple(value(box, "xformOp:scale")) == (0.1, 0.2, 0.3)
+    assert value(box, "size") == 1
+
+
+@pytest.mark.parametrize("target", ["both", "newton", "isaac"])
+@pytest.mark.parametrize("layers", ["single", "payload"])
+def test_usd_validation_finds_nothing(stage, layers, target):
+    from pxr import UsdValidation
+
+    result, _ = stage(
+        link("world", None),
+        joint("f", "world", "a"),
+        link("a", shapes=BOX),
+        joint("j", "a", "b", "revolute", LIMIT),
+        link("b", None, BOX),
+        layers=layers,
+        target=target,
+    )
+    assert len(bodies(result)) == 2
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    assert len(validators) > 20
+    found = UsdValidation.ValidationContext(validators).Validate(result)
+    assert [error.GetMessage() for error in found] == []
+
+
+def test_pairs_of_an_srdf_are_filtered_by_body(stage, write):
+    srdf = write(
+        "r.srdf",
+        '<robot name="r"><disable_collisions link1="tip" link2="b" reason="Never"/></robot>',
+    )
+    result, _ = stage(
+        link("a"), joint("f", "a", "tip"), link("tip", None),
+        joint("j", "a", "b", "continuous"), link("b"), srdf=srdf,
+    )  # fmt: skip
+    targets = result.GetPrimAtPath("/r/a").GetRelationship("physics:filteredPairs").GetTargets()
+    assert [str(path) for path in targets] == ["/r/b"]
+    assert value(result.GetPrimAtPath("/r"), "newton:selfCollisionEnabled") is True

@@ -1,0 +1,127 @@
+"""``urdftool export usd``: convert a robot to a stage of OpenUSD."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..console import Console
+from .export_options import add_fix_inertia_option, make_export_options
+from .grouped_help import GroupedCommand
+from .load_strict import load_strict, report_gltf_axes
+from .options import add_gltf_option, add_package_options, add_robot_argument
+
+_GROUPS = {
+    "Output": "output target layers overwrite style",
+    "Robot": "base srdf self_collision approximation fix_inertia",
+    "Verification": "verified strict force",
+}
+
+
+@click.command("usd", cls=GroupedCommand, groups=_GROUPS)
+@add_robot_argument
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT",
+    help="Output folder, or .usda (text), .usdc (binary) or .usdz (package) file.  "
+    "[default: standard output]",
+)
+@click.option(
+    "--target",
+    type=click.Choice(("both", "newton", "isaac")),
+    default="both",
+    show_default=True,
+    help="Simulator: newton omits attributes of PhysX, isaac adds the schemas of Isaac Sim.",
+)
+@click.option(
+    "--layers",
+    type=click.Choice(("single", "payload")),
+    default="single",
+    show_default=True,
+    help="One layer, or a payload with one layer each for geometry, materials and physics.",
+)
+@click.option(
+    "--base",
+    type=click.Choice(("auto", "fixed", "free")),
+    default="auto",
+    show_default=True,
+    help="Base of the robot; auto: free if the file or its SRDF defines it so.",
+)
+@click.option(
+    "--srdf",
+    metavar="FILE",
+    type=Path,
+    help="SRDF file with disabled collisions and virtual joint.",
+)
+@click.option(
+    "--self-collision/--no-self-collision",
+    default=None,
+    help="Whether links collide with each other.  [default: with --srdf or <self_collide>]",
+)
+@click.option(
+    "--approximation",
+    type=click.Choice(("hull", "mesh")),
+    default="hull",
+    show_default=True,
+    help="Collision geometry of a mesh: its convex hull, or its triangles.",
+)
+@add_fix_inertia_option
+@make_export_options(
+    mesh_dir="",
+    verify=(
+        "Read the result back, with Newton too if it is installed, and compare it with IN: tree, "
+        "masses, inertia, frames, limits, drives, friction, mimic, shapes, contacts."
+    ),
+)
+@add_gltf_option
+@add_package_options
+@click.pass_obj
+def command(
+    console: Console,
+    /,
+    robot: tuple[str, dict[str, str]],
+    output: str | None,
+    package: dict[str, Path],
+    package_path: tuple[str, ...],
+    overwrite: bool,
+    strict: bool,
+    verified: bool,
+    style: str,
+    **choices: Any,
+) -> int:
+    """Convert the robot IN to a stage of OpenUSD, for Isaac Sim, Isaac Lab and Newton.
+
+    Each link with mass becomes a rigid body with the same mass, frame and joint limits. Every loss
+    is reported with its place; --verify compares the stage with IN.
+
+    \b
+        urdftool export usd panda.urdf -o panda.usdc --verify
+        urdftool export usd quadruped.urdf.xacro -o q/ --base free --target isaac
+    """  # noqa: D301 -- click's mark for lines it must not wrap
+    from ..extras import require
+    from ..formats.registry import format_named
+    from ..model.load import make_robot
+    from .export_report import run_export
+
+    require("'urdftool export usd'", "pxr")
+    from ..formats.usd.options import Options
+
+    usd, place = format_named("usd"), output or "-"
+    description = load_strict(console, robot, package, package_path)
+    model = make_robot(description)
+    report_gltf_axes(console, model)
+    options = Options(file=Path(place).name if usd.has_suffix(place) else "", **choices)
+    return run_export(
+        console,
+        usd,
+        model,
+        options,
+        place,
+        strict=strict,
+        verify=verified,
+        overwrite=overwrite,
+        as_json=style == "json",
+    )

@@ -1,0 +1,45 @@
+"""Checks of an export to USD: a temporary copy is compared before user files are replaced."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...model.elements import Robot
+from ..check import Check
+from ..written import Written
+from .options import Options
+
+NOT_COMPARED = (
+    "names of shapes and materials",
+    "colors of meshes, textures",
+    "comments",
+)
+"""Parts of a stage that the verification does not compare."""
+
+
+def check_unwritten(
+    robot: Robot, options: Options, written: Written, *, verify: bool
+) -> list[Check]:
+    """Compare a copy of an export with its source.
+
+    Args:
+        robot: The source.
+        options: Options of the export.
+        written: The export.
+        verify: Whether to compare the copy.
+
+    Raises:
+        OutputError: OpenUSD does not open it.
+    """
+    if not verify:
+        return []
+    from .verify import verify_copy
+
+    return verify_copy(robot, options, written)
+
+
+def check_output(
+    robot: Robot, options: Options, written: Written, output: str | Path | None
+) -> list[Check]:
+    """Return no checks: ``check_unwritten`` compares a copy already."""
+    return []

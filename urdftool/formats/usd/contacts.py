@@ -1,0 +1,67 @@
+"""Collisions among the links of a robot: whether, and between which pairs not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from pxr import UsdPhysics
+
+from ...diagnostic import Severity
+from ...model.elements import Robot
+from ..common.srdf import Srdf
+from ..written import Written
+from .links import LinkWriter
+from .options import Options
+from .stage import PHYSICS, PHYSX, apply, set_value
+
+
+def write_self_collision(
+    links: LinkWriter, options: Options, srdf: Srdf | None, written: Written
+) -> None:
+    """Write the root of the articulation, and whether its links collide with each other."""
+    builder, bodies = links.builder, links.bodies
+    prim = builder.prim
+    if bodies.free and bodies.base:
+        prim = builder.stage.GetPrimAtPath(links.get_path(bodies.base))
+    collides = options.self_collision
+    if collides is None:
+        collides = srdf is not None or bool(bodies.robot.exclusions) or _is_requested(bodies.robot)
+        if not collides:
+            written.report_loss(
+                "self-collision",
+                "links of the robot do not collide with each other, since no SRDF names the pairs "
+                "that may; --self-collision lets them",
+                bodies.robot.place,
+                severity=Severity.INFO,
+            )
+    with builder.edit_layer(PHYSICS):
+        UsdPhysics.ArticulationRootAPI.Apply(prim)
+        apply(prim, "NewtonArticulationRootAPI")
+        set_value(prim, "newton:selfCollisionEnabled", "bool", collides)
+    if options.has_physx:
+        with builder.edit_layer(PHYSX):
+            apply(prim, "PhysxArticulationAPI")
+            set_value(prim, "physxArticulation:enabledSelfCollisions", "bool", collides)
+
+
+def _is_requested(robot: Robot) -> bool:
+    """Tell whether a ``<gazebo>`` block enables self-collision."""
+    values = (block.get_value("self_collide") for block in robot.gazebo)
+    return any(value in ("true", "True", "1") for value in values)
+
+
+def write_pairs(links: LinkWriter, pairs: Iterable[tuple[str, str]]) -> int:
+    """Write pairs of links that never collide, by their bodies; return their number."""
+    carrier = links.bodies.carrier
+    found: dict[str, set[str]] = {}
+    for one, other in pairs:
+        first, second = sorted((carrier[one], carrier[other]))
+        if first and second and first != second:
+            found.setdefault(first, set()).add(second)
+    with links.builder.edit_layer(PHYSICS):
+        for first, others in found.items():
+            prim = links.builder.stage.GetPrimAtPath(links.get_path(first))
+            filtered = UsdPhysics.FilteredPairsAPI.Apply(prim)
+            paths = [links.get_path(name) for name in sorted(others)]
+            filtered.CreateFilteredPairsRel().SetTargets(paths)
+    return sum(map(len, found.values()))

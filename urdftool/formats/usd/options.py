@@ -1,0 +1,60 @@
+"""Options of an export to USD."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from ..common.inertia_repair import FixInertia
+
+Target = Literal["both", "newton", "isaac"]
+Base = Literal["auto", "fixed", "free"]
+Layers = Literal["single", "payload"]
+Approximation = Literal["hull", "mesh"]
+
+SUFFIXES = (".usda", ".usdc", ".usdz", ".usd")
+
+
+@dataclass(frozen=True)
+class Options:
+    """Options of an export to USD.
+
+    Attributes:
+        target: Simulator whose attributes are written; ``both`` for one stage for all.
+        base: Whether the root is fixed to the world; ``auto`` uses the description.
+        layers: ``single`` writes one layer; ``payload`` writes a layer that loads others, one each
+            for geometry, materials and physics.
+        srdf: A MoveIt SRDF, for pairs of links that never collide.
+        self_collision: Whether links of the robot collide with each other; None if an SRDF is
+            given or the description requests it.
+        approximation: Collision geometry of a mesh: its convex hull, or its triangles.
+        fix_inertia: Repair method for physically inconsistent tensors.
+        force: Continue in spite of defects of the source if a robot remains.
+        file: Name of the stage; empty for the robot's name with ``.usda``.
+    """
+
+    target: Target = "both"
+    base: Base = "auto"
+    layers: Layers = "single"
+    srdf: Path | None = None
+    self_collision: bool | None = None
+    approximation: Approximation = "hull"
+    fix_inertia: FixInertia = "none"
+    force: bool = False
+    file: str = ""
+
+    @property
+    def input_files(self) -> tuple[Path, ...]:
+        """Return the files that are read in addition to the robot."""
+        return () if self.srdf is None else (self.srdf,)
+
+    @property
+    def has_newton(self) -> bool:
+        """Tell whether attributes of Newton are written."""
+        return True
+
+    @property
+    def has_physx(self) -> bool:
+        """Tell whether attributes of PhysX are written."""
+        return self.target != "newton"

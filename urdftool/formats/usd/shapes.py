@@ -1,0 +1,165 @@
+"""Visuals and collisions of links as prims."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, Vt
+
+from ...diagnostic import Severity
+from ...geometry.tessellate import tessellate
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Link,
+    Mesh,
+    Plane,
+    Sphere,
+    Visual,
+)
+from ...model.pose import make_pose
+from ...model.shapes import get_shape_name
+from ..common.naming import UniqueNames
+from ..written import Written
+from .links import LinkWriter
+from .materials import MaterialWriter
+from .meshes import Meshes, make_collider, write_triangles
+from .names import make_identifier
+from .stage import GEOMETRY, PHYSICS, set_pose
+
+PLANE_SIZE = 100.0
+"""Edge [m] of an unlimited plane where it is drawn."""
+
+
+@dataclass(frozen=True)
+class ShapeWriter:
+    """Writes the shapes of a robot.
+
+    Attributes:
+        links: Writer of links.
+        meshes: Mesh files.
+        materials: Writer of materials.
+        written: Receives the losses.
+    """
+
+    links: LinkWriter
+    meshes: Meshes
+    materials: MaterialWriter
+    written: Written
+
+    def write(self, link: Link) -> None:
+        """Write the visuals and collisions of a link."""
+        for scope, shapes in (("visuals", link.visuals), ("collisions", link.collisions)):
+            names = UniqueNames()
+            for shape in shapes:
+                if shape.geometry is None:
+                    continue
+                stem = shape.name or get_shape_name(shape.geometry)
+                path = self.links.get_path(link.name).AppendChild(scope)
+                name = names.take(make_identifier(stem, "shape"))
+                self._write_shape(link, shape, shape.geometry, path, name)
+
+    def _write_shape(
+        self,
+        link: Link,
+        shape: Visual | Collision,
+        geometry: Geometry,
+        scope: Sdf.Path,
+        name: str,
+    ) -> None:
+        stage = self.links.builder.stage
+        with self.links.builder.edit_layer(GEOMETRY):
+            prim = self._create_geometry(scope, name, geometry)
+        if prim is None:
+            self.written.report_loss(
+                "shape",
+                f"{get_shape_name(geometry)} of link '{link.name}' is dropped",
+                shape.place,
+                kind="link",
+                name=link.name,
+            )
+            return
+        holder = stage.GetPrimAtPath(scope)
+        if not holder.GetTypeName():
+            UsdGeom.Xform.Define(stage, scope)
+        with self.links.builder.edit_layer(GEOMETRY):
+            scale = geometry.size if isinstance(geometry, Box) else None
+            set_pose(prim, make_pose(shape.origin), scale)
+        if shape.name:
+            prim.SetCustomDataByKey("urdf:shape", shape.name)
+        if isinstance(shape, Visual):
+            self._bind_material(prim, shape)
+        elif not isinstance(geometry, Mesh):
+            with self.links.builder.edit_layer(PHYSICS):
+                make_collider(prim)
+                if isinstance(geometry, Ellipsoid):
+                    mesh = UsdPhysics.MeshCollisionAPI.Apply(prim)
+                    mesh.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
+
+    def _create_geometry(self, scope: Sdf.Path, name: str, geometry: Geometry) -> Usd.Prim | None:
+        """Create the prim of a shape without its pose; None if it cannot be written."""
+        stage, path = self.links.builder.stage, scope.AppendChild(name)
+        if isinstance(geometry, Mesh):
+            if id(geometry) not in self.meshes.uses:
+                return None
+            prim = UsdGeom.Xform.Define(stage, path).GetPrim()
+            self.meshes.write(prim, geometry)
+            return prim
+        if isinstance(geometry, Ellipsoid):
+            return write_triangles(stage, path, *tessellate("ellipsoid", geometry.radii, 48))
+        return _create_primitive(stage, path, geometry)
+
+    def _bind_material(self, prim: Usd.Prim, visual: Visual) -> None:
+        """Bind the material of a visual; colors in a mesh file take precedence, as in RViz."""
+        look = self.materials.look_of(visual)
+        if look is None:
+            return
+        if look.image is not None and not isinstance(visual.geometry, Mesh):
+            self.written.report_loss(
+                "texture",
+                f"texture of material '{look.name}' is not shown on a primitive shape, which has "
+                "no texture coordinates",
+                visual.place,
+                kind="material",
+                name=look.name,
+                severity=Severity.INFO,
+            )
+        self.materials.bind(prim, look, self.links.builder.root.AppendChild("materials"))
+
+
+def _create_primitive(stage: Usd.Stage, path: Sdf.Path, geometry: Geometry) -> Usd.Prim | None:
+    """Create the prim of a primitive; a box is a cube of edge 1 m, to be scaled."""
+    shape: UsdGeom.Gprim
+    if isinstance(geometry, Box):
+        shape = UsdGeom.Cube.Define(stage, path)
+        shape.CreateSizeAttr(1.0)
+        half = (0.5, 0.5, 0.5)
+    elif isinstance(geometry, Sphere):
+        shape = UsdGeom.Sphere.Define(stage, path)
+        shape.CreateRadiusAttr(geometry.radius)
+        half = (geometry.radius,) * 3
+    elif isinstance(geometry, (Cylinder, Capsule, Cone)):
+        schema = {Cylinder: UsdGeom.Cylinder, Capsule: UsdGeom.Capsule, Cone: UsdGeom.Cone}
+        shape = schema[type(geometry)].Define(stage, path)
+        shape.CreateRadiusAttr(geometry.radius)
+        shape.CreateHeightAttr(geometry.length)
+        shape.CreateAxisAttr(UsdGeom.Tokens.z)
+        cap = geometry.radius if isinstance(geometry, Capsule) else 0.0
+        half = (geometry.radius, geometry.radius, geometry.length / 2 + cap)
+    elif isinstance(geometry, Plane):
+        shape = UsdGeom.Plane.Define(stage, path)
+        width, length = geometry.size or (PLANE_SIZE, PLANE_SIZE)
+        shape.CreateWidthAttr(width)
+        shape.CreateLengthAttr(length)
+        shape.CreateAxisAttr(UsdGeom.Tokens.z)
+        half = (width / 2, length / 2, 0.0)
+    else:
+        return None
+    low = Gf.Vec3f(*(-part for part in half))
+    shape.CreateExtentAttr(Vt.Vec3fArray([low, Gf.Vec3f(*half)]))
+    return shape.GetPrim()

@@ -1,0 +1,143 @@
+"""Export of a robot to USD: stage, files and losses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...diagnostic import Severity
+from ...lint.validate import validate
+from ...model.elements import Robot
+from ..common.naming import replace_file_name
+from ..common.srdf import Srdf, read_srdf
+from ..defects import FATAL, refuse, report_defects, report_taken_world
+from ..written import Written
+from .bodies import Bodies, make_bodies, report_floating
+from .contacts import write_pairs, write_self_collision
+from .files import make_layered_files, make_single_file
+from .inertials import make_inertias
+from .isaac import write_isaac
+from .joints import JointWriter, report_unwritten_spring
+from .links import LinkWriter
+from .loops import write_closures, write_frames
+from .materials import FOLDER, MaterialWriter
+from .meshes import Meshes
+from .mimics import write_mimics
+from .names import Names, make_names
+from .options import Options
+from .shapes import ShapeWriter
+from .stage import ISAAC, LAYERS, PHYSX, StageBuilder
+from .unexpressed import report_losses
+
+_APPROXIMATIONS = {"hull": "convexHull", "mesh": "none"}
+
+
+def write(robot: Robot, options: Options | None = None) -> Written:
+    """Convert a robot to USD.
+
+    Args:
+        robot: The robot.
+        options: Options of the export; None for the defaults of the command line.
+
+    Returns:
+        The stage and its images, with every loss.
+
+    Raises:
+        Refused: The robot has report_defects that prevent the export; the error lists all of them.
+        SourceError: The SRDF cannot be read.
+    """
+    options = options or Options()
+    robot, world = report_taken_world(robot)
+    name = _choose_name(robot)
+    written = Written(options.file or f"{replace_file_name(name)}.usda")
+    found = [
+        *([] if options.force else world),
+        *report_defects(robot),
+        *validate(robot, "export:usd"),
+    ]
+    if any(finding.code in FATAL for finding in found):
+        refuse(found, force=options.force)
+    written.losses += world if options.force else []
+    report_losses(robot, written)
+    packages = robot.source.packages if robot.source is not None else None
+    srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
+    bodies = make_bodies(robot, options.base, srdf.virtual_joint if srdf else None, written)
+    report_floating(bodies, written)
+    inertias, wrong = make_inertias(bodies, options, written)
+    names = make_names(robot, name)
+    written.renamed = names.renamed
+    builder = _make_builder(names, options)
+    materials = MaterialWriter(builder, robot, written)
+    meshes = Meshes(builder, materials, written, _APPROXIMATIONS[options.approximation])
+    found += [*wrong, *meshes.load(robot)]
+    refuse(found, force=options.force)
+    written.losses += found
+
+    links = LinkWriter(builder, bodies, names)
+    links.write(inertias)
+    shapes = ShapeWriter(links, meshes, materials, written)
+    for link in robot.links:
+        shapes.write(link)
+    joints = JointWriter(builder, bodies, names, options, written)
+    _write_joints(joints, links, options, srdf)
+    _report_names(bodies, names, written)
+    _finish(builder, robot, options, written)
+    return written
+
+
+def _make_builder(names: Names, options: Options) -> StageBuilder:
+    kinds = [kind for kind in LAYERS
+             if not (kind == PHYSX and not options.has_physx)
+             and not (kind == ISAAC and options.target != "isaac")]  # fmt: skip
+    return StageBuilder(names.robot, is_layered=options.layers == "payload", kinds=kinds)
+
+
+def _write_joints(
+    joints: JointWriter, links: LinkWriter, options: Options, srdf: Srdf | None
+) -> None:
+    written, robot = joints.written, joints.bodies.robot
+    joints.write()
+    write_mimics(joints)
+    write_closures(joints, written)
+    write_frames(links, robot)
+    write_self_collision(links, options, srdf, written)
+    pairs = [(pair.link, pair.other) for pair in robot.exclusions]
+    count = write_pairs(links, [*pairs, *(srdf.disabled if srdf else ())])
+    if count:
+        written.summary.append(f"{count} pairs without contact")
+    for joint in robot.joints:
+        report_unwritten_spring(joint, written)
+    if options.target == "isaac":
+        write_isaac(links, joints)
+
+
+def _finish(builder: StageBuilder, robot: Robot, options: Options, written: Written) -> None:
+    """Turn the stage into files."""
+    if robot.name:
+        builder.prim.SetCustomDataByKey("urdf:robot", robot.name)
+    builder.prim.SetCustomDataByKey("urdf:root", robot.tree.roots[0].name)
+    source = Path(robot.source.path).name if robot.source is not None else "a robot"
+    images = {path: content for path, content in written.files.items() if path.startswith(FOLDER)}
+    make = make_layered_files if options.layers == "payload" else make_single_file
+    written.files = make(builder, written.main, source, images)
+
+
+def _choose_name(robot: Robot) -> str:
+    """Return the robot's name; without one, that of its file."""
+    if robot.name or robot.source is None:
+        return robot.name or "robot"
+    return Path(robot.source.path).name.partition(".")[0] or "robot"
+
+
+def _report_names(bodies: Bodies, names: Names, written: Written) -> None:
+    """Report each name that is not valid in USD."""
+    for (kind, old), new in names.renamed.items():
+        part = bodies.robot.link[old] if kind == "link" else bodies.robot.joint[old]
+        written.report_loss(
+            "name",
+            f"{kind} '{old}' is prim '{new}', since USD does not allow the name or it is taken; "
+            "the original is in its customData",
+            part.place,
+            kind=kind,
+            name=old,
+            severity=Severity.INFO,
+        )
