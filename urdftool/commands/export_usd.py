@@ -14,7 +14,7 @@ from .load_strict import load_strict, report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
 
 _GROUPS = {
-    "Output": "output target layers overwrite style",
+    "Output": "output target layers isaaclab isaaclab_version overwrite style",
     "Robot": "base srdf self_collision approximation fix_inertia",
     "Verification": "verified strict force",
 }
@@ -42,6 +42,19 @@ _GROUPS = {
     default="single",
     show_default=True,
     help="One layer, or a payload with one layer each for geometry, materials and physics.",
+)
+@click.option(
+    "--isaaclab",
+    metavar="FILE",
+    type=Path,
+    help="Also write an ArticulationCfg for Isaac Lab to FILE (.py).",
+)
+@click.option(
+    "--isaaclab-version",
+    type=click.Choice(("2", "3")),
+    default="3",
+    show_default=True,
+    help="Major version of Isaac Lab; versions differ in names and in the order of quaternions.",
 )
 @click.option(
     "--base",
@@ -86,6 +99,8 @@ def command(
     output: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
+    isaaclab: Path | None,
+    isaaclab_version: str,
     overwrite: bool,
     strict: bool,
     verified: bool,
@@ -114,7 +129,9 @@ def command(
     model = make_robot(description)
     report_gltf_axes(console, model)
     options = Options(file=Path(place).name if usd.has_suffix(place) else "", **choices)
-    return run_export(
+    if isaaclab is not None and place == "-":
+        raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
+    code = run_export(
         console,
         usd,
         model,
@@ -125,3 +142,14 @@ def command(
         overwrite=overwrite,
         as_json=style == "json",
     )
+    if isaaclab is not None and code < 2:
+        from ..formats.usd.isaaclab import write_config
+        from ..formats.usd.write import get_stage_name
+
+        stage = Path(place) if options.file else Path(place) / get_stage_name(model)
+        assumed = write_config(
+            model, options, stage, isaaclab, version=int(isaaclab_version), overwrite=overwrite
+        )
+        for sentence in assumed:
+            console.print_note(f"{isaaclab}: assumed: {sentence}")
+    return code

@@ -8,24 +8,20 @@ from pxr import UsdPhysics
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
-from ..common.srdf import Srdf
 from ..written import Written
 from .links import LinkWriter
 from .options import Options
 from .stage import PHYSICS, PHYSX, apply, set_value
 
 
-def write_self_collision(
-    links: LinkWriter, options: Options, srdf: Srdf | None, written: Written
-) -> None:
+def write_self_collision(links: LinkWriter, options: Options, written: Written) -> None:
     """Write the root of the articulation, and whether its links collide with each other."""
     builder, bodies = links.builder, links.bodies
     prim = builder.prim
     if bodies.free and bodies.base:
         prim = builder.stage.GetPrimAtPath(links.get_path(bodies.base))
-    collides = options.self_collision
-    if collides is None:
-        collides = srdf is not None or bool(bodies.robot.exclusions) or _is_requested(bodies.robot)
+    collides = is_self_colliding(bodies.robot, options)
+    if options.self_collision is None:
         if not collides:
             written.report_loss(
                 "self-collision",
@@ -42,6 +38,13 @@ def write_self_collision(
         with builder.edit_layer(PHYSX):
             apply(prim, "PhysxArticulationAPI")
             set_value(prim, "physxArticulation:enabledSelfCollisions", "bool", collides)
+
+
+def is_self_colliding(robot: Robot, options: Options) -> bool:
+    """Tell whether links of the robot collide with each other in the stage."""
+    if options.self_collision is not None:
+        return options.self_collision
+    return options.srdf is not None or bool(robot.exclusions) or _is_requested(robot)
 
 
 def _is_requested(robot: Robot) -> bool:

@@ -103,5 +103,5 @@ def _compute_poses(
             values[builder.joint_q_start[index]] = positions[label]
     model.joint_q.assign(values)
     newton.eval_fk(model, model.joint_q, model.joint_qd, state)
-    rows = state.body_q.numpy().tolist()
+    rows = [] if state.body_q is None else state.body_q.numpy().tolist()
     return dict(zip(builder.body_label, rows, strict=True))

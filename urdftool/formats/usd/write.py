@@ -48,7 +48,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     options = options or Options()
     robot, world = report_taken_world(robot)
     name = _choose_name(robot)
-    written = Written(options.file or f"{replace_file_name(name)}.usda")
+    written = Written(options.file or get_stage_name(robot))
     found = [
         *([] if options.force else world),
         *report_defects(robot),
@@ -99,7 +99,7 @@ def _write_joints(
     write_mimics(joints)
     write_closures(joints, written)
     write_frames(links, robot)
-    write_self_collision(links, options, srdf, written)
+    write_self_collision(links, options, written)
     pairs = [(pair.link, pair.other) for pair in robot.exclusions]
     count = write_pairs(links, [*pairs, *(srdf.disabled if srdf else ())])
     if count:
@@ -119,6 +119,11 @@ def _finish(builder: StageBuilder, robot: Robot, options: Options, written: Writ
     images = {path: content for path, content in written.files.items() if path.startswith(FOLDER)}
     make = make_layered_files if options.layers == "payload" else make_single_file
     written.files = make(builder, written.main, source, images)
+
+
+def get_stage_name(robot: Robot) -> str:
+    """Return the name of the stage in a folder."""
+    return f"{replace_file_name(_choose_name(robot))}.usda"
 
 
 def _choose_name(robot: Robot) -> str:
