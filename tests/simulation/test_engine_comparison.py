@@ -123,7 +123,7 @@ def test_only_one_that_rests_is_the_only_difference(hanging):
     (part,) = compare(hanging[0], moving)
     assert (part.unit, part.excess) == ("s", math.inf)
     assert part.write_value(part.one).startswith("after ")
-    assert part.write_value(part.other) == "not in the time"
+    assert part.write_value(part.other) == "not within the duration"
 
 
 def test_the_table_has_a_row_for_each_value():
@@ -135,7 +135,7 @@ def test_the_table_has_a_row_for_each_value():
     rows = [line.split() for line in said.splitlines()]
     assert ["trial", "value", "A", "1", "B", "2", "allowed"] in rows
     assert ["2", "tilt", "of", "link", "'a'", "1", "°", "5.25", "°", "1", "°"] in rows
-    assert "not in the time" in said
+    assert "not within the duration" in said
     assert said.splitlines()[1] == "error: the engines differ in 2 values"
     assert "possible cause: mass: " in said
     assert "\x1b" not in said

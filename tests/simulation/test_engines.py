@@ -52,7 +52,7 @@ def test_the_other_engine_is_named_where_it_suits():
     assert registry.name_alternative("mujoco", lambda known: known.closes_loops) == ""
 
 
-@pytest.mark.parametrize(("count", "other"), [(121, "; --engine mujoco takes more"), (120, None)])
+@pytest.mark.parametrize(("count", "other"), [(121, "; use --engine mujoco"), (120, None)])
 def test_too_many_joints_are_refused(count, other):
     known = registry.load_engine("pybullet").capabilities
     if other is None:
@@ -61,6 +61,6 @@ def test_too_many_joints_are_refused(count, other):
     with pytest.raises(ModelError) as raised:
         driver._check_joints(known, count)
     assert raised.value.message == (
-        f"the robot has {count} moving joints; PyBullet takes at most 120{other}"
+        f"the robot has {count} moving joints; PyBullet supports at most 120{other}"
     )
     driver._check_joints(registry.load_engine("mujoco").capabilities, count)

@@ -210,7 +210,7 @@ def test_links_in_a_row_that_are_too_many_are_said(write):
     text = f'<robot name="r">{links}{joints}</robot>'.replace(
         '<link name="l0"/>', f'<link name="l0">{PART}</link>'
     )
-    with pytest.raises(ModelError, match="more links in a row") as raised:
+    with pytest.raises(ModelError, match="XML nesting limit") as raised:
         _run(write, text)
     assert raised.value.line == 1
 

@@ -102,7 +102,7 @@ def command(
     print_old_thresholds(console, paths)
     with (
         terminate_gracefully(),
-        EngineProcess(get_library(engines[0])) as child,  # which starts meanwhile
+        EngineProcess(get_library(engines[0])) as child,  # starts in parallel
     ):
         model = load_tolerant(console, paths[0], arguments, package, package_path)
         set_cache_folder(model, cache)

@@ -62,7 +62,7 @@ class Fleet:
         )
         set_cache_folder(robot, self.cache)
         if not robot.links and path not in self.named:
-            return Row(path, robot.name, skipped="the file has macros only, and no link")
+            return Row(path, robot.name, skipped="the file has only macros and no link")
         settings = apply_controllers(
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
@@ -95,7 +95,7 @@ def simulate_fleet(
     from ..lint.discover import explain_nothing_found, find_descriptions
     from ..output import write_file
     from ..report import simulate_fleet as report
-    from ..simulation import verdict  # noqa: F401 -- forked workers then have it
+    from ..simulation import verdict  # noqa: F401 -- loaded before workers are forked
     from ..simulation.fleet import PATIENCE, run_in_parallel
     from .simulate_one import print_old_thresholds
 

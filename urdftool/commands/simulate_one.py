@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..simulation.checks.thresholds import Thresholds
     from ..simulation.engine_comparison import EngineComparison
     from ..simulation.engine_process import EngineProcess
-    from ..simulation.run import Progress as Told
+    from ..simulation.run import Progress as ReportProgress
     from ..simulation.settings import Settings
     from ..simulation.verdict import Verdict
     from .simulate_outputs import Outputs
@@ -55,7 +55,7 @@ def simulate_and_judge(
     settings: Settings,
     engines: tuple[str, ...],
     thresholds: Thresholds,
-    progress: Told = lambda *_: None,
+    progress: ReportProgress = lambda *_: None,
     child: EngineProcess | None = None,
 ) -> tuple[list[list[Verdict]], EngineComparison | None]:
     """Simulate and judge a robot in each engine; compare two engines.

@@ -29,7 +29,7 @@ def _parse_payloads(
 ) -> dict[str, float]:
     found = parse_name_numbers(ctx, parameter, values)
     if any(mass < 0 for mass in found.values()):
-        raise click.BadParameter("the mass of a payload is negative", ctx, parameter)
+        raise click.BadParameter("a payload mass must not be negative", ctx, parameter)
     return found
 
 

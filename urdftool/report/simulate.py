@@ -1,4 +1,4 @@
-"""A verdict as text, and as JSON; the schema is ``docs/schemas/simulate.json``."""
+"""Format a verdict as text, and as JSON; the schema is ``docs/schemas/simulate.json``."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from .json_text import format_json, replace_non_finite
 from .tables import Cell, render_table
 
 if TYPE_CHECKING:
+    from ..simulation.checks.final_state import FinalState
     from ..simulation.engine_comparison import EngineComparison
     from ..simulation.fault import Fault
     from ..simulation.verdict import Verdict
@@ -36,8 +37,8 @@ def _format_one(robot: Robot, verdict: Verdict, paint: Painter) -> Iterator[str]
     yield _format_headline(robot, verdict, paint)
     rows = list(_list_rows(verdict))
     width = max(len(label) for label, _ in rows)
-    for label, said in rows:
-        yield f"  {paint(f'{label:<{width}}', 'cyan')}  {said}"
+    for label, text in rows:
+        yield f"  {paint(f'{label:<{width}}', 'cyan')}  {text}"
     yield from _format_faults(verdict.faults, paint)
 
 
@@ -50,21 +51,22 @@ def _format_headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
 
 
 def describe_outcome(verdict: Verdict) -> str:
-    """Describe the result: a robot that settles upright stands, in spite of other faults."""
+    """Describe the result: a robot that settles upright stands, in spite of model errors."""
     if verdict.stands:
         return "stands"
-    return "does not stand" if verdict.fell else "stands, but not as it should"
+    return "does not stand" if verdict.fell else "stands, with model errors"
 
 
 def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     run, rest = verdict.run, verdict.rest
     recording, bodies = run.recording, run.bodies
-    held, limp = len(recording.held), len(recording.joints) - len(recording.held)
+    held = len(recording.held)
+    unactuated = len(recording.joints) - held
     yield "engine", f"{recording.engine}, {recording.steps} steps of {run.settings.timestep:g} s"
     root = "fixed to the world" if bodies.fixed_base else "free"
     joints = "no joints"
     if recording.joints:
-        joints = f"{format_count(held, 'joint')} held, {limp} limp or following"
+        joints = f"{format_count(held, 'joint')} held, {unactuated} unactuated or mimic"
     yield "robot", f"{bodies.mass:.4g} kg, {len(bodies.bodies)} bodies, {joints}; root {root}"
     if rest.settled is None:
         yield "at rest", f"not in {recording.times[-1]:.3g} s"
@@ -83,7 +85,7 @@ def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
         if rest.margin is not None:
             yield (
                 "static margin",
-                f"{1000 * rest.margin:.1f} mm from the centre of mass to the nearest edge",
+                f"{1000 * rest.margin:.1f} mm from the center of mass to the nearest edge",
             )
     if run.swept:
         blocked = sum(fault.code == "blocked" for fault in verdict.faults)
@@ -109,7 +111,7 @@ def _format_faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
         if others:
             shown = ", ".join(escape_controls(name) for name in others[:_MOST])
             more = f", {len(others) - _MOST} more" if len(others) > _MOST else ""
-            yield f"   {paint('=', 'cyan')} the same of {shown}{more}"
+            yield f"   {paint('=', 'cyan')} same for {shown}{more}"
         if fault.cause:
             yield f"   {paint('=', 'cyan')} {escape_controls(fault.cause)}"
         if fault.rule:
@@ -124,7 +126,7 @@ def _format_several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -
     for number, verdict in enumerate(verdicts, 1):
         tilt = math.degrees(math.hypot(*verdict.run.settings.start_rpy[:2]))
         kinds = ", ".join(dict.fromkeys(f.code for f in verdict.faults if f.fails))
-        settled = "no rest" if verdict.rest.settled is None else f"{verdict.rest.settled:6.2f} s"
+        settled = "moving" if verdict.rest.settled is None else f"{verdict.rest.settled:6.2f} s"
         yield f"  trial {number:>3}  from {tilt:4.1f}°  {settled:>8}  {kinds or 'stands'}"
         for fault in verdict.faults:
             seen.setdefault((fault.code, fault.name), (fault, []))[1].append(number)
@@ -176,7 +178,7 @@ def to_json(
         timings: Whether to add the wall-clock time of each trial, which differs between runs.
         comparison: Comparison of two engines, if there are two.
     """
-    said: dict[str, Any] = {
+    document: dict[str, Any] = {
         "version": 1,
         "name": robot.name,
         "path": robot.source.path if robot.source is not None else None,
@@ -184,9 +186,9 @@ def to_json(
         "trials": [_build_trial(verdict, timings) for verdict in verdicts],
     }
     differences = [] if comparison is None else comparison.report_faults(robot)
-    said["differences"] = [_build_fault(fault) for fault in differences]
-    said["stands"] = said["stands"] and not differences
-    return format_json(said) + "\n"
+    document["differences"] = [_build_fault(fault) for fault in differences]
+    document["stands"] = document["stands"] and not differences
+    return format_json(document) + "\n"
 
 
 def _build_trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
@@ -199,7 +201,7 @@ def _build_trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
         "engine": recording.engine,
         "mass": run.bodies.mass,
         "fixed": run.bodies.fixed_base,
-        "rest": {key: replace_non_finite(value) for key, value in asdict(rest).items()},
+        "rest": _build_final_state(rest),
         "held": {name: recording.targets[name] for name in recording.held},
         "bodies": list(recording.bodies),
         "joints": list(recording.joints),
@@ -215,6 +217,12 @@ def _build_trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
             )
         },
     }
+
+
+def _build_final_state(state: FinalState) -> dict[str, Any]:
+    """Return the values of a final state, with ``centre``, a deprecated name of ``center``."""
+    values = {key: replace_non_finite(value) for key, value in asdict(state).items()}
+    return values | {"centre": values["center"]}
 
 
 def _build_fault(fault: Fault) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Results for many robots as a table, JSON, or JUnit XML with a case for each robot."""
+"""Format results for many robots as a table, JSON, or JUnit XML with a case for each robot."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ def summarize(rows: Sequence[Row]) -> str:
         "stand": sum(row.stands is True for row in rows),
         "stand with model errors": sum(row.stands is False and not row.fell for row in rows),
         "do not stand": sum(row.fell for row in rows),
-        "could not be tried": sum(row.error is not None for row in rows),
+        "could not be simulated": sum(row.error is not None for row in rows),
         "skipped": sum(bool(row.skipped) for row in rows),
     }
-    said = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
-    return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {said or 'none'}"
+    words = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
+    return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {words or 'none'}"
 
 
 def _collect_word(row: Row) -> tuple[str, str]:
@@ -52,7 +52,7 @@ def _collect_word(row: Row) -> tuple[str, str]:
         return "skipped", "yellow"
     if row.stands:
         return "stands", "green"
-    return ("does not stand" if row.fell else "stands, but"), "red"
+    return ("does not stand" if row.fell else "model errors"), "red"
 
 
 def _format_what(row: Row) -> str:
@@ -78,9 +78,9 @@ def _format_what(row: Row) -> str:
 
 def to_json(rows: Sequence[Row], *, timings: bool = False) -> str:
     """Format the results without time series as JSON; ``timings`` adds the wall-clock times."""
-    said = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
+    document = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
             "robots": [_build_row(row, timings) for row in rows]}  # fmt: skip
-    return format_json(said, 1) + "\n"
+    return format_json(document, 1) + "\n"
 
 
 def _build_row(row: Row, timings: bool) -> dict[str, Any]:
@@ -132,7 +132,7 @@ def to_junit(rows: Sequence[Row]) -> str:
 def _add_findings(case: Element, row: Row) -> None:
     if row.error is not None:
         error = SubElement(
-            case, "error", type="not tried", message=escape_controls(row.error.message)
+            case, "error", type="not simulated", message=escape_controls(row.error.message)
         )
         error.text = "\n".join(escape_controls(line) for line in (str(row.error), *row.error.notes))
         return

@@ -18,17 +18,17 @@ from .recording import Array, Recording
 from .run import Run
 
 FILM = (480, 360)
-"""Width and height of a film in pixels."""
+"""Width and height of an animation [pixels]."""
 
 RATE = 20.0
-"""Pictures a second, of a film that is not too long."""
+"""Frame rate of an animation of up to ``MOST`` frames [1/s]."""
 
 MOST = 240
-"""Pictures of a film; a longer run has fewer a second."""
+"""Maximum number of frames; a longer run has a lower frame rate."""
 
-_STILL = 2e-4  # of the robot's size, or rad: a smaller change is not drawn anew
-_HOLD = 1.0  # s that the last picture stays
-_AWAY = 3.0  # sizes from the start, beyond which the camera does not follow
+_STILL = 2e-4  # of the robot's size, or rad: a smaller change repeats the frame
+_HOLD = 1.0  # s, duration of the last frame
+_AWAY = 3.0  # distance from the start, in robot sizes, beyond which the camera does not follow
 
 Progress = Callable[[int, int], None]
 
@@ -38,7 +38,7 @@ def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
 
     Args:
         run: A run.
-        poses: Of its bodies, shape (b, 7), as in ``Recording``.
+        poses: Poses of its bodies, shape (b, 7), as in ``Recording``.
     """
     found = {}
     for body, row in zip(run.bodies.bodies, poses, strict=True):
@@ -52,12 +52,12 @@ def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
 def render_final_state(
     run: Run, shapes: Shapes, *, camera: Camera | None = None, size: tuple[int, int] = SIZE
 ) -> Image:
-    """Draw the robot on the plane where a run ended.
+    """Draw the robot on the plane at the end of a run.
 
     Args:
         run: A run.
-        shapes: Of its robot.
-        camera: Where the picture is taken from.
+        shapes: Shapes of the robot.
+        camera: Camera.
         size: Width and height in pixels.
     """
     last = run.recording.poses[_find_finite(run.recording)[-1]]
@@ -78,18 +78,18 @@ def render_animation(
 
     Args:
         run: A run.
-        shapes: Of its robot.
-        camera: Where it is taken from.
+        shapes: Shapes of the robot.
+        camera: Camera.
         size: Width and height in pixels.
-        progress: Told of each picture: its number, how many.
+        progress: Receives the number of each frame and their count.
     """
     view = _view(run, shapes, camera or Camera(), size)
     frames: list[Image] = []
     seconds: list[float] = []
     drawn: Array | None = None
-    moments = list(_list_frames(run.recording))
-    for number, (poses, time) in enumerate(moments, 1):
-        progress(number, len(moments))
+    samples = list(_list_frames(run.recording))
+    for number, (poses, time) in enumerate(samples, 1):
+        progress(number, len(samples))
         if drawn is not None and _is_same_pose(run, poses, drawn):
             seconds[-1] += time
             continue
@@ -115,7 +115,7 @@ def _get_floor(run: Run, poses: Array) -> float | bool:
 
 
 def _list_frames(recording: Recording) -> Iterator[tuple[Array, float]]:
-    """Yield poses of the bodies at even steps of time, and how long each is shown [s]."""
+    """List poses of the bodies at equal time steps, with the duration of each frame [s]."""
     rows = _find_finite(recording)
     times = recording.times[rows]
     length = float(times[-1])
@@ -131,7 +131,7 @@ def _list_frames(recording: Recording) -> Iterator[tuple[Array, float]]:
 
 
 def _interpolate(one: Array, two: Array, part: float) -> Array:
-    """Interpolate between two poses that are near each other."""
+    """Interpolate linearly between two poses of all bodies, with normalized quaternions."""
     turns = np.where((one[:, 3:] * two[:, 3:]).sum(axis=1, keepdims=True) < 0, -1.0, 1.0)
     poses = one * (1 - part)
     poses[:, :3] += part * two[:, :3]
@@ -147,7 +147,7 @@ def _is_same_pose(run: Run, one: Array, two: Array) -> bool:
 
 
 def _view(run: Run, shapes: Shapes, camera: Camera, size: tuple[int, int]) -> View:
-    """Place a camera that sees the whole run, as far as the robot stays near."""
+    """Place a camera that shows the whole run while the robot is near its start."""
     recording = run.recording
     rows = _find_finite(recording)
     apart = np.linalg.norm(recording.poses[rows, 0, :3] - recording.poses[0, 0, :3], axis=1)

@@ -15,15 +15,15 @@ SERVO, POSITION, VELOCITY, NONE = "servo", "position-pid", "velocity-pid", "none
 
 @dataclass(frozen=True)
 class Pid:
-    """Gains; of an error in rad or m, or rad/s or m/s, to N·m or N.
+    """Gains from an error in rad or m, or rad/s or m/s, to an effort in N·m or N.
 
     Attributes:
-        p: Of the error.
-        i: Of its integral.
-        d: Of its derivative.
-        i_min: The least that the integral's part may be; zero by default, as in ros_control.
-        i_max: The most.
-        antiwindup: Whether the integral itself is bounded, too.
+        p: Proportional gain.
+        i: Integral gain.
+        d: Derivative gain.
+        i_min: Minimum of the integral term; zero by default, as in ros_control.
+        i_max: Maximum of the integral term.
+        antiwindup: Whether the integral itself is also limited.
     """
 
     p: float
@@ -36,14 +36,14 @@ class Pid:
 
 @dataclass(frozen=True)
 class Control:
-    """What holds a joint.
+    """Control of a joint.
 
     Attributes:
-        controller: Its name in the file.
-        kind: ``servo``, an interface that takes positions or velocities and is told to stay;
+        controller: Name of the controller in the file.
+        kind: ``servo``, a position or velocity interface with a constant command;
             ``position-pid`` or ``velocity-pid``, whose output is an effort; or ``none``.
-        pid: The gains of these.
-        at: The file, and first and last byte of what says so.
+        pid: Gains of a PID; None for other kinds.
+        at: Path of the file, and the first and last byte of the gains or the joint's name.
     """
 
     controller: str
@@ -53,7 +53,7 @@ class Control:
 
 
 class Pids:
-    """The PID loops of some joints, stepped together."""
+    """PID loops of several joints."""
 
     def __init__(
         self,
@@ -63,14 +63,14 @@ class Pids:
         turning: Sequence[bool],
         timestep: float,
     ) -> None:
-        """Begin at rest.
+        """Initialize the loops at rest.
 
         Args:
-            controls: One of each joint, with gains.
-            targets: Where each joint is held [rad, m].
-            efforts: The most that each may use [N·m, N]; None without bound.
-            turning: Which joints are continuous: their error is the shortest turn.
-            timestep: Between steps [s].
+            controls: Control of each joint, with gains.
+            targets: Target position of each joint [rad, m].
+            efforts: Effort limit of each joint [N·m, N]; None without a limit.
+            turning: Whether each joint is continuous: its error is the shortest rotation.
+            timestep: Time between steps [s].
         """
         gains = [control.pid for control in controls]
         assert all(gains)
@@ -91,8 +91,8 @@ class Pids:
         """Compute the effort of each joint for the next step [N·m, N].
 
         Args:
-            positions: Where each is [rad, m].
-            rates: How fast [rad/s, m/s].
+            positions: Joint positions [rad, m].
+            rates: Joint velocities [rad/s, m/s].
         """
         apart = self._target - positions
         turn = (apart + math.pi) % (2 * math.pi) - math.pi
@@ -104,8 +104,8 @@ class Pids:
         integral = np.clip(self._i * self._sum, self._low, self._high)
         slope = np.zeros_like(error) if self._last is None else (error - self._last) / self._dt
         self._last = error
-        wanted = self._p * error + integral + self._d * slope
-        self.efforts = np.clip(wanted, -self._bound, self._bound)
+        total = self._p * error + integral + self._d * slope
+        self.efforts = np.clip(total, -self._bound, self._bound)
         return self.efforts
 
 

@@ -1,7 +1,7 @@
-"""Controllers of ros_control and ros2_control YAML, as Gazebo applies them to a robot.
+"""Read controllers of ros_control and ros2_control YAML, as Gazebo applies them to a robot.
 
-Every controller is told to hold the pose: what it does then to its joints is the same for a
-trajectory controller without a trajectory as for one that was commanded there.
+Every controller is commanded to hold the pose. A trajectory controller without a trajectory does
+the same.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..suggestions import suggest_name
 from .control import NONE, POSITION, SERVO, VELOCITY, Control, Pid
 
 _SILENT = ("Broadcaster", "StateController", "SensorController")
-"""Controllers that only tell."""
+"""Suffixes of controllers that only publish states."""
 
 _POSITION = ("JointPositionController", "JointGroupPositionController")
 _VELOCITY = ("JointVelocityController", "JointGroupVelocityController")
@@ -35,11 +35,11 @@ _INTERFACES = ("position", "velocity", "effort")
 
 @dataclass(frozen=True)
 class Controls:
-    """What a file says.
+    """Contents of a controller file.
 
     Attributes:
-        joints: What holds each joint, by its name.
-        notes: Sentences on what was passed over.
+        joints: Control of joints by name.
+        notes: Messages about ignored parts of the file.
     """
 
     joints: dict[str, Control]
@@ -47,25 +47,25 @@ class Controls:
 
 
 def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Controls:
-    """Read the controllers of a file that are for a robot.
+    """Read the controllers of a robot from a file.
 
     Args:
-        path: The file.
+        path: Path of the file.
         robot: The robot.
-        strict: Refuse a controller of an unknown type. Otherwise its joints are not actuated.
+        strict: Whether to refuse controllers of unknown type; otherwise their joints are not
+            actuated.
 
     Raises:
-        ConfigError: It is no file of controllers; a controller has no joints or gains, or names
-            joints that the robot has not, or that have another interface; or, if ``strict``, it is
-            of an unknown type.
-        SourceError: It cannot be read.
+        ConfigError: The file has no controllers; a controller has no joints or gains, or a joint is
+            unknown or has a different interface; or, if ``strict``, a type is unknown.
+        SourceError: The file cannot be read.
     """
     root = read_yaml(path)
     controllers = list(list_controllers(root))
     if not controllers:
         raise ConfigError(
-            "has no controller: a mapping with a 'type' such as "
-            "effort_controllers/JointPositionController is wanted",
+            "has no controller; add a mapping with a 'type', such as "
+            "effort_controllers/JointPositionController",
             path=path,
             line=1,
         )
@@ -94,7 +94,7 @@ def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Contro
 
 
 def _list_replaced_keys(root: Node) -> Iterator[str]:
-    """Say of which keys an earlier value is dropped."""
+    """List a message for each key whose earlier value is replaced."""
     for _, node in root.walk():
         for name, value in (node.fields or {}).items():
             if value.replaced:
@@ -103,7 +103,7 @@ def _list_replaced_keys(root: Node) -> Iterator[str]:
 
 
 def _explain_unknown_type(controller: Controller) -> str:
-    """Explain why the type of a controller is not known; empty if it is."""
+    """Explain that the type of a controller is unknown; empty if it is known."""
     kind = controller.kind
     if kind.endswith(_SILENT) or kind in KNOWN:
         return ""
@@ -128,19 +128,19 @@ def _read_simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
 def _list_claims(
     controller: Controller, robot: Robot, simulated: dict[str, Node]
 ) -> Iterator[tuple[Node, Control]]:
-    """Yield each joint that a controller drives, and how."""
+    """List each joint that a controller drives, with its control."""
     kind = controller.kind
     if kind.endswith(_SILENT):
         return
     for node, interface in _list_joints(controller):
         joint = (node.text or "").rpartition("/")[2]
         _check_joints_exist(node, joint, robot)
-        _has_interface(controller, node, joint, interface, robot)
+        _check_interface(controller, node, joint, interface, robot)
         yield node, _make_control(controller, node, joint, interface, simulated)
 
 
 def _list_joints(controller: Controller) -> Iterator[tuple[Node, str]]:
-    """List the joints of a controller, each with the interface that is commanded."""
+    """List the joints of a controller, each with its command interface."""
     kind, parameters = controller.kind, controller.parameters
     if kind in DRIVES:
         wheels, steered = DRIVES[kind]
@@ -190,13 +190,13 @@ def _get_interface(controller: Controller) -> str:
             if word in words:
                 return word
         raise node.make_error(
-            f"{name} of controller '{controller.name}' is {node.described}; it has one of "
+            f"{name} of controller '{controller.name}' is {node.described}; use one of "
             + ", ".join(_INTERFACES)
         )
     if controller.kind in _FORWARD or controller.kind in _PID:
         raise controller.type.make_error(
-            f"controller '{controller.name}' does not say what it commands; write interface_name "
-            "or command_interface"
+            f"controller '{controller.name}' has no command interface; write interface_name or "
+            "command_interface"
         )
     return "position"
 
@@ -208,14 +208,14 @@ def _check_joints_exist(node: Node, joint: str, robot: Robot) -> None:
         return
     hint = suggest_name(joint, robot.joint, 0.5) or "; see 'urdftool graph'"
     if "$(" in joint:
-        hint = "; a launch file would put something in its place: write the name"
+        hint = "; a launch file replaces this expression, so write the name of the joint"
     raise node.make_error(f"the robot has no joint '{joint}'{hint}")
 
 
-def _has_interface(
+def _check_interface(
     controller: Controller, node: Node, joint: str, interface: str, robot: Robot
 ) -> None:
-    """Refuse a joint whose hardware takes other commands, as the controller manager does."""
+    """Refuse a joint whose hardware has other command interfaces, as controller managers do."""
     there = [
         word.rpartition("/")[2].lower()
         for part in robot.transmissions
@@ -236,9 +236,9 @@ def _has_interface(
     known = [word for word in there if any(one in word for one in _INTERFACES)]
     if known and not any(interface in word for word in known):
         raise node.make_error(
-            f"controller '{controller.name}' commands the {interface} of joint '{joint}', which "
-            f"has {', '.join(dict.fromkeys(known))} in the robot's file; the controller would not "
-            "start"
+            f"controller '{controller.name}' commands the {interface} of joint '{joint}', whose "
+            f"interface in the description is {', '.join(dict.fromkeys(known))}; the controller "
+            "does not start"
         )
 
 
@@ -271,13 +271,13 @@ def _build_gains(controller: Controller, joint: str) -> Node:
         found = parameters.find(*keys)
         if found is not None and (keys != ("gains",) or found.find("p") is not None):
             return found
-    wanted = "pid: {p: …, i: …, d: …}"
+    expected = "pid: {p: …, i: …, d: …}"
     if controller.kind in (*_TRAJECTORY, *_PID):
-        wanted = f"gains: {{{joint}: {{p: …, i: …, d: …}}}}"
+        expected = f"gains: {{{joint}: {{p: …, i: …, d: …}}}}"
     elif "Group" in controller.kind:
-        wanted = f"{joint}: {{pid: {{p: …, i: …, d: …}}}}"
+        expected = f"{joint}: {{pid: {{p: …, i: …, d: …}}}}"
     raise controller.type.make_error(
-        f"controller '{controller.name}' has no gains of joint '{joint}'; write {wanted}"
+        f"controller '{controller.name}' has no gains of joint '{joint}'; write {expected}"
     )
 
 
@@ -286,7 +286,7 @@ def _read_pid(node: Node) -> Pid:
     if node.fields is None:
         raise node.make_error(f"gains are {node.described}; write {{p: …, i: …, d: …}}")
     if "p" not in node.fields:
-        raise node.make_error("gains without a p; write {p: …, i: …, d: …}")
+        raise node.make_error("gains have no p; write {p: …, i: …, d: …}")
 
     def number(*names: str) -> float | None:
         for name in names:

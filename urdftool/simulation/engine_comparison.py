@@ -1,7 +1,7 @@
-"""Compare the runs of two engines: in which values they differ, and what may cause it.
+"""Compare the runs of two engines: values that differ, and possible causes.
 
-Nothing is simulated again. A cause is a property of the robot or of a run that the two engines are
-known to treat differently; those that concern the differing values come first.
+Nothing is simulated again. A cause is a property of the robot or of a run that the two engines
+treat differently; causes that affect most of the different values come first.
 """
 
 from __future__ import annotations
@@ -20,24 +20,25 @@ from .run import Run
 from .verdict import Verdict
 
 MOST_CAUSES = 3
-"""The causes that are reported, those that concern most first."""
+"""Maximum number of causes that are reported."""
 
-_SPENT = 0.95  # of its effort limit
+_SPENT = 0.95  # part of its effort limit that a saturated joint uses
 
 
 @dataclass(frozen=True)
 class Difference:
-    """A value in which two engines differ by more than they may.
+    """A value that differs between two engines by more than a tolerance.
 
     Attributes:
-        what: Such as ``height of link 'base'``.
+        what: Name of the value, such as ``height of link 'base'``.
         kind: ``link`` or ``joint``.
-        name: Of that.
-        one: In the first engine.
-        other: In the second.
-        bound: By how much they may differ.
-        unit: Of the three; ``s`` is when the robot came to rest, NaN if it did not.
-        trial: The number of the trial; 0 if there is one only.
+        name: Name of the link or joint.
+        one: Value in the first engine.
+        other: Value in the second engine.
+        bound: Tolerance.
+        unit: Unit of the three; ``s`` for the time at which the robot came to rest, NaN if it did
+            not.
+        trial: Number of the trial; 0 if there is only one.
     """
 
     what: str
@@ -51,25 +52,25 @@ class Difference:
 
     @property
     def excess(self) -> float:
-        """Return the difference over its bound."""
+        """Return the difference over its tolerance."""
         apart = abs(self.one - self.other)
         return apart / self.bound if math.isfinite(apart) else math.inf
 
     def write_value(self, number: float) -> str:
         """Write one of the two values with its unit."""
         if self.unit == "s":
-            return "not in the time" if math.isnan(number) else f"after {number:.2f} s"
+            return "not within the duration" if math.isnan(number) else f"after {number:.2f} s"
         return f"{number:.4g} {self.unit}"
 
 
 @dataclass(frozen=True)
 class EngineComparison:
-    """Two engines on the same trials of a robot.
+    """Comparison of two engines on the same trials of a robot.
 
     Attributes:
-        engines: The title and version of each.
-        differences: The largest excess of each trial first.
-        causes: What may cause them, the most probable first.
+        engines: Title and version of each engine.
+        differences: Differences by trial, the largest excess first.
+        causes: Possible causes, the most probable first.
     """
 
     engines: tuple[str, str]
@@ -124,8 +125,10 @@ def _list_differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Diff
     if None in settled:
         if settled[0] is not settled[1]:
             times = [math.nan if time is None else time for time in settled]
-            yield Difference("it comes to rest", "link", top, times[0], times[1], 1.0, "s", trial)
-        return  # what still moves has no final value
+            yield Difference(
+                "the robot comes to rest", "link", top, times[0], times[1], 1.0, "s", trial
+            )
+        return  # a robot that moves has no final values
     length = max(bounds.differ_length * max(bodies.size, 1e-3), bounds.differ_length_min)
     rows: list[tuple[str, str, str, float, float, float, str]] = []
     a, b = _compute_last_poses(one.run), _compute_last_poses(other.run)
@@ -136,7 +139,7 @@ def _list_differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Diff
         rows.append((f"tilt of link '{top}'", "link", top, tilts[0], tilts[1], angle, "°"))
     for column, joint in enumerate(bodies.joints):
         at, at2 = (float(part.run.recording.positions[-1, column]) for part in (one, other))
-        if joint.kind == "continuous":  # without full turns
+        if joint.kind == "continuous":  # modulo full turns
             at2 = at + math.remainder(at2 - at, 2 * math.pi)
         sliding = joint.kind == "prismatic"
         bound, unit = (length, "m") if sliding else (bounds.differ_angle, "rad")
@@ -156,7 +159,7 @@ def _compute_last_poses(run: Run) -> Array:
 
 @dataclass(frozen=True)
 class _Cause:
-    """Something that two engines treat differently; no names mean the whole robot."""
+    """A property that two engines treat differently; without names, of the whole robot."""
 
     text: str
     names: tuple[str, ...] = ()
@@ -165,22 +168,22 @@ class _Cause:
 def find_causes(one: Verdict, other: Verdict, differences: Sequence[Difference]) -> tuple[str, ...]:
     """Choose the most probable causes of differences.
 
-    A cause counts the differences that it concerns: those of its links and joints, of joints that
-    carry them, and of the root. Of two that concern as many, the first of the table comes first.
+    Causes are sorted by the number of differences that they affect: those of its links and joints,
+    of joints that carry them, and of the root.
     """
     if sunk := _explain_contact_softness(one, other, differences):
         return (sunk,)
     causes = [*_find_causes(one, other)]
     above = _find_joint_chains(one.run)
 
-    def concerned(cause: _Cause) -> int:
+    def count_affected(cause: _Cause) -> int:
         near = set(cause.names).union(*(above.get(name, ()) for name in cause.names))
         return sum(
             not cause.names or part.kind == "link" or part.name in near for part in differences
         )
 
-    ranked = sorted(causes, key=lambda cause: -concerned(cause))
-    return tuple(cause.text for cause in ranked if concerned(cause))[:MOST_CAUSES]
+    ranked = sorted(causes, key=lambda cause: -count_affected(cause))
+    return tuple(cause.text for cause in ranked if count_affected(cause))[:MOST_CAUSES]
 
 
 def _find_joint_chains(run: Run) -> dict[str, set[str]]:
@@ -202,7 +205,7 @@ def _find_joint_chains(run: Run) -> dict[str, set[str]]:
 def _explain_contact_softness(
     one: Verdict, other: Verdict, differences: Sequence[Difference]
 ) -> str:
-    """Explain a height that differs by as much as contacts are deep; empty if it does not."""
+    """Explain a height difference equal to that of the penetration depths; empty if it differs."""
     if len(differences) != 1 or differences[0].unit != "m" or differences[0].kind != "link":
         return ""
     depths = [float(verdict.run.recording.depths[-1]) for verdict in (one, other)]
@@ -212,13 +215,13 @@ def _explain_contact_softness(
     if abs((part.one - part.other) - (depths[1] - depths[0])) >= part.bound:
         return ""
     return (
-        f"contact softness: the robot is {1000 * depths[0]:.2g} mm in the ground in one engine and "
-        f"{1000 * depths[1]:.2g} mm in the other"
+        f"contact softness: the robot penetrates the ground by {1000 * depths[0]:.2g} mm in one "
+        f"engine and by {1000 * depths[1]:.2g} mm in the other"
     )
 
 
 def _find_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
-    """Find what the two engines treat differently, the strongest effect first."""
+    """Find properties that the two engines treat differently, the strongest effect first."""
     yield from _list_model_causes(one, other)
     yield from _list_joint_causes(one, other)
     bodies, bounds = one.run.bodies, one.run.thresholds

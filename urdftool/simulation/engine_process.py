@@ -1,4 +1,4 @@
-"""An engine in a process of its own, which may crash or hang."""
+"""Run an engine in a separate process, which may crash or not return."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ MODULES = __package__
 
 
 class EngineDied(UrdftoolError):  # noqa: N818 -- reads as what happened
-    """The engine ended without an answer, or took too long."""
+    """The engine crashed, or exceeded its time limit."""
 
 
 class EngineProcess(IsolatedProcess):
-    """A process that waits for a job; it starts while the parent still prepares.
+    """Process that waits for a job, and starts while the parent prepares the job.
 
-    Use it in a ``with``: however that ends, the process has ended, too.
+    Use it in a ``with`` statement, which always ends the process.
     """
 
     def __init__(self, library: str) -> None:
@@ -36,16 +36,16 @@ class EngineProcess(IsolatedProcess):
         """Call a function of this package in the process, and return its result.
 
         Args:
-            module: Of this package, such as ``engines.driver``.
-            function: In it.
-            arguments: Anything that pickles.
-            time_limit: The longest it may take [s].
+            module: Module of this package, such as ``engines.driver``.
+            function: Name of the function.
+            arguments: Picklable arguments.
+            time_limit: Time limit [s].
             on_emit: Receives what the function emits before it returns; the function then takes
                 ``emit`` as its last argument.
 
         Raises:
-            EngineDied: It took longer, or the process ended.
-            UrdftoolError: As the function.
+            EngineDied: The time limit was exceeded, or the process ended.
+            UrdftoolError: Error of the function.
         """
         try:
             return super().call(
@@ -54,12 +54,12 @@ class EngineProcess(IsolatedProcess):
             )  # fmt: skip
         except ProcessTimeout as error:
             raise EngineDied(
-                f"the engine {error.message}; give it more "
-                "with --time-limit, or less to do with --duration"
+                f"the physics engine was {error.message}; increase --time-limit or reduce "
+                "--duration"
             ) from None
         except ProcessDied as error:
             raise EngineDied(
-                f"the engine died ({error.message}) without an answer; "
-                "'urdftool lint' may say what it choked on",
+                f"the physics engine crashed ({error.message}); run 'urdftool lint' to find the "
+                "cause",
                 notes=error.output,
             ) from None

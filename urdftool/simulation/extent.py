@@ -1,4 +1,4 @@
-"""Extent and volume of a link's shapes, to compare its mass and inertia with."""
+"""Measure the extent, bounding box and volume of the shapes of a link."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .recording import Array
 
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """Of a link.
+    """Extent of the shapes of a link.
 
     Attributes:
-        points: Corners of its shapes in the link's frame [m], shape (n, 3).
-        groups: Its collision shapes and its visual ones, each with its corners.
+        points: Corners of the shapes in the link's frame [m], shape (n, 3).
+        groups: Collisions, then visuals, each with its corners.
     """
 
     points: Array = field(default_factory=lambda: np.zeros((0, 3)))
@@ -29,25 +29,25 @@ class Extent:
 
     @cached_property
     def volume(self) -> float:
-        """Return the volume of visuals or collisions, the larger one, meshes as hulls [m³]."""
+        """Compute the larger volume of visuals and collisions, with meshes as hulls [m³]."""
         return max(
             (sum(_compute_volume(*shape) for shape in group) for group in self.groups), default=0.0
         )
 
-    def measure_reach(self, centre: Array) -> float:
-        """Measure how far the farthest corner is from a point [m]; 0 without corners."""
+    def measure_reach(self, center: Array) -> float:
+        """Measure the distance of the farthest corner from a point [m]; 0 without corners."""
         if not len(self.points):
             return 0.0
-        return float(np.linalg.norm(self.points - centre, axis=1).max())
+        return float(np.linalg.norm(self.points - center, axis=1).max())
 
 
 def measure_extent(robot: Robot, name: str, *, only_collisions: bool = False) -> Extent:
-    """Measure the extent of a link; shapes that cannot be read are left out.
+    """Measure the extent of a link; shapes that cannot be read are skipped.
 
     Args:
         robot: The robot, read from a description.
-        name: Of the link.
-        only_collisions: Leave out what is only seen, which may take long to read.
+        name: Name of the link.
+        only_collisions: Whether to skip visuals, which may take long to read.
     """
     link = robot.link[name]
     groups: list[list[Collision] | list[Visual]] = [link.collisions]
@@ -62,7 +62,7 @@ def measure_extent(robot: Robot, name: str, *, only_collisions: bool = False) ->
 
 
 def get_shape_corners(robot: Robot, shape: Visual | Collision) -> Array | None:
-    """Return the points of a shape as :func:`get_shape_points`, of a mesh the outermost ones."""
+    """Return the points of a shape in its link's frame [m]; of a mesh, only the extreme points."""
     if not isinstance(shape.geometry, Mesh):
         return get_shape_points(robot, shape)
     points = get_outermost_points(robot, shape.geometry)
@@ -72,7 +72,10 @@ def get_shape_corners(robot: Robot, shape: Visual | Collision) -> Array | None:
 def compute_bounding_box(
     robot: Robot, shapes: Sequence[Collision] | Sequence[Visual]
 ) -> tuple[Array, Array] | None:
-    """Compute two corners of the box around some shapes, along the axes of their link."""
+    """Compute the bounding box of shapes in their link's frame: lower and upper corner [m].
+
+    None if no shape can be read.
+    """
     found = [
         corners for shape in shapes if (corners := get_shape_corners(robot, shape)) is not None
     ]

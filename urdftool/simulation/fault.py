@@ -16,22 +16,22 @@ FALLEN = frozenset(
         "unsupported",
     }
 )
-"""Kinds of failures of the run; the others are errors in the file of a robot that stands."""
+"""Kinds of faults of a robot that does not stand; the others are errors in its file."""
 
 
 @dataclass(slots=True)
 class Fault(Diagnostic):
-    """Something that went wrong, or a remark.
+    """A fault that a check found, or a remark.
 
     Attributes:
-        code: Such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
-        severity: ``ERROR`` if the robot does not stand because of it; ``INFO`` for a remark.
-        message: One sentence: what was measured.
-        location: Where the link or joint is written.
+        code: Kind, such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
+        severity: ``ERROR`` fails the simulation; ``INFO`` is a remark.
+        message: One sentence with the measured values.
+        location: Location of the link or joint in the description.
         what: ``link``, ``joint`` or ``robot``.
-        name: Of that.
-        cause: The probable reason; empty if the message has it.
-        rule: The lint rule that explains more; empty if there is none.
+        name: Name of the link, joint or robot.
+        cause: Probable cause; empty if the message contains it.
+        rule: Lint rule with more explanation; empty if there is none.
     """
 
     what: str = "robot"
@@ -54,17 +54,17 @@ class Fault(Diagnostic):
 
     @property
     def fails(self) -> bool:
-        """Tell whether the robot does not stand because of it; otherwise it is a remark."""
+        """Tell whether it fails the simulation; otherwise it is a remark."""
         return self.severity is Severity.ERROR
 
     @property
     def fell(self) -> bool:
-        """Tell whether a robot with it does not stand in the plain sense."""
+        """Tell whether a robot with this fault does not stand; other errors are in its file."""
         return self.fails and self.code in FALLEN
 
     @property
     def group(self) -> tuple[str, bool, str]:
-        """Return a key that is equal for faults that differ in their part only."""
+        """Return a key that is equal for faults that differ only in their link or joint."""
         return self.code, self.fails, self.cause + self.name * (self.code == "blocked")
 
 

@@ -1,4 +1,4 @@
-"""Many robots, each in a process of its own, so that a crash of one does not affect others."""
+"""Simulate many robots, each in a separate process, so that a crash does not affect others."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ if TYPE_CHECKING:
     from .verdict import Verdict
 
 PATIENCE = 120.0
-"""What reading and judging a robot may take beside its simulation [s]."""
+"""Time limit for reading and judging a robot, in addition to its simulation [s]."""
 
 
 @dataclass
 class Row:
-    """What became of one robot.
+    """Result of one robot.
 
     Attributes:
-        path: Of its description.
-        name: Its own.
-        stands: Whether it does, in every trial and engine; None where it could not be tried.
-        settled: When it came to rest in the first trial [s]; None where it did not.
-        mass: [kg].
-        faults: What went wrong and what is to be known, of all trials, each once.
-        error: What kept it from being tried.
-        skipped: Why it was passed over.
-        engine: What it was simulated with.
-        seconds: What all of it took [s].
+        path: Path of the description.
+        name: Name of the robot.
+        stands: Whether it stands in every trial and engine; None if it could not be simulated.
+        settled: Time at which it came to rest in the first trial [s]; None if it did not.
+        mass: Mass of the robot [kg].
+        faults: Faults and remarks of all trials, each once.
+        error: Error that prevented the simulation.
+        skipped: Reason why the robot was skipped; empty if it was not.
+        engine: Titles and versions of the engines.
+        seconds: Wall-clock time [s].
     """
 
     path: str
@@ -49,18 +49,18 @@ class Row:
 
     @property
     def fell(self) -> bool:
-        """Tell whether it does not stand in the plain sense; an error in its file is not that."""
+        """Tell whether the robot does not stand; other errors are in its file."""
         return any(fault.fell for fault in self.faults)
 
 
 def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[Fault] = ()) -> Row:
-    """Make the row of a robot that was judged.
+    """Make the row of a simulated robot.
 
     Args:
-        path: Of its description.
-        name: Its own.
-        verdicts: Of each trial, in each engine; at least one.
-        more: Further faults.
+        path: Path of the description.
+        name: Name of the robot.
+        verdicts: Verdicts of all trials and engines, at least one.
+        more: Additional faults.
     """
     faults: dict[tuple[str, str], Fault] = {}
     for fault in (*(fault for verdict in verdicts for fault in verdict.faults), *more):
@@ -87,19 +87,19 @@ def run_in_parallel(
     jobs: int | None = None,
     limit: float = PATIENCE,
 ) -> Iterator[Row]:
-    """Yield a row for each description, as they are done.
+    """Yield a row for each description, in the order in which they finish.
 
     Args:
-        paths: The descriptions.
-        work: Makes a row; it must pickle where processes are not forked.
-        jobs: How many at once; None is one for each core.
-        limit: The longest that one may take [s].
+        paths: Paths of the descriptions.
+        work: Function that makes a row; it must be picklable if processes are not forked.
+        jobs: Number of processes; None for one per core.
+        limit: Time limit of one robot [s].
     """
 
     def lost(path: str, loss: Loss) -> Row:
-        message = f"the process that worked on it died (exit code {loss.exit_code})"
+        message = f"the worker process of this robot crashed (exit code {loss.exit_code})"
         if loss.timed_out:
-            message = f"was not done after {limit:.0f} s and was ended"
+            message = f"was stopped after the time limit of {limit:.0f} s"
         return Row(path, error=UrdftoolError(message, path=path))
 
     began: dict[str, float] = {}
@@ -123,13 +123,13 @@ def run_in_parallel(
 
 
 def _make_row(work: Callable[[str], Row], path: str) -> Row:
-    """Make the row of a robot, also if that fails."""
+    """Make the row of a robot; an exception becomes its error."""
     try:
         return work(path)
     except UrdftoolError as error:
         return Row(path, error=make_plain_error(error))
     except (OSError, MemoryError) as error:
-        what = getattr(error, "strerror", None) or str(error) or "there is not enough memory"
+        what = getattr(error, "strerror", None) or str(error) or "not enough memory"
         return Row(path, error=UrdftoolError(what, path=path))
     except (Exception, RecursionError) as error:
         what = f"this is a bug in urdftool, not in the robot: {type(error).__name__}: {error}"

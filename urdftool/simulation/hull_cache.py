@@ -15,10 +15,10 @@ from ..geometry.mesh import Faces, Points
 from ..storage import DiskCache, cache_key
 
 Cloud = tuple[Points, Faces]
-"""Points (n, 3) and triangles (m, 3) of them, which may be none."""
+"""Points (n, 3) and triangles (m, 3) of them; m may be zero."""
 
 _VERSION = 2
-"""To be raised whenever the same file gives something else."""
+"""Version of the results; increase it if the same file gives other results."""
 
 
 class HullCache:
@@ -34,9 +34,9 @@ class HullCache:
         """Return the cached result for the bytes of a file, or compute and cache it.
 
         Args:
-            path: The mesh file; ``make`` reports one that cannot be read.
-            facts: What else the result depends on.
-            make: Reads the file.
+            path: Mesh file; ``make`` reports one that cannot be read.
+            facts: Other values that the result depends on.
+            make: Computes the result from the file.
         """
         key = None if self._store.folder is None else _get_key(path, facts)
         if key is None:
@@ -53,7 +53,7 @@ class HullCache:
 def _get_key(path: Path, facts: Sequence[object]) -> str | None:
     suffix = path.suffix.lower()
     if suffix == ".gltf" or not path.is_file():
-        return None  # the buffers of glTF are other files, and a pipe never ends
+        return None  # buffers of glTF are in other files, and a pipe may not end
     try:
         return cache_key(_VERSION, [suffix, *facts], [path.read_bytes()])
     except OSError:
@@ -69,7 +69,7 @@ def _get_encoded(clouds: list[Cloud]) -> bytes:
 
 
 def _decode(data: bytes) -> list[Cloud] | None:
-    """Decode what this version encoded; None for anything else."""
+    """Decode bytes that this version encoded; None for others."""
     head, _, body = data.partition(b"\n")
     clouds, at = [], 0
     try:

@@ -40,16 +40,16 @@ def set_cache_folder(robot: Robot, folder: str | Path | None) -> None:
 def get_cached_hulls(
     robot: Robot, geometry: Mesh, what: str, make: Callable[[], list[Cloud]]
 ) -> list[Cloud]:
-    """Return what was computed of a mesh before, also in an earlier run, or compute it.
+    """Return the cached result for a mesh, also of an earlier run, or compute it.
 
     Args:
         robot: The robot.
         geometry: The mesh.
         what: Name of the result.
-        make: Computes it.
+        make: Computes the result.
 
     Raises:
-        UrdftoolError: The mesh is not found, or what ``make`` raises.
+        UrdftoolError: The mesh is not found, or ``make`` failed.
     """
 
     def read() -> list[Cloud]:
@@ -63,7 +63,7 @@ def load_triangles(robot: Robot, geometry: Mesh) -> Triangles:
     """Load the mesh of a geometry [m].
 
     Raises:
-        UrdftoolError: It is not found or cannot be read.
+        UrdftoolError: The file is not found or cannot be read.
     """
     source = robot.source
     assert source is not None
@@ -102,10 +102,10 @@ def get_outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
 
 
 def _get_mesh_key(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
-    """Return the file of a mesh, and what else the cached result depends on.
+    """Return the file of a mesh, and other values that the cached result depends on.
 
     Raises:
-        UrdftoolError: It is not found.
+        UrdftoolError: The file is not found.
     """
     assert robot.source is not None
     path = Path(robot.source.resolve(geometry.filename))

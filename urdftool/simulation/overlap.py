@@ -1,7 +1,7 @@
-"""Penetration depth of links by the triangles of their meshes.
+"""Measure interpenetration: the penetration depth of links, by the triangles of their meshes.
 
-Engines collide the convex hull of a mesh, and a gripper's jaw or a torso's hollow is filled by it.
-Points of one surface that lie inside the other, by the winding number of its triangles, tell.
+Engines use the convex hull of a mesh, which fills concave parts such as a gripper's jaw. The depth
+is that of points of one surface inside the other, by the winding number of its triangles.
 """
 
 from __future__ import annotations
@@ -22,22 +22,22 @@ from .shapes import compute_hull
 from .state import StateSnapshot
 
 POINTS = 1500
-"""Points of a surface that are tried."""
+"""Maximum number of corners of a surface that are tested, and half the number of other points."""
 
-_AT_ONCE = 64  # points whose distances to all others fit in the cache
-_FIRST = 32  # points that are asked first whether they are inside
+_BLOCK = 64  # points whose distances to all others fit in the processor cache
+_FIRST = 32  # points in the first batch of winding numbers
 
 
 def measure_penetration_depth(
     robot: Robot, snapshot: StateSnapshot, one: str, other: str, least: float = 0.0
 ) -> float | None:
-    """Measure how deep two links overlap [m]; None if the engine's own answer is exact.
+    """Measure the penetration depth of two links [m]; None if that of the engine is exact.
 
     Args:
-        robot: The robot, which finds its meshes.
-        snapshot: Where its bodies are.
-        one: A link.
-        other: Another, of another body.
+        robot: The robot, read from a description.
+        snapshot: State of the robot.
+        one: Name of a link.
+        other: Name of a link of another body.
         least: A smaller depth may be returned as 0 [m], which is faster.
     """
     pairs = [robot.link[name].collisions for name in (one, other)]
@@ -50,13 +50,13 @@ def measure_penetration_depth(
 def measure_triangle_penetration(
     robot: Robot, poses: Mapping[str, Pose], one: str, other: str, least: float = 0.0
 ) -> float | None:
-    """Measure how deep the triangles of two links overlap [m]; None if some cannot be read.
+    """Measure the penetration depth of two links by triangles [m]; None if a mesh cannot be read.
 
     Args:
-        robot: The robot, which finds its meshes.
-        poses: Of the two links, by name, in one frame.
-        one: A link.
-        other: Another.
+        robot: The robot, read from a description.
+        poses: Poses of the two links by name, in one frame.
+        one: Name of a link.
+        other: Name of the other link.
         least: A smaller depth may be returned as 0 [m], which is faster.
     """
     try:
@@ -76,24 +76,24 @@ class Surface:
     """Triangles of a shape, in its own frame.
 
     Attributes:
-        triangles: Shape (n, 3, 3).
-        low: The smallest corner of the box around them, along the axes of the frame.
-        high: The largest.
+        triangles: Corners of the triangles [m], shape (n, 3, 3).
+        low: Lower corner of their bounding box [m].
+        high: Upper corner of their bounding box [m].
     """
 
     def __init__(self, triangles: Array) -> None:
-        """Take the triangles."""
+        """Store the triangles, and compute their bounding box."""
         self.triangles = triangles
         self.low, self.high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
 
     @cached_property
     def points(self) -> Array:
-        """Return points spread over the triangles, shape (n, 3)."""
+        """Return points spread over the triangles [m], shape (n, 3)."""
         return _spread_points(self.triangles)
 
     @cached_property
     def boxes(self) -> Boxes:
-        """Return the triangles as winding numbers are computed from them."""
+        """Return the triangles, sorted for the computation of winding numbers."""
         return sort_into_boxes(self.triangles)
 
 
@@ -134,7 +134,7 @@ def tessellate_primitive_triangles(shape: Collision | Visual) -> Array:
 
 
 def _measure_deepest(one: Surface, at: Pose, other: Surface, there: Pose, least: float) -> float:
-    """Measure how deep two surfaces at poses in the world overlap [m]."""
+    """Measure the penetration depth of two surfaces at poses in the world [m]."""
     return max(
         _measure_inside(one, other, there.invert() @ at, least),
         _measure_inside(other, one, at.invert() @ there, least),
@@ -142,10 +142,16 @@ def _measure_deepest(one: Surface, at: Pose, other: Surface, there: Pose, least:
 
 
 def _measure_inside(one: Surface, other: Surface, pose: Pose, least: float) -> float:
-    """Measure how far points of one surface are inside another, in whose frame it is placed [m].
+    """Measure the depth of the deepest point of one surface inside another [m].
 
-    The distance to the nearest point is soon known, whether it is inside is not: so the farthest
-    are asked first, and the first of them that is inside is the deepest.
+    Distances are fast to compute and winding numbers are not, so points are tested in order of
+    their distance, and the first one inside is the deepest.
+
+    Args:
+        one: Surface whose points are tested.
+        other: Surface around them.
+        pose: Pose of ``one`` in the frame of ``other``.
+        least: A smaller depth may be returned as 0 [m].
     """
     points = one.points @ np.array(pose.rotation).T + np.array(pose.translation)
     points = points[((points >= other.low) & (points <= other.high)).all(axis=1)]
@@ -166,21 +172,21 @@ def _measure_inside(one: Surface, other: Surface, pose: Pose, least: float) -> f
 
 def _compute_nearest_squared(points: Array, others: Array) -> Array:
     """Compute the squared distance from each point to the nearest other [m²], shape (n,)."""
-    middle = others.mean(axis=0)  # about which squares lose no digits
+    middle = others.mean(axis=0)  # centered coordinates keep the precision of squares
     points, others = points - middle, others - middle
     ones = np.column_stack([points, np.ones(len(points))])
     minus = np.vstack([-2 * others.T, (others**2).sum(axis=1)])
-    room = np.empty((_AT_ONCE, len(others)))  # once: to get it anew takes longer than all the rest
+    room = np.empty((_BLOCK, len(others)))  # allocating it in the loop dominates the time
     nearest: Array = (points**2).sum(axis=1)
-    for first in range(0, len(points), _AT_ONCE):
-        some = ones[first : first + _AT_ONCE]
+    for first in range(0, len(points), _BLOCK):
+        some = ones[first : first + _BLOCK]
         squares = np.matmul(some, minus, out=room[: len(some)])
-        nearest[first : first + _AT_ONCE] += squares.min(axis=1)
+        nearest[first : first + _BLOCK] += squares.min(axis=1)
     return np.maximum(nearest, 0.0, out=nearest)
 
 
 def _sort_distinct(points: Array) -> Array:
-    """Order points by their coordinates, each once; three times as fast as NumPy's unique."""
+    """Sort points by coordinates, without duplicates; three times as fast as ``numpy.unique``."""
     points = points[np.lexsort(points.T[::-1])]
     new = np.append(True, (points[1:] != points[:-1]).any(axis=1))
     distinct: Array = points[new]
@@ -188,7 +194,7 @@ def _sort_distinct(points: Array) -> Array:
 
 
 def _spread_points(triangles: Array) -> Array:
-    """Spread points over triangles by area, and add their corners, reproducibly."""
+    """Spread points over triangles in proportion to area, and add corners, with a fixed seed."""
     edges = triangles[:, 1:] - triangles[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
     corners = _sort_distinct(triangles.reshape(-1, 3))

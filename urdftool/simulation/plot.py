@@ -1,4 +1,4 @@
-"""Plot a run over time, by Matplotlib's Agg backend, which needs no screen."""
+"""Plot a run over time with Matplotlib's Agg backend, which requires no screen."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .recording import Array, Recording
 from .run import Run
 
 MOST_NAMED = 8
-"""Joints that have a color and a name; those that move or work most."""
+"""Number of joints with a color and a name: those with the largest motion and effort."""
 
 _COLORS = (
     *("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#17becf"),
@@ -33,11 +33,11 @@ class Curve:
     """A curve over time.
 
     Attributes:
-        label: The name in the legend; an empty one is not there.
+        label: Name in the legend; empty for none.
         times: Shape (n,) [s].
         values: Shape (n,); NaN is a gap.
-        color: Of Matplotlib.
-        dashed: Whether it is dashed.
+        color: Color of Matplotlib.
+        dashed: Whether the line is dashed.
     """
 
     label: str
@@ -52,9 +52,9 @@ class Panel:
     """Curves with one axis.
 
     Attributes:
-        title: The quantity, with its unit.
-        curves: What is drawn.
-        least: The least range of the axis, so that rounding does not fill it.
+        title: Quantity with its unit.
+        curves: Curves of the panel.
+        least: Minimum range of the axis, so that rounding errors do not fill it.
     """
 
     title: str
@@ -66,8 +66,8 @@ def plot(title: str, runs: Sequence[Run]) -> bytes:
     """Plot height, tilt, kinetic energy, and positions and efforts of joints, as a PNG file.
 
     Args:
-        title: Of the figure.
-        runs: One, or the same trial in two engines; the second is dashed.
+        title: Title of the figure.
+        runs: One run, or the same trial in two engines; the second is dashed.
     """
     panels = [
         Panel("height of the root [m]", _collect_curves(runs, _compute_height), 1e-3),
@@ -75,7 +75,7 @@ def plot(title: str, runs: Sequence[Run]) -> bytes:
         Panel("kinetic energy [J]", _collect_curves(runs, lambda run: run.recording.kinetic), 1e-6),
     ]
     if runs[0].recording.joints:
-        moved = "joints, from where they start [rad, m]"
+        moved = "joints, relative to the start [rad, m]"
         panels.append(Panel(moved, _make_joint_curves(runs, _get_displacement), 1e-3))
         panels.append(
             Panel("efforts of joints [N·m, N]", _make_joint_curves(runs, _compute_efforts), 1e-3)
@@ -87,13 +87,13 @@ def draw_panels(title: str, panels: Sequence[Panel], at_rest: float | None = Non
     """Draw panels one below the other over one time axis, as a PNG file.
 
     Args:
-        title: Of the figure.
-        panels: From above.
-        at_rest: Where there is a vertical line [s], if anywhere.
+        title: Title of the figure.
+        panels: Panels from top to bottom.
+        at_rest: Time of a vertical line [s]; None for none.
     """
     data = _render(title, panels, at_rest)
-    # Matplotlib leaves cycles that hold the frames of its callers, and with them hulls of
-    # manifold3d, which prints a list of those that are alive when Python ends
+    # Matplotlib leaves reference cycles to the frames of its callers, and so to hulls of
+    # manifold3d, which prints a list of live objects when Python ends
     gc.collect()
     return data
 
@@ -105,7 +105,7 @@ def _render(title: str, panels: Sequence[Panel], at_rest: float | None) -> bytes
 
     with matplotlib.rc_context(), warnings.catch_warnings():
         matplotlib.rcdefaults()  # type: ignore[no-untyped-call,unused-ignore]
-        warnings.simplefilter("ignore")  # letters that the font does not have
+        warnings.simplefilter("ignore")  # characters that the font does not have
         matplotlib.rcParams["text.parse_math"] = False  # a name may contain dollar signs
         figure = Figure(figsize=(12, 1.2 + 1.9 * len(panels)), dpi=_DPI, layout="constrained")
         FigureCanvasAgg(figure)
@@ -129,7 +129,7 @@ def _draw(axes: Any, panel: Panel, at_rest: float | None) -> None:
         if curve.label:
             named.append(
                 (line, f" {replace_undrawable(curve.label)}")
-            )  # one with _ first would be left out
+            )  # a label that starts with _ is not shown
     axes.set_ylim(*_compute_limits(panel))
     if at_rest is not None:
         axes.axvline(at_rest, color="gray", linestyle=":", linewidth=1)
@@ -164,7 +164,7 @@ def _compute_height(run: Run) -> Array:
 
 
 def _compute_tilt(run: Run) -> Array:
-    """Compute how far the root's upright axis is turned [°]."""
+    """Compute the angle between the z axis of the root and that of the world [°]."""
     poses = run.recording.poses[:, 0, 3:]
     ups = []
     for x, y, z, w in poses.tolist():
@@ -200,7 +200,7 @@ def _collect_curves(runs: Sequence[Run], measure: Callable[[Run], Array]) -> tup
 def _make_joint_curves(
     runs: Sequence[Run], measure: Callable[[Recording], Array]
 ) -> tuple[Curve, ...]:
-    """Make a curve for each joint; of many, those that reach farthest have colors and names."""
+    """Make a curve for each joint; only those with the largest values have colors and names."""
     names = runs[0].recording.joints
     order = _sort_joints(runs[0].recording)
     named = sorted(order[:MOST_NAMED].tolist())
@@ -219,7 +219,7 @@ def _make_joint_curves(
 
 
 def _sort_joints(recording: Recording) -> Indices:
-    """Order the joints: first those that move or work most, of what any does."""
+    """Sort the joints by motion and effort, relative to the largest of all joints."""
     weight = np.zeros(len(recording.joints))
     for values in (_get_displacement(recording), _compute_efforts(recording)):
         most = np.abs(np.nan_to_num(values)).max(axis=0)

@@ -1,4 +1,4 @@
-"""Compute in a thread what checks need, while an engine runs in its process."""
+"""Precompute results of checks in a thread, while an engine runs in its process."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ T = TypeVar("T")
 def prefetch(robot: Robot, precompute: Callable[[T], object]) -> Iterator[Callable[[T], None]]:
     """Read the visual meshes of a robot in a thread, then precompute from the first message.
 
-    Errors are ignored here: whoever needs the result computes it again, and reports them.
+    Errors are ignored: the check that needs the result computes it again, and reports them.
 
     Args:
-        robot: The robot, which finds its meshes.
-        precompute: Receives the message.
+        robot: The robot, read from a description.
+        precompute: Receives the first message.
 
     Yields:
-        A function that takes the message, once; at the end of the ``with`` the thread has ended,
-        unless that ended in an error.
+        Function that passes the message, once. The thread has ended at the end of the ``with``
+        statement, unless that raised an error.
     """
     messages: SimpleQueue[tuple[T] | None] = SimpleQueue()
 
@@ -39,7 +39,7 @@ def prefetch(robot: Robot, precompute: Callable[[T], object]) -> Iterator[Callab
                 precompute(*first)
 
     thread = Thread(target=work, daemon=True)
-    with suppress(RuntimeError):  # the system may give no more threads
+    with suppress(RuntimeError):  # the thread limit of the system is reached
         thread.start()
     try:
         yield lambda first: messages.put((first,))

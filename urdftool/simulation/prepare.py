@@ -1,4 +1,4 @@
-"""Refuse robots that no engine can simulate, with their places; make rigid bodies of others."""
+"""Refuse robots that no engine can simulate, and make rigid bodies of the others."""
 
 from __future__ import annotations
 
@@ -27,8 +27,7 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
     """Make rigid bodies of a robot, at the start of a run.
 
     Raises:
-        ModelError: It has defects past which no engine can be given it; or the settings name what
-            it does not have.
+        ModelError: A defect prevents the simulation, or the settings name an unknown joint or link.
         UrdftoolError: A mesh is not found or cannot be read.
     """
     refuse([*report_defects(robot), *_report_unsupported_joints(robot)], force=True, fatal=_FATAL)
@@ -37,10 +36,10 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
 
 
 def check_settings(robot: Robot, settings: Settings) -> None:
-    """Refuse a pose or a payload of what the robot does not have.
+    """Refuse a pose of an unknown joint, and a payload of an unknown link.
 
     Raises:
-        ModelError: It has no such joint or link.
+        ModelError: The robot has no such joint or link.
     """
     check_positions(robot, settings.pose)
     for name in settings.payloads:
@@ -50,9 +49,9 @@ def check_settings(robot: Robot, settings: Settings) -> None:
 
 
 def _report_unsupported_joints(robot: Robot) -> Iterator[Finding]:
-    """Report joints that no engine here simulates; other readers take them, so it is not a rule.
+    """Report joints that no engine simulates; other readers accept them, so this is not a rule.
 
-    A root link without a shape that floats is how some files say that the base is free.
+    A floating joint below a root link without collisions describes a free base.
     """
     root = robot.tree.root
     for joint in robot.joints:
@@ -68,9 +67,9 @@ def _report_unsupported_joints(robot: Robot) -> Iterator[Finding]:
             continue
         yield make_defect(
             "planar-or-floating",
-            f"joint '{joint.name}' is {joint.type}, which no engine here simulates; model it by "
+            f"joint '{joint.name}' is {joint.type}, which is not simulated; replace it by "
             "prismatic and revolute joints"
-            + (", or let the root float" * (joint.type == "floating")),
+            + (", or make it the only joint of the root" * (joint.type == "floating")),
             joint.locate_attribute("type"),
             "joint",
             joint.name,

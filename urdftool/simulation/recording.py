@@ -1,4 +1,4 @@
-"""What an engine measured; verdicts read nothing else of a run, whichever engine it was."""
+"""Measurements of a run, in one form for all engines; checks read nothing else of a run."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ GROUND = ""
 
 @dataclass(frozen=True)
 class Contact:
-    """Two bodies that touch.
+    """A contact or interpenetration of two bodies.
 
     Attributes:
-        one: The link of the robot.
-        other: The other link, or ``GROUND``.
-        depth: How deep they are in each other [m]; negative is a gap.
-        force: Along the normal [N].
-        point: Where, in the world [m].
-        normal: Away from ``other``, in the world.
+        one: Name of a link of the robot.
+        other: Name of the other link, or ``GROUND``.
+        depth: Penetration depth [m]; negative is a gap.
+        force: Normal force [N].
+        point: Contact point in the world [m].
+        normal: Unit vector away from ``other``, in the world.
     """
 
     one: str
@@ -41,47 +41,55 @@ class Contact:
 
 @dataclass(frozen=True)
 class ReadBack:
-    """Something that the engine took for other than the file says."""
+    """A value that the engine loaded differently from the file.
+
+    Attributes:
+        kind: ``link`` or ``joint``.
+        name: Name of the link or joint.
+        what: Such as ``mass``.
+        specified: Value in the file, with its unit.
+        loaded: Value in the engine, with its unit.
+    """
 
     kind: str
     name: str
     what: str
-    said: str
-    got: str
+    specified: str
+    loaded: str
 
 
 @dataclass(eq=False)
 class Recording:
-    """One run: n samples of b bodies and j joints; the first sample is the start.
+    """Recording of a run: n samples of b bodies and j joints; the first sample is the start.
 
     Attributes:
-        engine: Its title and version.
-        capabilities: What it does differently from other engines.
-        bodies: The topmost link of each rigid body, the root first.
-        joints: Those between ``bodies[1:]`` and their parents, in that order.
+        engine: Title and version of the engine.
+        capabilities: Differences of the engine from other engines.
+        bodies: Topmost link of each rigid body, the root first.
+        joints: Joints between ``bodies[1:]`` and their parents, in that order.
         times: Shape (n,) [s].
         poses: Shape (n, b, 7): position [m] and quaternion x, y, z, w of each body's link frame.
-        velocities: Shape (n, b, 6): of the centre of mass [m/s], and angular [rad/s], in the world.
+        velocities: Shape (n, b, 6): of the center of mass [m/s], and angular [rad/s], in the world.
         positions: Shape (n, j) [rad, m].
         rates: Shape (n, j) [rad/s, m/s].
-        efforts: Shape (n, j): what drives each joint [N·m, N].
+        efforts: Shape (n, j): effort of the motor of each joint [N·m, N].
         kinetic: Shape (n,) [J].
-        potential: Shape (n,) [J], zero where the start is.
-        depths: Shape (n,): the deepest contact with the plane at each sample [m].
+        potential: Shape (n,) [J], zero at the start.
+        depths: Shape (n,): depth of the deepest contact with the plane at each sample [m].
         held: Names of the joints that are held.
-        targets: Where those are to be [rad, m].
-        start_contacts: Contacts before the first step, also of links of one joint.
-        contacts: Those of the last sample.
-        carrying: Contacts with the plane that carried a load in the last half second, each sample's
-            in turn: an engine may leave one out at any moment.
-        carried: What these carried together, on average [N]; nan where nothing was sampled.
-        read_back: What the engine took for other than it was given.
-        capped: The damping that each joint had, where the timestep bears less than the file says
+        targets: Target positions of the held joints [rad, m].
+        start_contacts: Overlaps before the first step, also of links that share a joint.
+        contacts: Contacts and overlaps of the last sample.
+        carrying: Contacts with the plane that carried a load in the last half second, of all its
+            samples: an engine may omit a contact in single samples.
+        carried: Mean of the total force of these contacts [N]; nan without samples.
+        read_back: Values that the engine loaded differently from the file.
+        capped: Simulated damping of joints whose specified damping is unstable at the time step
             [N·m·s/rad, N·s/m].
-        still_since: From when on nothing moved [s]; None where it moved to the end.
-        ended: ``still``, ``time`` or ``lost`` (a number was no number, or ran away).
-        seconds: What the engine took for the steps [s].
-        steps: How many there were.
+        still_since: Time since which nothing moved [s]; None if the robot moved to the end.
+        ended: ``still``, ``time``, or ``lost`` (a value was not finite, or the robot far away).
+        seconds: Wall-clock time of the steps [s].
+        steps: Number of steps.
     """
 
     engine: str
@@ -113,14 +121,14 @@ class Recording:
 
 @dataclass(frozen=True)
 class Hit:
-    """Two links that run into each other while a joint moves.
+    """Interpenetration of two links while a joint moves.
 
     Attributes:
-        one: A link.
-        other: Another.
-        first: The lowest position at which they overlap [rad, m].
-        last: The highest.
-        depth: How deep at most [m], by the hulls that the engine collides.
+        one: Name of a link.
+        other: Name of the other link.
+        first: Lowest joint position at which they overlap [rad, m].
+        last: Highest joint position at which they overlap [rad, m].
+        depth: Maximum penetration depth [m], of the convex hulls that the engine uses.
     """
 
     one: str
@@ -132,15 +140,15 @@ class Hit:
 
 @dataclass(frozen=True)
 class Swept:
-    """A joint.
+    """Result of moving a joint through its limits.
 
     Attributes:
-        joint: Its name.
-        lower: Its lower limit, or half a turn where it has none [rad, m].
-        upper: Its upper limit.
-        free_lower: How far down it comes from the start before links overlap.
-        free_upper: How far up.
-        hits: What runs into what.
+        joint: Name of the joint.
+        lower: Lower limit, or minus half a turn without limits [rad, m].
+        upper: Upper limit, or half a turn without limits [rad, m].
+        free_lower: Lower end of the collision-free range around the start [rad, m].
+        free_upper: Upper end of the collision-free range [rad, m].
+        hits: Pairs of links that interpenetrate.
     """
 
     joint: str

@@ -1,4 +1,4 @@
-"""A robot as rigid bodies, in plain data that any engine reads and that a process can receive."""
+"""Rigid bodies of a robot, as picklable data for any engine."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .spawn import spawn_pose
 from .surface import Surface, read_surface
 
 TENSOR_ROUNDING = 0.01
-"""How far a tensor may exceed the triangle inequality by rounding [1]; engines get its edge."""
+"""Relative violation of the triangle inequality by rounding [1]; engines get a valid tensor."""
 
 ROOTED = "world"
 """The name of a root link that Gazebo fixes to the world."""
@@ -35,19 +35,19 @@ class RigidBodyJoint:
     """The joint between a body and its parent.
 
     Attributes:
-        name: Its name.
+        name: Name of the joint.
         kind: ``revolute``, ``continuous`` or ``prismatic``.
         axis: Unit vector in the joint's frame.
-        lower: Limit [rad, m]; -inf where there is none.
-        upper: Limit [rad, m]; inf where there is none.
-        effort: The largest [N·m, N]; None where none is written, or zero is.
-        damping: [N·m·s/rad, N·s/m].
-        friction: [N·m, N].
-        leader: The joint that it mimics; None where it follows none.
-        multiplier: Of the leader's position.
-        offset: Added to that [rad, m].
-        stiffness: Of Gazebo's spring [N·m/rad, N/m]; 0 where there is none.
-        spring_rest: Where that spring is at rest [rad, m].
+        lower: Lower limit [rad, m]; -inf without one.
+        upper: Upper limit [rad, m]; inf without one.
+        effort: Effort limit [N·m, N]; None without one, or if it is zero.
+        damping: Damping [N·m·s/rad, N·s/m].
+        friction: Dry friction [N·m, N].
+        leader: Name of the joint that it mimics; None without one.
+        multiplier: Factor of the leader's position.
+        offset: Offset added to the product [rad, m].
+        stiffness: Stiffness of Gazebo's joint spring [N·m/rad, N/m]; 0 without one.
+        spring_rest: Rest position of the spring [rad, m].
     """
 
     name: str
@@ -67,19 +67,19 @@ class RigidBodyJoint:
 
 @dataclass(frozen=True, eq=False)
 class RigidBody:
-    """Links joined by fixed joints; their frame is that of the topmost.
+    """Links connected by fixed joints; the frame is that of the topmost link.
 
     Attributes:
-        name: The topmost link.
-        links: All of them.
-        places: The pose of each in the body's frame.
+        name: Name of the topmost link.
+        links: Names of all links.
+        places: Pose of each link in the body's frame.
         properties: Mass, center of mass and tensor in the body's frame; None without mass.
-        shapes: The collision geometry.
-        joint: To its parent; None for the root.
-        parent: Index of the body above; -1 for the root.
-        origin: The joint's frame in the parent's body frame.
+        shapes: Collision geometry.
+        joint: Joint to the parent; None for the root.
+        parent: Index of the parent body; -1 for the root.
+        origin: Pose of the joint in the parent's body frame.
         surface: Friction and contact parameters.
-        weightless: The part of ``properties`` on which gravity does not act; None without one.
+        weightless: Part of ``properties`` on which gravity does not act; None without one.
     """
 
     name: str
@@ -102,7 +102,7 @@ class RigidBody:
     def weight(self) -> tuple[float, Array]:
         """Return the mass on which gravity acts [kg], and its center in the body's frame [m].
 
-        The center is zero where that mass is.
+        The center is zero if the mass is zero.
         """
         if self.properties is None:
             return 0.0, np.zeros(3)
@@ -117,16 +117,17 @@ class RigidBody:
 
 @dataclass(frozen=True, eq=False)
 class RigidBodyModel:
-    """The rigid bodies of a robot, each after its parent, and where they start.
+    """Rigid bodies of a robot, each after its parent, with their start.
 
     Attributes:
-        bodies: The root first.
-        fixed_base: Whether the root is fixed to the world.
-        start: The pose of the root in the world.
-        positions: Where each joint starts [rad, m], by name, mimics followed.
-        held: Joints that are held, by name.
-        size: The largest extent of what collides, at the start [m].
-        moved_start: Joints that cannot be at zero and start at a limit, by name [rad, m].
+        bodies: The bodies, the root first.
+        fixed_base: Whether the robot has a fixed base: the root is fixed to the world.
+        start: Pose of the root in the world.
+        positions: Initial positions of joints by name [rad, m], with those of mimic joints.
+        held: Names of the held joints.
+        size: Largest extent of the collision geometry at the start [m].
+        moved_start: Positions of joints that start at a limit, because 0 is outside their range,
+            by name [rad, m].
     """
 
     bodies: tuple[RigidBody, ...]
@@ -148,7 +149,7 @@ class RigidBodyModel:
         return math.fsum(body.mass for body in self.bodies)
 
     def compute_spring_energy(self, positions: Array) -> float:
-        """Compute the energy in the springs of the joints [J], at positions of shape (j,)."""
+        """Compute the energy of the joint springs [J] at positions of shape (j,) [rad, m]."""
         joints = self.joints
         stiffness = np.array([joint.stiffness for joint in joints])
         rest = np.array([joint.spring_rest for joint in joints])
@@ -184,12 +185,12 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
 
 
 def _is_world(link: Link) -> bool:
-    """Tell whether a root is the world itself, as in Gazebo."""
+    """Tell whether a root is the world, so that the robot has a fixed base, as in Gazebo."""
     return link.name == ROOTED and not link.mass and not link.collisions
 
 
 def _find_root(robot: Robot) -> str:
-    """Find the root; below a frame from which the robot floats, the floating link."""
+    """Find the root link; with a floating joint below the root, its child link."""
     assert robot.tree.root is not None
     name = robot.tree.root.name
     joints = robot.tree.get_child_joints(name)
@@ -268,7 +269,7 @@ def _make_properties(
 
 
 def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
-    """Collect what an engine needs of a joint with one position."""
+    """Convert a joint with one degree of freedom to the data of engines."""
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     x, y, z = (float(part) for part in axis / np.linalg.norm(axis))
     lower, upper = get_limits(joint)
@@ -296,7 +297,7 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
 
 
 def list_held_joints(robot: Robot, bodies: list[RigidBody], settings: Settings) -> tuple[str, ...]:
-    """List the joints that are held; mimic joints follow anyway."""
+    """List the held joints; mimic joints follow their leaders."""
     joints = [body.joint for body in bodies if body.joint is not None]
     names = [joint.name for joint in joints if joint.leader is None]
     if settings.controls is not None:

@@ -1,4 +1,4 @@
-"""Run the trials of a robot: prepared, and recorded by an engine in a process of its own."""
+"""Run the trials of a robot in an engine in a separate process."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Known = dict[Hashable, object]
 Precompute = Callable[[Robot, StateSnapshot], None]
 
 Start = tuple[Array, list[Contact]]
-"""Poses and contacts before the first step, which the engine's process emits."""
+"""Poses and contacts before the first step, emitted by the engine's process."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,12 +44,12 @@ class Run:
     """One trial.
 
     Attributes:
-        settings: Of this trial.
-        bodies: The robot as it started.
-        recording: What the engine measured.
-        swept: Each joint moved through its limits; empty without ``Settings.sweep``.
-        known: Results that were precomputed of its start; see ``StateSnapshot.cached``.
-        thresholds: Of the checks.
+        settings: Settings of this trial.
+        bodies: Rigid bodies of the robot at the start.
+        recording: Measurements of the engine.
+        swept: Results of moving each joint through its limits; empty without ``Settings.sweep``.
+        known: Precomputed results of the start; see ``StateSnapshot.get_or_compute``.
+        thresholds: Thresholds of the checks.
     """
 
     settings: Settings
@@ -78,11 +78,11 @@ class Run:
     def compute_center_of_mass(
         self, numbers: Iterable[int], sample: int
     ) -> tuple[float, float, float] | None:
-        """Compute the center of mass of some bodies in the world [m], of what gravity acts on.
+        """Compute the center of mass of bodies in the world [m], of the mass with gravity.
 
         Args:
-            numbers: Of bodies.
-            sample: Of the recording.
+            numbers: Indices of the bodies.
+            sample: Index of a sample of the recording.
 
         Returns:
             None if they have no mass, or a pose is not finite.
@@ -113,21 +113,20 @@ def simulate(
     precompute: Precompute = lambda *_: None,
     thresholds: Thresholds | None = None,
 ) -> list[Run]:
-    """Spawn a robot and let it settle, as often as the settings say.
+    """Spawn a robot and let it settle, once for each trial.
 
     Args:
-        robot: Any robot, read from a description, which finds its meshes.
-        settings: How it is spawned.
-        engine: The name of an engine; None is the first of the registry.
-        progress: Receives the number of each trial before it begins, and how many there are.
-        child: A process of this engine that waits for the first trial.
-        precompute: Receives each start while the engine runs on from it, to compute what checks
-            will need.
-        thresholds: When a robot is at rest, and what is reported; None is the defaults.
+        robot: The robot, read from a description.
+        settings: Settings of the simulation.
+        engine: Name of an engine; None for the first of the registry.
+        progress: Receives the number of each trial before it begins, and their count.
+        child: Process of this engine that waits for the first trial.
+        precompute: Receives each start while the engine runs, to compute results for the checks.
+        thresholds: Thresholds of the checks; None for the defaults.
 
     Raises:
-        ModelError: No engine can simulate the robot.
-        EngineDied: The engine crashed or took too long.
+        ModelError: The robot cannot be simulated.
+        EngineDied: The engine crashed or exceeded its time limit.
         MissingDependency: The engine is not installed.
     """
     engine, bounds = engine or next(iter(REGISTRY)), thresholds or Thresholds()
@@ -164,7 +163,7 @@ def simulate(
 
 @contextmanager
 def _add_location(robot: Robot) -> Iterator[None]:
-    """Add the place of the robot to errors of an engine, which knows only the bodies."""
+    """Add the location of the robot to errors of an engine, which has only the bodies."""
     try:
         yield
     except ModelError as error:
@@ -174,7 +173,7 @@ def _add_location(robot: Robot) -> Iterator[None]:
 
 
 def _sweep(bodies: RigidBodyModel, settings: Settings, engine: str, folder: Path) -> list[Swept]:
-    """Move joints through their limits, in a process of its own."""
+    """Move joints through their limits, in a separate process."""
     with EngineProcess(get_library(engine)) as child:
         found: list[Swept] = child.call(
             *(_DRIVER, "sweep", engine, bodies, settings, folder),
@@ -184,7 +183,7 @@ def _sweep(bodies: RigidBodyModel, settings: Settings, engine: str, folder: Path
 
 
 def make_trials(settings: Settings) -> list[Settings]:
-    """Make the settings of each trial: the first upright, the others tilted and turned."""
+    """Make the settings of each trial: the first upright, the others randomly tilted and turned."""
     chance = random.Random(settings.seed)
     found = [settings]
     for _ in range(settings.trials - 1):

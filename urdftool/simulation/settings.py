@@ -1,4 +1,4 @@
-"""How a robot is spawned, what holds it, and for how long it is watched."""
+"""Settings of a simulation: spawn pose, held joints, ground, duration, trials."""
 
 from __future__ import annotations
 
@@ -11,40 +11,40 @@ if TYPE_CHECKING:
     from .control import Control
 
 NUDGE = 0.1
-"""How long gravity leans to each side [s]."""
+"""Duration of the tilted gravity to each side at the start [s]."""
 
-_TOWARD = 0.6  # rad from x; along no robot's axis of symmetry
+_TOWARD = 0.6  # rad from x; not an axis of symmetry of common robots
 
 
 @dataclass(frozen=True)
 class Settings:
-    """One run.
+    """Settings of a simulation.
 
     Attributes:
-        duration: The longest the robot is watched [s of the simulated world].
-        timestep: Of the engine [s].
-        hold: Which joints are held: ``all``; ``actuated`` are those that the file drives, by a
-            transmission, ros2_control or a plugin; ``none``.
-        pose: Positions of joints by name [rad, m] at the start, which are held too.
-        height: Of the root's frame above the plane [m]; None puts the lowest point of what
-            collides just above it.
-        fixed_base: Fix the root to the world.
-        payloads: Further mass by link [kg], as a point in the link's centre of mass, or in its
-            origin where it weighs nothing.
-        friction: Of every contact where the file says nothing [–].
-        gravity: Its strength [m/s²].
-        slope: The plane falls along x by this angle [rad].
-        self_collision: Whether links of the robot push each other, other than the two of a joint.
-        seed: Of tilts and turns.
-        trials: How many runs; the first is upright, the others are tilted and turned.
-        tilt: The largest tilt of a trial [rad].
-        start_rpy: How the root is turned at the start; set for each trial.
-        sweep: Whether each joint is moved through its limits, too.
-        nudge: How far gravity leans to one side and then to the other at the start [rad]: what
-            balances on a point would stand for ever without it.
-        time_limit: The longest the engine may work [s of the user's clock].
-        controls: What drives each joint by name, where a file of controllers says it; ``hold``
-            is then of no account.
+        duration: Maximum simulated time [s].
+        timestep: Physics time step [s].
+        hold: Held joints: ``all``; ``actuated`` for joints with a transmission, ros2_control or a
+            plugin in the file; ``none``.
+        pose: Initial positions of joints by name [rad, m], at which they are held.
+        height: Height of the root frame above the plane [m]; None for the lowest point of the
+            collision geometry just above the plane.
+        fixed_base: Whether to fix the root to the world.
+        payloads: Point masses by link [kg], at the link's center of mass, or at the origin of a
+            link without mass.
+        friction: Friction coefficient of links for which the file has none [–].
+        gravity: Magnitude of gravity [m/s²].
+        slope: Slope of the plane, downward along x [rad].
+        self_collision: Whether contacts between links are enabled, except parent and child.
+        seed: Seed of the random tilts and yaws of trials.
+        trials: Number of trials; all but the first start with a random tilt and yaw.
+        tilt: Maximum tilt of a trial [rad].
+        start_rpy: Roll, pitch and yaw of the root at the start [rad]; set for each trial.
+        sweep: Whether each joint is also moved through its limits.
+        nudge: Angle by which gravity tilts to one side and then to the other at the start [rad],
+            so that a robot balanced on a point falls.
+        time_limit: Wall-clock limit of the engine [s].
+        controls: Controllers of joints by name; None without a controller file. With one, ``hold``
+            is ignored.
     """
 
     duration: float = 5.0

@@ -32,13 +32,13 @@ from .mesh_cache import get_cached_hulls, load_triangles
 from .recording import Array
 
 MOST_PIECES = 32
-"""A mesh file of more objects than this collides as one hull."""
+"""Maximum number of objects of a mesh file that become separate hulls; otherwise one hull."""
 
 MOST_VERTICES = 400
-"""Of a hull; a finer one is thinned to the corners that reach farthest."""
+"""Maximum number of vertices of a hull; a finer hull is reduced to its extreme points."""
 
 _AROUND = 16
-"""Corners of the circle by which an ellipsoid or cone is approximated."""
+"""Number of corners of a circle in the approximation of an ellipsoid or cone."""
 
 _LEAST = 1e-9  # m: a mesh that is smaller is a point
 
@@ -48,13 +48,13 @@ class Shape:
     """One collision element.
 
     Attributes:
-        link: Its link.
-        index: Its number among all collision elements of the robot.
+        link: Name of the link.
+        index: Index of the element among all collision elements of the robot.
         kind: ``box``, ``cylinder``, ``sphere``, ``capsule`` or ``mesh``.
-        size: Edges of a box, radius and length of what is round [m].
+        size: Edges of a box, or radius and length of a round shape [m].
         pieces: Corners of each convex piece of a mesh [m], in the shape's frame.
         faces: Triangles of each piece.
-        pose: In the frame of its body.
+        pose: Pose in the frame of the body.
     """
 
     link: str
@@ -66,7 +66,7 @@ class Shape:
     pose: Pose = field(default_factory=Pose)
 
     def compute_reach(self, direction: Array) -> float:
-        """Compute how far it reaches along a unit vector of its body's frame [m]."""
+        """Compute the support function along a unit vector of the body's frame [m]."""
         turn = np.array(self.pose.rotation)
         along = turn.T @ direction
         start = float(np.dot(self.pose.translation, direction))
@@ -83,7 +83,7 @@ class Shape:
         return start + ends + radius * float(np.hypot(along[0], along[1]))
 
     def get_corners(self) -> Array:
-        """Return corners of a mesh or box in its frame, or of a round shape's box, (n, 3)."""
+        """Return corners of a mesh, a box, or a round shape's box, in its frame [m], (n, 3)."""
         if self.kind == "mesh":
             return np.concatenate(self.pieces)
         if self.kind == "box":
@@ -98,7 +98,7 @@ class Shape:
         return corners
 
     def get_bounds(self) -> tuple[Array, Array]:
-        """Return two corners of the box around it, along the axes of its body."""
+        """Return the bounding box in the frame of the body: lower and upper corner [m]."""
         return self._bounds
 
     @cached_property
@@ -125,8 +125,8 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
             largest = max(float(np.ptp(piece, axis=0).max()) for piece in pieces)
             if largest < _LEAST:
                 raise ModelError(
-                    f"mesh '{geometry.filename}' of link '{link.name}' is {largest:g} m large, as "
-                    "it is scaled; nothing of it could touch",
+                    f"mesh '{geometry.filename}' of link '{link.name}' has a scaled size of "
+                    f"{largest:g} m and cannot make contact",
                     at=geometry.place,
                 )
             yield Shape(link.name, number, "mesh", (), pieces, faces, pose)
@@ -146,8 +146,8 @@ def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shap
             size = (geometry.radius, geometry.length)
         else:
             raise ModelError(
-                f"a collision of link '{link.name}' has no shape that URDF knows; write a box, "
-                "cylinder, sphere, capsule or mesh",
+                f"collision of link '{link.name}' has no shape; write a box, cylinder, sphere, "
+                "capsule or mesh",
                 at=collision.place,
                 rule="unsupported-shape",
             )
@@ -171,7 +171,7 @@ def _collect_pieces(
 ) -> tuple[tuple[Array, ...], tuple[Faces, ...]]:
     try:
         if robot.source is None:
-            raise ModelError("the robot was not read from a file, so its meshes are nowhere")
+            raise ModelError("the robot was not read from a file, so its meshes cannot be found")
         parts = get_cached_hulls(
             robot,
             geometry,
@@ -196,7 +196,7 @@ def _list_convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
 
 
 def compute_hull(points: Array) -> tuple[Array, Faces]:
-    """Compute corners and triangles of the convex hull of points; of flat ones, the points."""
+    """Compute corners and triangles of the convex hull of points; flat points are returned."""
     found = compute_convex_hull(points)
     if found is not None and found.num_vert() > MOST_VERTICES:
         found = compute_convex_hull(_choose_extreme_points(extract_hull_surface(found)[0]))
@@ -207,13 +207,13 @@ def compute_hull(points: Array) -> tuple[Array, Faces]:
 
 
 def _make_fan(count: int) -> Faces:
-    """Make triangles that name every one of some points."""
+    """Make triangles that refer to every point."""
     fan: Faces = np.array([(0, i, min(i + 1, count - 1)) for i in range(max(1, count - 1))])
     return fan
 
 
 def _choose_extreme_points(points: Array) -> Array:
-    """Choose the points that reach farthest along directions spread evenly over the sphere."""
+    """Choose the extreme points along directions spread evenly over the sphere."""
     steps = np.arange(MOST_VERTICES) + 0.5
     z = 1 - 2 * steps / MOST_VERTICES
     angle = steps * np.pi * (1 + 5**0.5)
@@ -229,9 +229,9 @@ def compute_lowest_height(shapes: Sequence[Shape], turn: Array, at: Array) -> fl
     """Compute the height of the lowest point of shapes of one body in the world [m].
 
     Args:
-        shapes: Of one body.
-        turn: The body's rotation in the world, shape (3, 3).
-        at: Its origin in the world [m].
+        shapes: Shapes of the body.
+        turn: Rotation of the body in the world, shape (3, 3).
+        at: Origin of the body in the world [m].
     """
     down = turn.T @ np.array([0.0, 0.0, -1.0])
     return float(at[2]) - max(shape.compute_reach(down) for shape in shapes)

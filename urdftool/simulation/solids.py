@@ -1,4 +1,4 @@
-"""Convex parts and their unions, and how much room two of them share."""
+"""Unions of convex parts, and the volume that two of them share."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 
 class Solids:
-    """The union of some parts in one frame."""
+    """Union of convex parts in one frame."""
 
     def __init__(self, parts: Iterable[Manifold]) -> None:
-        """Take the parts."""
+        """Store the parts."""
         self.parts = list(parts)
 
     def __bool__(self) -> bool:
@@ -33,11 +33,11 @@ class Solids:
         return Solids([*self.parts, *other.parts])
 
     def transform(self, pose: Pose) -> Solids:
-        """Return the same in the frame in which ``pose`` is that of its present one."""
+        """Transform the parts to another frame, in which the present one has the given pose."""
         if not self.parts:
             return self
         there = np.column_stack([np.array(pose.rotation), np.array(pose.translation)])
-        moved = Solids([self._union.transform(there)])  # which is then made once
+        moved = Solids([self._union.transform(there)])  # the union is computed once
         moved.volume = self.volume
         return moved
 
@@ -65,7 +65,7 @@ def find_outermost(clouds: Iterable[Array]) -> list[Array]:
 
 
 def compute_hulls(clouds: Iterable[Array]) -> Solids:
-    """Compute the convex hulls of clouds of points; flat ones, without volume, are left out.
+    """Compute the convex hulls of point clouds [m]; flat clouds, without volume, are skipped.
 
     Pass large clouds through :func:`find_outermost`. Results are not kept in the memo of a robot:
     manifold3d prints a warning for each hull that exists when Python ends.

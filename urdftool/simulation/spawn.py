@@ -1,4 +1,4 @@
-"""Where a robot starts: on the plane, or above it where a fixed base carries it."""
+"""Compute the spawn pose of a robot: on the plane, or above it with a fixed base."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .settings import Settings
 from .shapes import Shape
 
 GAP = 1e-4
-"""How far above the plane the lowest point starts [m]."""
+"""Height of the lowest point above the plane at the start [m]."""
 
 CLEAR = 0.05
-"""How far above the plane the moving parts on a fixed base start, as a part of the robot's size.
+"""Height of the moving links on a fixed base above the plane at the start, over the robot's size.
 
-That is how far a joint may sag before it is reported, at the end of an arm as long as the robot."""
+Joint drift of an arm of this length is reported before its end is as low as the plane."""
 
 
 def spawn_pose(
@@ -30,15 +30,14 @@ def spawn_pose(
 ) -> tuple[Pose, float]:
     """Compute the pose of the root above the plane, and the largest extent of the robot [m].
 
-    A free root starts with its lowest point on the plane. A fixed one does, too, unless that is a
-    moving part: the plane would carry what the joints are to hold. Then the moving parts start
-    clear of the plane.
+    The lowest point of a robot starts on the plane. If the base is fixed and the lowest link moves,
+    it starts clear of the plane, which would carry a load that the joints must hold.
 
     Args:
         parts: Each body's pose in the frame of the root and its collision shapes, the root first.
         settings: How the robot is spawned.
         fixed: Whether the root is fixed to the world.
-        at_origin: Whether the file says where: it is put higher only where that is in the plane.
+        at_origin: Whether the file places the root; it is raised only if it is below the plane.
     """
     turn = Pose(rotation_from_rpy(settings.start_rpy))
     low, high = _compute_bounds(parts, turn)

@@ -1,4 +1,4 @@
-"""The state of a robot at one sample of a run, with results that were computed from it."""
+"""State of a robot at one sample of a run, with results that were computed from it."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class StateSnapshot:
     """Poses and contacts at one sample of a run.
 
     Attributes:
-        bodies: The robot.
-        poses: Of each body, as in a recording, shape (b, 7).
-        contacts: What touches what.
-        known: Results by key; see :meth:`cached`.
-        thresholds: Of the checks; the results depend on them.
+        bodies: Rigid bodies of the robot.
+        poses: Pose of each body, as in ``Recording``, shape (b, 7).
+        contacts: Contacts and overlaps.
+        known: Results by key; see :meth:`get_or_compute`.
+        thresholds: Thresholds of the checks, on which the results depend.
     """
 
     bodies: RigidBodyModel
@@ -38,7 +38,7 @@ class StateSnapshot:
         return Pose(rotation_from_quaternion((w, x, y, z)), (a, b, c))
 
     def get_body(self, link: str) -> int:
-        """Return the number of the body that a link belongs to."""
+        """Return the index of the body that a link belongs to."""
         bodies = self.bodies.bodies
         return next(number for number, body in enumerate(bodies) if link in body.links)
 

@@ -12,13 +12,13 @@ from ..model.read import number
 
 @dataclass(frozen=True)
 class Surface:
-    """How a body touches; None for what the file leaves open.
+    """Contact parameters of a body; None for values that the file does not set.
 
     Attributes:
-        friction: Coulomb's coefficient [–]; the smaller one where there are two.
-        stiffness: Of a contact [N/m].
-        damping: Of a contact [N·s/m].
-        where: Which words of the file say so.
+        friction: Coulomb friction coefficient [–]; the smaller one of two.
+        stiffness: Contact stiffness [N/m].
+        damping: Contact damping [N·s/m].
+        where: Tags of the file with these values.
     """
 
     friction: float | None = None
@@ -27,7 +27,7 @@ class Surface:
     where: tuple[str, ...] = ()
 
 
-# what a Surface holds -> Gazebo's tags, tags of Bullet's <contact>
+# attribute of Surface -> tags of Gazebo, tag of Bullet's <contact>
 _WORDS = {
     "friction": (("mu1", "mu", "mu2"), "lateral_friction"),
     "stiffness": (("kp",), "stiffness"),
@@ -36,9 +36,9 @@ _WORDS = {
 
 
 def read_surface(robot: Robot, links: Iterable[str]) -> Surface:
-    """Read the surface of a rigid body of some links.
+    """Read the contact parameters of a rigid body of several links.
 
-    Where links differ, the smaller friction counts, and the softer contact.
+    If links differ, the smaller friction and the softer contact are used.
     """
     values: dict[str, float] = {}
     where: dict[str, None] = {}
@@ -49,7 +49,7 @@ def read_surface(robot: Robot, links: Iterable[str]) -> Surface:
                 if value is not None and math.isfinite(value) and value >= 0:
                     values[what] = min(value, values.get(what, math.inf))
                     where[word] = None
-    if values.get("stiffness") == 0:  # what the tag means where it is left at zero: the default
+    if values.get("stiffness") == 0:  # zero means the default
         del values["stiffness"]
     return Surface(**values, where=tuple(where))
 

@@ -20,12 +20,12 @@ from .run import Run
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """On one trial.
+    """Verdict on one trial.
 
     Attributes:
         run: The trial.
-        rest: Where and how it came to rest.
-        faults: What went wrong first, remarks then.
+        rest: State of the robot at the end.
+        faults: Faults, errors first, then remarks.
     """
 
     run: Run
@@ -34,12 +34,12 @@ class Verdict:
 
     @property
     def stands(self) -> bool:
-        """Tell whether nothing went wrong."""
+        """Tell whether there is no error."""
         return not any(fault.fails for fault in self.faults)
 
     @property
     def fell(self) -> bool:
-        """Tell whether it fell, tipped over, slid, or still moves."""
+        """Tell whether the robot fell, tipped over, slid, or still moves."""
         return any(fault.fell for fault in self.faults)
 
 
@@ -62,7 +62,7 @@ _CONSEQUENCES = frozenset(
         "not-settled",
     }
 )
-"""Kinds of what a free root without mass may do, whatever else the file says."""
+"""Kinds that a free root without mass may cause."""
 
 
 def _replace_cause(run: Run, fault: Fault) -> Fault:
@@ -70,9 +70,7 @@ def _replace_cause(run: Run, fault: Fault) -> Fault:
     root = run.bodies.bodies[0]
     if root.mass or run.bodies.fixed_base or fault.code not in _CONSEQUENCES:
         return fault
-    cause = (
-        f"the root, link '{root.name}', has no mass, so contacts and joints have nothing to push"
-    )
+    cause = f"root link '{root.name}' has no mass, so contacts and joints cannot hold or move it"
     return replace(fault, cause=cause, rule="massless-root-body")
 
 

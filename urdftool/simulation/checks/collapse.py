@@ -1,4 +1,4 @@
-"""Checks of joints that nothing holds: what sank with them."""
+"""Check whether a robot collapsed, because a joint is not held."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..run import Run
 
 
 def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report the joint that nothing holds and with which the robot, or its load, sank."""
+    """Report the joint without actuation whose motion let the robot, or its load, sink."""
     recording, bodies, bounds = run.recording, run.bodies, run.thresholds
     moved = np.abs(recording.positions[-1] - recording.positions[0])
     alone = {
@@ -38,31 +38,28 @@ def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
         whole >= bounds.collapse_depth * bodies.size
         and abs(alone[column]) >= bounds.collapse_share * bodies.size
     ):
-        what = f"what its joints bear sank by {whole:.3g} m, and joint '{name}' went"
+        what = f"the robot sank {whole:.3g} m; joint '{name}' moved"
     elif max(alone.values()) >= bounds.collapse_depth * bodies.size:
         column = max(alone, key=lambda number: alone[number])
         name = bodies.joints[column].name
-        what = f"what joint '{name}' bears sank by {alone[column]:.3g} m; it went"
+        what = f"the load of joint '{name}' sank {alone[column]:.3g} m; the joint moved"
     else:
         return
     yield Fault(
         "collapsed",
         Severity.ERROR,
-        f"it collapsed: {what} from {recording.positions[0, column]:.3g} to "
+        f"{what} from {recording.positions[0, column]:.3g} to "
         f"{recording.positions[-1, column]:.3g}",
         robot.joint[name].place,
         "joint",
         name,
-        "nothing holds the joint: " + _explain_why_loose(run),
+        "the joint is not held: " + _explain_why_not_held(run),
         "missing-control-plugin",
     )
 
 
 def _measure_sunk(run: Run) -> float:
-    """Measure how far the center of mass of what joints carry sank [m].
-
-    That is the whole robot but a fixed root: legs carry a free one.
-    """
+    """Measure how far the center of mass sank [m]: of the robot, without a fixed root."""
     numbers = range(int(run.bodies.fixed_base), len(run.bodies.bodies))
     first_at, last_at = (run.compute_center_of_mass(numbers, moment) for moment in (0, -1))
     return 0.0 if first_at is None or last_at is None else first_at[2] - last_at[2]
@@ -76,10 +73,10 @@ def _measure_sunk_alone(run: Run, column: int) -> float:
     for number in range(child + 1, len(bodies)):
         if bodies[number].parent in beyond:
             beyond.add(number)
-    centre = run.compute_center_of_mass(beyond, 0)
-    if centre is None:
+    center = run.compute_center_of_mass(beyond, 0)
+    if center is None:
         return 0.0
-    own = _turn(poses[0, child]).T @ (centre - poses[0, child, :3])
+    own = _turn(poses[0, child]).T @ (center - poses[0, child, :3])
     parent = bodies[child].parent
     first, last = (
         _turn(poses[moment, parent]).T
@@ -94,9 +91,9 @@ def _turn(pose: Array) -> Array:
     return np.array(rotation_from_quaternion((w, x, y, z)))
 
 
-def _explain_why_loose(run: Run) -> str:
+def _explain_why_not_held(run: Run) -> str:
     if run.settings.controls is not None:
         return "no controller drives it"
     if run.settings.hold == "none":
-        return "--limp was asked for"
-    return "the file actuates other joints; --hold holds every one"
+        return "--limp leaves all joints unactuated"
+    return "the file has no actuator for it; --hold holds all joints"

@@ -1,4 +1,4 @@
-"""Checks of contacts: in the ground, with too little, or with nothing to make contact."""
+"""Check contacts: ground penetration, interpenetration, and missing contact geometry."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from .interpenetration import check_interpenetration
 
 
 def check_contacts(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    """Report contacts that should not be, and parts that should make contact and do not."""
-    yield from _report_starting_in_ground(robot, run)
+    """Report penetration, and links that should make contact with the ground and do not."""
+    yield from _report_spawn_penetration(robot, run)
     yield from check_interpenetration(robot, run)
     if not state.fell and run.recording.ended != "lost":
         yield from _report_ground_penetration(robot, run)
-        told = {fault.name: fault for fault in _report_missing_contact(robot, run)}
-        told |= {
+        reported = {fault.name: fault for fault in _report_missing_contact(robot, run)}
+        reported |= {
             fault.name: fault
             for fault in _report_submerged_visuals(robot, run)
-            if fault.name not in told
+            if fault.name not in reported
         }
-        yield from told.values()
-        yield from (f for f in _report_unlike_copies(robot, run, state) if f.name not in told)
+        yield from reported.values()
+        yield from (f for f in _report_unlike_copies(robot, run, state) if f.name not in reported)
 
 
 def _get_ground_depth(run: Run) -> float:
@@ -41,7 +41,7 @@ def _get_ground_depth(run: Run) -> float:
     return max(run.thresholds.ground_depth * run.bodies.size, run.thresholds.contact_depth)
 
 
-def _report_starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
+def _report_spawn_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
     for contact in run.recording.start_contacts:
         if contact.other == GROUND and contact.depth > _get_ground_depth(run):
             if run.bodies.fixed_base and contact.one in run.bodies.bodies[0].links:
@@ -49,13 +49,13 @@ def _report_starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
             yield Fault(
                 "spawn-penetration",
                 Severity.ERROR,
-                f"link '{contact.one}' starts {contact.depth:.3g} m deep in the floor",
+                f"link '{contact.one}' starts {contact.depth:.3g} m below the ground",
                 robot.link[contact.one].place,
                 "link",
                 contact.one,
-                "the root is fixed to the world there"
+                "the root is fixed to the world at this pose"
                 if run.bodies.fixed_base
-                else "--height puts it there",
+                else "--height places the root too low",
             )
 
 
@@ -66,19 +66,19 @@ def _report_ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
         yield Fault(
             "ground-penetration",
             Severity.ERROR,
-            f"link '{deepest.one}' sank {deepest.depth:.3g} m into the floor",
+            f"link '{deepest.one}' penetrates the ground by {deepest.depth:.3g} m",
             robot.link[deepest.one].place,
             "link",
             deepest.one,
-            "its contact is too soft (<kp>) or the robot too heavy for what it stands on",
+            "its contact is too soft (<kp>), or the robot is too heavy for its contacts",
             "missing-contact-parameters",
         )
 
 
 def _report_missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report visuals on or below the ground whose link has nothing to make contact with."""
+    """Report visuals on or below the ground whose link has no contact geometry."""
     if not any(body.shapes for body in run.bodies.bodies):
-        return  # nothing of it touches, which is said
+        return  # no-collision-geometry is reported
     parents = {body.parent for body in run.bodies.bodies}
     for number, body in enumerate(run.bodies.bodies):
         seen = [name for name in body.links if robot.link[name].visuals]
@@ -90,7 +90,7 @@ def _report_missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
         if body.shapes:
             seen = [name for name in seen if not robot.link[name].collisions]
             highest = -_get_ground_depth(run)
-            if number not in parents:  # a foot on the end of a leg, of which the rest may touch
+            if number not in parents:  # a foot of a leg that may make contact itself
                 turn, at = np.array(pose.rotation), np.array(pose.translation)
                 highest = min(
                     gap,
@@ -108,11 +108,11 @@ def _report_missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
                 yield Fault(
                     "missing-contact-geometry",
                     Severity.ERROR,
-                    f"link '{name}' is {where} the floor and has no <collision> to touch it with",
+                    f"link '{name}' is {where} the ground but has no <collision>",
                     robot.link[name].place,
                     "link",
                     name,
-                    "a wheel or foot that carries nothing; what is beside it does",
+                    "this wheel or foot makes no contact; the load is carried by its neighbors",
                     "missing-collision",
                 )
 
@@ -128,7 +128,7 @@ def _report_submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
         for name in body.links:
             shapes = [shape for shape in body.shapes if shape.link == name]
             if not shapes or compute_lowest_height(shapes, turn, at) < -least:
-                continue  # one that is as deep sank in, which is said
+                continue  # ground-penetration is reported
             place = pose @ body.places[name]
             box = compute_bounding_box(robot, robot.link[name].visuals)
             if box is None or _compute_lowest_corner(box, place) >= -least:
@@ -145,21 +145,20 @@ def _report_submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
                 yield Fault(
                     "missing-contact-geometry",
                     Severity.ERROR,
-                    f"link '{name}' is seen {-low:.3g} m below the floor, and its <collision> does "
-                    "not reach it",
+                    f"visual of link '{name}' extends {-low:.3g} m below the ground, and its "
+                    "<collision> does not reach the ground",
                     robot.link[name].collisions[0].place,
                     "link",
                     name,
-                    "its <collision> is much smaller than what is seen: its size, scale or unit is "
-                    "another"
+                    "collision is much smaller than the visual; check its size, scale and units"
                     if small
-                    else "its <collision> is beside what is seen, or turned: see its <origin>",
+                    else "collision is offset or rotated from the visual; check its <origin>",
                     "collision-much-smaller-than-visual" if small else "collision-off-visual",
                 )
 
 
 def _compute_lowest_corner(box: tuple[Array, Array], place: Pose) -> float:
-    """Compute how low a box reaches whose frame is at a pose in the world [m]."""
+    """Compute the height of the lowest corner of a box at a pose in the world [m]."""
     up = np.array(place.rotation[2])
     middle = float(up @ (box[0] + box[1])) / 2 + place.translation[2]
     return middle - float(np.abs(up) @ (box[1] - box[0])) / 2
@@ -178,12 +177,12 @@ def _report_unlike_copies(robot: Robot, run: Run, state: FinalState) -> Iterator
                 yield Fault(
                     "missing-contact-geometry",
                     Severity.ERROR,
-                    f"link '{name}' has no <collision>, and '{twin}', which looks the same, stands "
-                    "on the floor with one",
+                    f"link '{name}' has no <collision>, but link '{twin}' with equal visuals makes "
+                    "contact with the ground",
                     robot.link[name].place,
                     "link",
                     name,
-                    "a wheel or foot that carries nothing; what is beside it does",
+                    "this wheel or foot makes no contact; the load is carried by its neighbors",
                     "missing-collision",
                 )
 
@@ -211,9 +210,12 @@ def _collect_geometry_key(geometry: Geometry | None) -> tuple[object, ...]:
 def _collect_visual_points(
     robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]
 ) -> Array:
-    """Collect points of a link's visuals, in its frame; round ones are sampled.
+    """Collect points of a link's visuals in its frame [m], shape (n, 3).
 
-    ``read`` gives those of the others: all of a mesh take long to read, the outermost are known.
+    Args:
+        robot: The robot.
+        name: Name of the link.
+        read: Returns the points of a box or mesh; other shapes are sampled.
     """
     found = [np.zeros((0, 3))]
     for shape in robot.link[name].visuals:

@@ -1,4 +1,4 @@
-"""Checks of joints under gains of a file: too weak, too strong for the timestep, or undamped."""
+"""Check the gains of a controller file: too low, too high for the time step, or undamped."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .joints import compute_needed_effort, get_drift_bound
 
 
 def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report joints that the controllers of a run shake, or do not hold."""
+    """Report joints that oscillate under the controllers of a run, or that they do not hold."""
     controls = run.settings.controls
     if controls is None:
         return
@@ -33,7 +33,7 @@ def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
         if unstable:
             yield _report_fault(
                 "unstable-gains",
-                f"joint '{joint.name}' shakes under the gains of controller '{control.controller}'",
+                f"gains of controller '{control.controller}' make joint '{joint.name}' oscillate",
                 control,
                 joint,
                 unstable,
@@ -65,7 +65,7 @@ def _report_not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
     yield Fault(
         "not-controlled",
         Severity.INFO,
-        f"no controller holds {shown}",
+        f"no controller holds joint {shown}",
         robot.joint[names[0]].place,
         "joint",
         names[0],
@@ -73,7 +73,7 @@ def _report_not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _explain_unstable(run: Run, column: int, joint: RigidBodyJoint, control: Control) -> str:
-    """Explain why a joint shakes by its gains; empty if it does not, or not because of them."""
+    """Explain how the gains make a joint oscillate; empty if they do not."""
     pid, recording = control.pid, run.recording
     assert pid is not None
     if recording.ended != "lost" and not _is_oscillating(run, column, joint):
@@ -84,20 +84,20 @@ def _explain_unstable(run: Run, column: int, joint: RigidBodyJoint, control: Con
         return ""
     slope, stiff = (pid.d, pid.p) if control.kind == POSITION else (pid.p, 0.0)
     name = "d" if control.kind == POSITION else "p"
-    what = f"it moves {inertia:.3g} {unit} alone, and the timestep is {1000 * step:g} ms"
+    what = f"for a moved inertia of {inertia:.3g} {unit} at a time step of {1000 * step:g} ms"
     if slope * step / inertia > 2:
         most = 2 * inertia / step
-        return f"{name} of {slope:g} is too high: {what}, which bears a {name} below {most:.3g}"
+        return f"gain {name} = {slope:g} is unstable {what}; use a value below {most:.3g}"
     if stiff * step**2 / inertia > 4:
         most = 4 * inertia / step**2
-        return f"p of {stiff:g} is too high: {what}, which bears a p below {most:.3g}"
+        return f"gain p = {stiff:g} is unstable {what}; use a value below {most:.3g}"
     if control.kind == POSITION and recording.ended != "lost":
         damping = pid.d + joint.damping
         critical = 2 * (pid.p * inertia) ** 0.5
         if damping < run.thresholds.damping_ratio * critical and pid.p > 0:
             return (
-                f"nothing damps it: d and the joint's damping are {damping:.3g} together, and "
-                f"with p of {pid.p:g} for {inertia:.3g} {unit} a d near {critical:.3g} calms it"
+                f"damping is too low: d and the joint damping add up to {damping:.3g}; with "
+                f"p = {pid.p:g} and an inertia of {inertia:.3g} {unit}, use d = {critical:.3g}"
             )
     return ""
 
@@ -135,24 +135,24 @@ def _report_too_weak(
     load = abs(need) if need is not None else used
     parts = []
     if need is not None:
-        parts.append(f"to hold it takes {load:.3g} {force}")
+        parts.append(f"holding it requires {load:.3g} {force}")
     if joint.effort is not None and used >= run.thresholds.saturated_effort * joint.effort:
-        parts.append(f"it may use {joint.effort:.3g} {force}, and does")
+        parts.append(f"its effort limit of {joint.effort:.3g} {force} is reached")
     elif control.kind == VELOCITY:
-        parts.append("gains of a velocity brake a joint and do not bring it back")
+        parts.append("a velocity controller damps the joint but does not return it to its setpoint")
     else:
         parts.append(
-            f"p of {pid.p:g} gives {pid.p * bound:.3g} {force} at {bound:.2g} {length}; a p of "
-            f"{load / bound:.3g} would do"
+            f"p = {pid.p:g} gives {pid.p * bound:.3g} {force} at an error of {bound:.2g} {length}; "
+            f"use p = {load / bound:.3g}"
         )
         if pid.i and not (pid.i_max or pid.i_min):
-            parts.append("i does nothing without an i_clamp, which is zero where none is written")
+            parts.append("i has no effect, because i_clamp is zero by default")
         elif not pid.i:
-            parts.append("or an i with an i_clamp above that")
+            parts.append("or use i with an i_clamp above the required effort")
     yield _report_fault(
         "joint-drift",
-        f"joint '{joint.name}' is to be at {target:.3g} {length}, and controller "
-        f"'{control.controller}' leaves it at {now:.3g} {length}",
+        f"controller '{control.controller}' leaves joint '{joint.name}' at {now:.3g} {length}; its "
+        f"setpoint is {target:.3g} {length}",
         control,
         joint,
         "; ".join(parts),
@@ -160,7 +160,10 @@ def _report_too_weak(
 
 
 def compute_moved_inertia(run: Run, column: int) -> float:
-    """Compute the inertia that a joint moves alone, at the start of a run [kg·m², kg]."""
+    """Compute the inertia of all bodies beyond a joint about its axis at the start [kg·m², kg].
+
+    For a prismatic joint, it is their mass.
+    """
     bodies, first = run.bodies.bodies, column + 1
     beyond = {first}
     for number in range(first + 1, len(bodies)):
@@ -183,8 +186,8 @@ def compute_moved_inertia(run: Run, column: int) -> float:
         if joint.kind == "prismatic":
             total += body.mass
             continue
-        centre = pose[number, :3] + turn(number) @ body.properties.com - pose[first, :3]
+        center = pose[number, :3] + turn(number) @ body.properties.com - pose[first, :3]
         own = turn(number).T @ axis
         total += float(own @ body.properties.inertia @ own)
-        total += body.mass * float(np.cross(axis, centre) @ np.cross(axis, centre))
+        total += body.mass * float(np.cross(axis, center) @ np.cross(axis, center))
     return total

@@ -1,4 +1,4 @@
-"""Where a run ended: fallen, tilted, moved, and what carries the robot there."""
+"""Measure the final state of a run: pose, support polygon and static margin."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...diagnostic import make_deprecated_name
 from ...model.pose import IDENTITY, multiply_matrices, rotation_from_quaternion, transpose
 from ..recording import GROUND, Array
 from ..run import Run
@@ -15,26 +16,28 @@ from ..shapes import Shape, compute_lowest_height
 
 @dataclass(frozen=True)
 class FinalState:
-    """Where a run ended.
+    """State of a robot at the end of a run.
 
     Attributes:
-        settled: When it came to rest [s]; None where it did not.
-        drop: How far the root sank [m].
-        drift: How far the root moved along the plane [m].
-        tilt: How far the root's upright axis turned from where it is at zero tilt [rad].
-        centre: Centre of mass in the world at the end [m]; None where nothing weighs.
-        margin: How far inside the support polygon the centre of mass is [m]; negative is outside;
-            None where nothing touches the plane.
-        supports: Links that touch the plane at the end.
-        gain: The most total energy above the start's [J].
-        fell: Whether it fell through the plane.
+        settled: Time at which it came to rest [s]; None if it did not.
+        drop: Distance by which the root sank [m].
+        drift: Distance by which the root moved along the plane [m].
+        tilt: Angle between the z axis of the root and that of the world [rad].
+        center: Center of mass in the world [m]; None if the robot has no mass.
+        margin: Distance from the center of mass, projected along gravity, to the nearest edge of
+            the support polygon [m]; negative outside; None without a contact with the plane.
+        supports: Links in contact with the plane.
+        gain: Maximum increase of the total energy [J].
+        fell: Whether the robot fell through the plane.
     """
+
+    centre = make_deprecated_name("centre", "center")
 
     settled: float | None
     drop: float
     drift: float
     tilt: float
-    centre: tuple[float, float, float] | None
+    center: tuple[float, float, float] | None
     margin: float | None
     supports: tuple[str, ...]
     gain: float
@@ -42,13 +45,13 @@ class FinalState:
 
 
 def measure_final_state(run: Run) -> FinalState:
-    """Measure the end of a run."""
+    """Measure the final state of a run."""
     recording, bodies = run.recording, run.bodies
     root = recording.poses[:, 0, :]
     good = np.isfinite(root).all(axis=1)
     first, last = root[0], root[good][-1]
     supports = tuple(dict.fromkeys(c.one for c in recording.contacts if c.other == GROUND))
-    centre = run.compute_center_of_mass(range(len(bodies.bodies)), -1)
+    center = run.compute_center_of_mass(range(len(bodies.bodies)), -1)
     gain = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf).max()
     size = max(bodies.size, 1e-3)
     lost = (
@@ -60,8 +63,8 @@ def measure_final_state(run: Run) -> FinalState:
         float(first[2] - last[2]),
         float(math.hypot(*(last[:2] - first[:2]))),
         measure_tilt(first, last, run),
-        centre,
-        None if centre is None else _measure_margin(run, centre),
+        center,
+        None if center is None else _measure_margin(run, center),
         supports,
         float(gain),
         bool(lost and not bodies.fixed_base),
@@ -69,7 +72,7 @@ def measure_final_state(run: Run) -> FinalState:
 
 
 def measure_tilt(first: Array, last: Array, run: Run) -> float:
-    """Measure how far the root's upright axis is turned at the end [rad]."""
+    """Measure the angle between the z axis of the root and that of the world at the end [rad]."""
     x, y, z, w = last[3:]
     now = rotation_from_quaternion((w, x, y, z))
     upright = IDENTITY.rotation
@@ -77,23 +80,23 @@ def measure_tilt(first: Array, last: Array, run: Run) -> float:
     return math.acos(max(-1.0, min(1.0, turned[2][2])))
 
 
-def _measure_margin(run: Run, centre: tuple[float, float, float]) -> float | None:
-    """Measure from the center of mass, along gravity, to the support polygon's nearest edge [m]."""
+def _measure_margin(run: Run, center: tuple[float, float, float]) -> float | None:
+    """Measure the distance of the projected center of mass to the support polygon's edge [m]."""
     points = collect_footprint(run)
     if not len(points):
         return None
-    below = np.array([centre[0] + centre[2] * math.tan(run.settings.slope), centre[1]])
+    below = np.array([center[0] + center[2] * math.tan(run.settings.slope), center[1]])
     return support_margin(points, below)
 
 
 def support_margin(points: Array, at: Array) -> float:
-    """Measure how far inside the hull of others a point is [m]; negative is outside.
+    """Measure how far a point is inside the support polygon [m]; negative is outside.
 
     Args:
-        points: Shape (n, 2), at least one.
-        at: Shape (2,).
+        points: Contact points [m], shape (n, 2), at least one; the polygon is their convex hull.
+        at: The point [m], shape (2,).
     """
-    corners = _compute_corners(sorted(set(map(tuple, points.tolist()))))
+    corners = _compute_support_polygon(sorted(set(map(tuple, points.tolist()))))
     if len(corners) < 3:  # a point or a line has no inside
         along = points - points.mean(axis=0)
         _, _, axes = np.linalg.svd(along, full_matrices=True)
@@ -110,8 +113,11 @@ def support_margin(points: Array, at: Array) -> float:
     return margin
 
 
-def _compute_corners(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Compute the convex hull of sorted points, counterclockwise, by Andrew's chains."""
+def _compute_support_polygon(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Compute the support polygon, counterclockwise: the convex hull of sorted contact points.
+
+    Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
+    """
     found: list[tuple[float, float]] = []
     for order in (points, points[::-1]):
         chain: list[tuple[float, float]] = []
@@ -127,7 +133,7 @@ def _compute_corners(points: list[tuple[float, float]]) -> list[tuple[float, flo
 
 
 def find_initial_support_links(run: Run) -> list[str]:
-    """Find the links whose shapes reach lowest at the start."""
+    """Find the links with the lowest collision geometry at the start."""
     bottoms: dict[str, float] = {}
     for body, pose in zip(run.bodies.bodies, run.recording.poses[0], strict=True):
         x, y, z, w = pose[3:].tolist()
@@ -144,7 +150,10 @@ def find_initial_support_links(run: Run) -> list[str]:
 
 
 def collect_footprint(run: Run) -> Array:
-    """Collect the points of the plane that carry the robot at the end [m], shape (n, 2)."""
+    """Collect the points of the support polygon at the end [m], shape (n, 2).
+
+    They are the contacts with the plane, and corners of the collision geometry near the plane.
+    """
     touching = run.recording.carrying
     found = [np.array([contact.point[:2] for contact in touching]).reshape(-1, 2)]
     links = {contact.one for contact in touching}
@@ -165,7 +174,7 @@ def collect_footprint(run: Run) -> Array:
 
 
 def _place_corners(shape: Shape) -> Array:
-    """Place the corners of a shape in its body's frame, (n, 3); round shapes have none."""
+    """Transform the corners of a shape to its body's frame [m], shape (n, 3); round ones: none."""
     if shape.kind not in ("mesh", "box"):
         return np.zeros((0, 3))
     turned = shape.get_corners() @ np.array(shape.pose.rotation).T

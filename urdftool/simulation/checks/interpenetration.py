@@ -1,4 +1,4 @@
-"""Checks of links that overlap: at the start, at rest, and while joints are swept."""
+"""Check interpenetration of links: at the start, at rest, and while joints are swept."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .misplaced_collision import explain_misplaced_collision
 
 
 def get_overlap_depth(start: StateSnapshot) -> float:
-    """Return the depth of an overlap that is reported [m]."""
+    """Return the least penetration depth that is reported [m]."""
     bounds = start.thresholds
     return max(bounds.overlap_depth * start.bodies.size, bounds.contact_depth)
 
 
 def precompute_overlaps(robot: Robot, start: StateSnapshot) -> None:
-    """Compute what :func:`check_interpenetration` needs of a start, and keep it there."""
+    """Compute and store the results that :func:`check_interpenetration` needs of a start."""
     for contact in start.contacts:
         if contact.other != GROUND and contact.depth >= get_overlap_depth(start):
             depth = _measure_depth(robot, start, start, contact)
@@ -35,7 +35,7 @@ def precompute_overlaps(robot: Robot, start: StateSnapshot) -> None:
 
 
 def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report links that overlap at the start, or at the end only."""
+    """Report links that interpenetrate at the start, or at the end only."""
     bodies = run.bodies.bodies
     least = get_overlap_depth(run.start)
     at_start = {_pair(contact) for contact in run.start.contacts}
@@ -49,38 +49,38 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         depth = _measure_depth(robot, run.start, snapshot, contact)
         if depth < least:
             continue
-        beside = _choose_misplaced(robot, run.start, snapshot, contact)
-        if beside is not None:
-            if beside[0] in blamed:
-                continue  # it is in another neighbour, too, for the same reason
-            blamed.add(beside[0])
+        misplaced = _choose_misplaced(robot, run.start, snapshot, contact)
+        if misplaced is not None:
+            if misplaced[0] in blamed:
+                continue  # it interpenetrates another neighbor for the same reason
+            blamed.add(misplaced[0])
         joined = _are_joined(run.start, contact)
         numbers = run.start.get_body(contact.one), run.start.get_body(contact.other)
         thin = min(_measure_extents(bodies[number]).min() for number in numbers)
         brought = "" if joined or snapshot is run.start else _name_moving_joint(run, numbers)
-        fails = beside is not None or bool(
+        fails = misplaced is not None or bool(
             not joined and depth > run.thresholds.overlap_failure * thin and not brought
         )
         mechanism = ""
-        if fails and beside is None:
+        if fails and misplaced is None:
             mechanism = _name_mechanism(robot, run.start, contact)
             fails = not mechanism
         when = "at the start" if snapshot is run.start else "at rest"
-        named = beside[0] if beside else contact.one
+        named = misplaced[0] if misplaced else contact.one
         yield Fault(
             "interpenetration",
             Severity.ERROR if fails else Severity.INFO,
-            f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
-            (robot.link[named].collisions[0] if beside else robot.link[named]).place,
+            f"links '{contact.one}' and '{contact.other}' interpenetrate by {depth:.3g} m {when}",
+            (robot.link[named].collisions[0] if misplaced else robot.link[named]).place,
             "link",
             named,
-            beside[1]
-            if beside
+            misplaced[1]
+            if misplaced
             else _explain_why_ignored(run, numbers)
             if joined
             else brought
             or mechanism
-            or "their collision shapes are too large or misplaced, or the pose is not free",
+            or "their collision geometry is too large or misplaced, or this pose is in collision",
             "collision-off-visual" if fails else "",
         )
 
@@ -96,20 +96,20 @@ def _name_mechanism(robot: Robot, start: StateSnapshot, contact: Contact) -> str
 
 
 def _explain_why_ignored(run: Run, numbers: tuple[int, int]) -> str:
-    """Explain why links that overlap about their joint do not push each other in this run."""
+    """Explain why physics engines ignore, or report, a contact of links that share a joint."""
     count = len(_list_between(run.start, numbers))
     if count < 2:
-        return "the links share a joint, so engines ignore this contact"
+        return "the links share a joint, so physics engines ignore this contact"
     if run.settings.self_collision:
-        return f"{count} joints are between them, so they push each other with --self-collision"
+        return f"{count} joints connect the links, so --self-collision pushes them apart"
     return (
-        f"{count} joints are between them: engines that let the links of a robot collide push "
-        "them apart"
+        f"{count} joints connect the links; physics engines push them apart if self-collision is "
+        "enabled"
     )
 
 
 def _name_moving_joint(run: Run, numbers: tuple[int, int]) -> str:
-    """Say which joint took two bodies into each other since the start; empty if none did."""
+    """Name the joint whose motion made two bodies overlap; empty if none did."""
     moved = run.recording.positions[-1] - run.recording.positions[0]
     columns = [number - 1 for number in _list_between(run.start, numbers)]
     far = [
@@ -119,9 +119,9 @@ def _name_moving_joint(run: Run, numbers: tuple[int, int]) -> str:
         return ""
     most = max(far, key=lambda column: abs(float(moved[column])))
     return (
-        f"joint '{run.recording.joints[most]}' took them there: it went to "
-        f"{run.recording.positions[-1, most]:.3g}, and parts go through each other without "
-        "--self-collision"
+        f"caused by joint '{run.recording.joints[most]}' moving to "
+        f"{run.recording.positions[-1, most]:.3g}; use --self-collision to enable contacts between "
+        "links"
     )
 
 
@@ -133,9 +133,9 @@ def _compute_overlap_motion(run: Run, column: int) -> float:
 def _measure_depth(
     robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact
 ) -> float:
-    """Measure how deep two links overlap [m], at most as deep as their triangles.
+    """Measure the penetration depth of two links by the triangles of their meshes [m].
 
-    Where those are not deep enough to count, it may be 0.
+    A depth that is not reported may be 0.
     """
     least = get_overlap_depth(start)
     if _are_joined(start, contact):
@@ -150,7 +150,7 @@ def _measure_depth(
 def _choose_misplaced(
     robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact
 ) -> tuple[str, str] | None:
-    """Choose the one of two joined links whose collision geometry is misplaced, and say why."""
+    """Choose the one of two joined links whose collision geometry is misplaced, with the reason."""
     if not _are_joined(start, contact):
         return None
 
@@ -170,7 +170,7 @@ def _are_joined(start: StateSnapshot, contact: Contact) -> bool:
     Such parts overlap around their joint by design.
     """
     numbers = start.get_body(contact.one), start.get_body(contact.other)
-    return start.get_or_compute(("joined", *numbers), lambda: _is_share_joint(start, numbers))
+    return start.get_or_compute(("joined", *numbers), lambda: _has_common_joint(start, numbers))
 
 
 def _list_between(start: StateSnapshot, numbers: tuple[int, int]) -> list[int]:
@@ -186,7 +186,7 @@ def _list_between(start: StateSnapshot, numbers: tuple[int, int]) -> list[int]:
     return [index for chain in above for index in chain[: chain.index(common)]]
 
 
-def _is_share_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
+def _has_common_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
     bodies = start.bodies.bodies
     path = _list_between(start, numbers)
     between = {*path, *(bodies[index].parent for index in path)} - set(numbers)
@@ -199,7 +199,7 @@ def _is_share_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
 
 
 def _measure_extents(body: RigidBody) -> Array:
-    """Measure the box around the collision geometry of a body [m], shape (3,)."""
+    """Measure the edges of the bounding box of the collision geometry of a body [m], shape (3,)."""
     boxes = [shape.get_bounds() for shape in body.shapes]
     low = np.min([low for low, _ in boxes], axis=0)
     high = np.max([high for _, high in boxes], axis=0)
@@ -212,24 +212,24 @@ def _pair(contact: Contact) -> frozenset[str]:
 
 
 def check_sweep(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report links that overlap where a joint moves through its limits."""
+    """Report links that interpenetrate while a joint moves through its limits."""
     least = get_overlap_depth(run.start)
     for joint in run.swept:
         hits = sorted((hit for hit in joint.hits if hit.depth > least), key=lambda hit: -hit.depth)
         if not hits:
             continue
         hit = hits[0]
-        more = f", and {len(hits) - 1} more pairs" if len(hits) > 1 else ""
+        more = f" (and {len(hits) - 1} more pairs)" if len(hits) > 1 else ""
         part = robot.joint[joint.joint]
         yield Fault(
             "blocked",
             Severity.INFO,
-            f"joint '{joint.joint}' may go from {joint.lower:.3g} to {joint.upper:.3g} and is free "
-            f"from {joint.free_lower:.3g} to {joint.free_upper:.3g}: beyond, '{hit.one}' and "
-            f"'{hit.other}' overlap{more}",
+            f"limits of joint '{joint.joint}' are {joint.lower:.3g} to {joint.upper:.3g}, but only "
+            f"{joint.free_lower:.3g} to {joint.free_upper:.3g} is free of collision; beyond it, "
+            f"links '{hit.one}' and '{hit.other}' interpenetrate{more}",
             (part.limit or part).place,
             "joint",
             joint.joint,
-            "its limits are wider than its parts allow, by the hulls of their collision shapes; "
-            "or one of those is too large",
+            "the limits exceed the collision-free range (measured on convex hulls), or a collision "
+            "shape is too large",
         )

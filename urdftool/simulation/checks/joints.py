@@ -1,4 +1,4 @@
-"""Checks of joints that leave their target or limits, or need more effort than they have."""
+"""Check joints for drift from their target, limits, and effort."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ from .settling import is_swinging
 
 
 def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    """Report joints that left their target or limits, and those that need much effort."""
+    """Report joints that left their target or limits, and joints near their effort limit."""
     recording = run.recording
     if not recording.joints:
         return
     if recording.ended != "lost" and not state.fell:
-        sagging = list(_report_joint_drift(robot, run, state))
-        yield from sagging
+        drifting = list(_report_joint_drift(robot, run, state))
+        yield from drifting
         yield from _report_beyond_limits(robot, run)
         yield from _report_misled_mimics(robot, run)
-        if not sagging:
+        if not drifting:
             yield from check_collapse(robot, run)
             yield from _report_near_effort_limit(robot, run)
     yield from _report_without_effort(robot, run)
@@ -41,7 +41,7 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         yield Fault(
             "zero-outside-limits",
             Severity.INFO,
-            f"joint '{name}' cannot be at zero and starts at {value:.4g}, its nearest limit",
+            f"joint '{name}' starts at its limit {value:.4g} because 0 is outside its range",
             _make_joint(robot, name).place,
             "joint",
             name,
@@ -51,8 +51,8 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         yield Fault(
             "loop-open",
             Severity.INFO,
-            f"'{closure.name or closure.type}' closes a loop, and is not simulated; the joints of "
-            "the loop are held one by one",
+            f"'{closure.name or closure.type}' closes a kinematic loop and is not simulated; the "
+            "joints of the loop are held separately",
             closure.place,
             "joint",
             closure.name,
@@ -68,8 +68,8 @@ def _open_loops(robot: Robot) -> Iterator[Fault]:
             yield Fault(
                 "loop-open",
                 Severity.INFO,
-                f"joint '{element.get('name') or ''}' in <gazebo> closes a loop, and is not "
-                "simulated; the joints of the loop are held one by one",
+                f"joint '{element.get('name') or ''}' in <gazebo> closes a kinematic loop and is "
+                "not simulated; the joints of the loop are held separately",
                 element.place,
                 "joint",
                 element.get("name") or "",
@@ -81,7 +81,7 @@ def _make_joint(robot: Robot, name: str) -> Joint:
 
 
 def get_drift_bound(joint: RigidBodyJoint, run: Run) -> float:
-    """Return how far a held joint may be off its target [rad, m]."""
+    """Return the distance from its target above which a held joint is reported [rad, m]."""
     bounds = run.thresholds
     if joint.kind == "prismatic":
         return bounds.joint_drift_slide * max(run.bodies.size, 1e-3)
@@ -89,7 +89,7 @@ def get_drift_bound(joint: RigidBodyJoint, run: Run) -> float:
 
 
 def _limit_bound(joint: RigidBodyJoint, run: Run) -> float:
-    """Return how far a joint may be beyond a limit [rad, m]."""
+    """Return the distance beyond a limit above which a joint is reported [rad, m]."""
     bounds = run.thresholds
     if joint.kind == "prismatic":
         return bounds.limit_slide * max(run.bodies.size, 1e-3)
@@ -109,30 +109,30 @@ def _report_joint_drift(robot: Robot, run: Run, state: FinalState) -> Iterator[F
         if not abs(now - target) > get_drift_bound(joint, run):
             continue
         if state.settled is not None and _rolls(run, column):
-            continue  # it was set down so, or slid; whether it stands does not depend on it
+            continue  # the wheel turned or slid; whether the robot stands does not depend on it
         need = compute_needed_effort(run, column)
         length, force = _collect_units(joint)
         allowed = joint.effort
         if allowed is None:
-            why = "no effort is written, and it was held without bound: something pushes it away"
+            why = "the joint has no effort limit; contacts push it away from its target"
         elif need is not None and abs(need) > allowed:
-            why = f"to hold it takes {abs(need):.4g} {force}, and it may use {allowed:.4g}"
+            why = f"holding it requires {abs(need):.4g} {force}; its effort limit is {allowed:.4g}"
         elif state.settled is None and is_swinging(run, column):
             why = (
-                f"it swings: the {allowed:.4g} {force} that it may use brake what it moves too "
-                "late; something struck that, or its inertia is too large"
+                f"the joint oscillates: the effort limit {allowed:.4g} {force} is too low to stop "
+                "the moving inertia"
             )
         elif (
             abs(used := float(recording.efforts[-1, column])) > run.thresholds.near_effort * allowed
         ):
-            why = f"it may use {allowed:.4g} {force}, which was not enough"
+            why = f"the effort limit {allowed:.4g} {force} is reached and too low"
         else:
-            why = f"it uses {abs(used):.4g} of the {allowed:.4g} {force} that it may: "
+            why = f"the motor uses {abs(used):.4g} of {allowed:.4g} {force}: "
             why += _explain_why_idle(run, column)
         yield Fault(
             "joint-drift",
             Severity.ERROR,
-            f"joint '{joint.name}' is held at {target:.3g} {length} and "
+            f"joint '{joint.name}' is held at {target:.3g} {length} but "
             f"{'is' if state.settled is None else 'came to rest'} at {now:.3g} {length}",
             (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
             "joint",
@@ -143,9 +143,10 @@ def _report_joint_drift(robot: Robot, run: Run, state: FinalState) -> Iterator[F
 
 
 def _rolls(run: Run, column: int) -> bool:
-    """Tell whether a joint is that of a wheel on a level floor, which needs no effort.
+    """Tell whether a joint is that of a wheel on level ground, which requires no effort.
 
-    A wheel turns without end, touches the floor itself, and its mass is on its axis.
+    The joint of a wheel is continuous, its body makes contact with the ground, and the center of
+    mass is on the axis.
     """
     body = run.bodies.bodies[column + 1]
     joint = body.joint
@@ -154,27 +155,26 @@ def _rolls(run: Run, column: int) -> bool:
     touching = {contact.one for contact in run.recording.contacts if contact.other == GROUND}
     if body.properties is None or not touching & set(body.links):
         return False
-    centre = np.array(body.properties.com)
-    off = centre - np.array(joint.axis) * (centre @ np.array(joint.axis))
+    center = np.array(body.properties.com)
+    off = center - np.array(joint.axis) * (center @ np.array(joint.axis))
     return bool(np.linalg.norm(off) < run.thresholds.wheel_offset * run.bodies.size)
 
 
 def _explain_why_idle(run: Run, column: int) -> str:
-    """Explain why a joint is off its target though it could use more effort."""
+    """Explain why a joint is off its target below its effort limit."""
     body = run.bodies.bodies[column + 1]
     if body.properties is not None and is_impossible(
         body.properties.tensor, run.thresholds.tensor_excess
     ):
-        return f"link '{body.name}' has a physically inconsistent inertia"
-    return "it is blocked, or moves too slowly to be there in time"
+        return f"link '{body.name}' has a physically inconsistent inertia tensor"
+    return "the joint is blocked, or too slow to reach its target in time"
 
 
 def compute_needed_effort(run: Run, column: int) -> float | None:
-    """Compute the effort that a joint needs to hold its load where the run began [N·m, N].
+    """Compute the effort that a joint requires to hold its load at the start [N·m, N].
 
-    The static balance of weights: each body beyond the joint pulls at its center of mass, and its
-    spring where it is at state. None where something beyond the joint touches the plane, which then
-    carries a part.
+    It balances the weights of all bodies beyond the joint, at their centers of mass, and the spring
+    of the joint. None if a body beyond the joint makes contact with the plane.
     """
     bodies, recording = run.bodies.bodies, run.recording
     first = column + 1
@@ -193,13 +193,13 @@ def compute_needed_effort(run: Run, column: int) -> float | None:
     axis = turn @ np.array(joint.axis)
     total = joint.stiffness * (float(recording.positions[0, column]) - joint.spring_rest)
     for number in beyond:
-        mass, center = bodies[number].weight
-        centre = pose[number, :3] + _get_rotation(pose[number]) @ center
+        mass, com = bodies[number].weight
+        center = pose[number, :3] + _get_rotation(pose[number]) @ com
         weight = mass * gravity
         if joint.kind == "prismatic":
             total -= float(axis @ weight)
         else:
-            total -= float(axis @ np.cross(centre - pose[first, :3], weight))
+            total -= float(axis @ np.cross(center - pose[first, :3], weight))
     return total
 
 
@@ -209,7 +209,7 @@ def _get_rotation(pose: np.ndarray) -> np.ndarray:
 
 
 def _report_misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report mimic joints that their leader takes beyond a limit of their own."""
+    """Report mimic joints that their leader moves beyond a limit of their own."""
     columns = {name: column for column, name in enumerate(run.recording.joints)}
     for joint in run.bodies.joints:
         if joint.leader not in columns:
@@ -229,7 +229,7 @@ def _report_misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
             (mimic or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
-            "the multiplier or offset of its <mimic> is wrong, or its limits are",
+            "the multiplier or offset of its <mimic>, or its limits, are wrong",
             "mimic-limits-inconsistent",
         )
 
@@ -250,9 +250,9 @@ def _report_beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
             (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
-            "it starts there, or what it mimics takes it there"
+            "the joint starts there, or follows its <mimic> leader there"
             if joint.leader or not joint.lower <= run.bodies.positions[joint.name] <= joint.upper
-            else "something pushes it there",
+            else "contacts push it there",
             "zero-outside-limits",
         )
 
@@ -268,13 +268,13 @@ def _report_near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
             need = compute_needed_effort(run, column)
             idle = need is not None and abs(need) < near
             if idle or _rolls(run, column):
-                continue  # it is on its way back, or wheels push against each other
+                continue  # the joint returns to its target, or wheels push against each other
             _, force = _collect_units(joint)
             yield Fault(
                 "near-effort-limit",
                 Severity.INFO,
-                f"joint '{joint.name}' uses {used:.4g} {force} to stand, of {joint.effort:.4g} it "
-                "may",
+                f"joint '{joint.name}' requires {used:.4g} {force} at rest; its effort limit is "
+                f"{joint.effort:.4g}",
                 (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
                 "joint",
                 joint.name,
@@ -292,13 +292,13 @@ def _report_without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
         yield Fault(
             "no-effort",
             Severity.INFO,
-            f"joint '{names[0]}'{more} {'have' if more else 'has'} no effort above zero, and "
-            f"{'were' if more else 'was'} held without bound",
+            f"joint '{names[0]}'{more} {'have' if more else 'has'} no effort limit above zero and "
+            f"{'were' if more else 'was'} held with unlimited effort",
             _make_joint(robot, names[0]).place,
             "joint",
             names[0],
-            "write <limit effort> to see whether it can bear its load; Gazebo drives no joint of "
-            "effort zero",
+            "write <limit effort> to check whether the joint can hold its load; Gazebo does not "
+            "actuate a joint of effort zero",
             "zero-effort-limit",
         )
 
@@ -314,13 +314,13 @@ def _report_capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
         yield Fault(
             "damping-capped",
             Severity.INFO,
-            f"joint '{joint.name}' has a damping of {joint.damping:.4g} {force}·s/{length}, of "
-            f"which {had:.4g} was simulated",
+            f"damping of joint '{joint.name}' was reduced from {joint.damping:.4g} to {had:.4g} "
+            f"{force}·s/{length} for numerical stability",
             (part.dynamics or part).place,
             "joint",
             joint.name,
-            "more would drive what it moves instead of braking it at this timestep; --timestep "
-            f"{least:.1g} bears all of it",
+            "the specified damping is unstable with explicit integration at this time step; use "
+            f"--timestep {least:.1g}",
             "stiff-joint-damping",
         )
 
@@ -335,7 +335,7 @@ def _report_not_held(robot: Robot, run: Run) -> Iterator[Fault]:
         yield Fault(
             "not-held",
             Severity.INFO,
-            f"nothing held {shown}: the file actuates other joints",
+            f"joint {shown} was not held, because the file has no actuator for it",
             _make_joint(robot, names[0]).place,
             "joint",
             names[0],

@@ -1,8 +1,8 @@
-"""Tell whether two parts that overlap belong to a mechanism: a pin, a telescope, or a piston.
+"""Recognize mechanisms, whose links overlap by design: a pin, a telescope, or a piston.
 
-URDF is a tree, so a mechanism that closes a loop is written as branches that follow one joint.
-Where the branches meet, in a pin or a cylinder, their parts overlap by design, and they do so
-wherever the joint is. Parts that are misplaced move into each other or apart.
+URDF is a tree, so a mechanism that closes a loop is written as branches that mimic one joint.
+Where the branches meet, in a pin or a cylinder, their links overlap equally at all positions of the
+joint. The overlap of misplaced links varies with the position.
 """
 
 from __future__ import annotations
@@ -20,30 +20,30 @@ from ..rigid_bodies import RigidBody, RigidBodyJoint
 from ..state import StateSnapshot
 
 _STEPS = 5
-_WIDE = 1.0  # rad: how far a joint is moved to each side that has no limits
+_WIDE = 1.0  # rad: range to each side of a joint without limits
 
 
 def find_mechanism(
     robot: Robot, start: StateSnapshot, links: tuple[str, str], between: Sequence[int]
 ) -> str:
-    """Name the mechanism that two links which overlap at the start belong to; empty if none.
+    """Describe the mechanism to which two links belong that overlap at the start; empty if none.
 
     Args:
-        robot: The robot, which finds its meshes.
-        start: Where its bodies are.
+        robot: The robot, read from a description.
+        start: State of the robot at the start.
         links: Two links of different bodies.
-        between: The bodies whose joints are between these two, as numbers.
+        between: Indices of the bodies whose joints connect the two links.
     """
     bodies = start.bodies.bodies
     ends = start.get_body(links[0]), start.get_body(links[1])
     joints = [joint for number in between if (joint := bodies[number].joint) is not None]
     if _is_serial(bodies, ends):
         if _slides(start, between):
-            return "they slide in each other, as the parts of a telescope do"
+            return "the links are parts of a telescope, connected by parallel prismatic joints"
     elif _is_coaxial(start, ends):
-        return "they lie on a common axis, as a piston and its cylinder do"
+        return "the links are on a common axis, as a piston and its cylinder"
     if len(joints) > 1 and _keeps_overlap(robot, start, links, joints):
-        return "their overlap is the same wherever the joint is that moves both, as at a pin"
+        return "the overlap is equal at all positions of the joint that moves both, as at a pin"
     return ""
 
 
@@ -71,7 +71,7 @@ def _slides(start: StateSnapshot, between: Sequence[int]) -> bool:
 
 
 def _is_coaxial(start: StateSnapshot, ends: tuple[int, int]) -> bool:
-    """Tell whether two bodies are long, one thinner than the other, and on one axis."""
+    """Tell whether two bodies are elongated, on one axis, and one is thinner than the other."""
     found = [_find_long_axis(start, number) for number in ends]
     if found[0] is None or found[1] is None:
         return False
@@ -87,7 +87,7 @@ def _is_coaxial(start: StateSnapshot, ends: tuple[int, int]) -> bool:
 def _find_long_axis(start: StateSnapshot, number: int) -> tuple[Array, Array, float] | None:
     """Find center, long axis and width of a body's collision geometry, in the world [m].
 
-    None where it is not clearly longer than wide.
+    None if it is not clearly longer than wide.
     """
     corners = []
     for shape in start.bodies.bodies[number].shapes:
@@ -115,7 +115,7 @@ def _find_long_axis(start: StateSnapshot, number: int) -> tuple[Array, Array, fl
 def _keeps_overlap(
     robot: Robot, start: StateSnapshot, links: tuple[str, str], joints: Sequence[RigidBodyJoint]
 ) -> bool:
-    """Tell whether two links overlap as deep wherever the one joint is that moves both."""
+    """Tell whether the penetration depth is equal at all positions of the joint that moves both."""
     leaders = {_find_leader(start, joint).name for joint in joints}
     if len(leaders) != 1:
         return False
@@ -129,7 +129,7 @@ def _keeps_overlap(
         positions = {**start.bodies.positions, leader.name: value}
         for joint in start.bodies.joints:
             if joint.leader is not None:
-                positions.pop(joint.name, None)  # which follow
+                positions.pop(joint.name, None)  # computed from its leader
         poses = link_poses(robot, add_mimic_positions(robot, positions))
         depth = measure_triangle_penetration(robot, poses, *links)
         if depth is None:

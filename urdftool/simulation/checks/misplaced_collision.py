@@ -1,8 +1,8 @@
 """Find collision geometry that is not where the file puts the rest of its link.
 
-Links that share a joint overlap by design, often wholly, so the depth tells nothing. Visual, center
-of mass and frame of a link show where it is; collision geometry that is in the neighbor and away
-from them is misplaced.
+Links that share a joint overlap by design, often completely, so the depth is no criterion. Visual,
+center of mass and frame of a link show where the link is; collision geometry that overlaps the
+neighbor and is away from them is misplaced.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from .thresholds import Thresholds
 def explain_misplaced_collision(
     robot: Robot, snapshot: StateSnapshot, link: str, other: int
 ) -> str | None:
-    """Say why collision geometry that overlaps a neighbor's is misplaced; None if it is not.
+    """Explain why collision geometry that overlaps a neighbor's is misplaced; None if it is not.
 
     Args:
-        robot: The robot, which finds its meshes.
-        snapshot: Where its bodies are.
-        link: A link.
-        other: Number of the body that a joint joins to its own.
+        robot: The robot, read from a description.
+        snapshot: State of the robot.
+        link: Name of the link.
+        other: Index of the body on the other side of a joint of the link's body.
     """
     part, bounds = robot.link[link], snapshot.thresholds
     box, shown_box = (
@@ -42,7 +42,7 @@ def explain_misplaced_collision(
     if box is None:
         return None
     if shown_box is not None and (moved := _copy_moved(box, shown_box, bounds)):
-        return f"the collision of '{link}' is as large as what is seen of it, and {moved:.3g} m off"
+        return f"collision of '{link}' has the size of its visual but is offset by {moved:.3g} m"
     bodies = snapshot.bodies.bodies
     own = snapshot.get_body(link)
     around = _is_housing(box, shown_box, snapshot, link, other)
@@ -58,7 +58,7 @@ def explain_misplaced_collision(
     if not smaller:
         return None
 
-    def share() -> float:  # the same for both of two bodies of a link each
+    def share() -> float:  # symmetric, if both bodies have one link
         key = ("share", frozenset((link, *at)))
         return snapshot.get_or_compute(key, lambda: touches.compute_shared_volume(theirs)) / smaller
 
@@ -76,19 +76,21 @@ def explain_misplaced_collision(
                 < (1 - bounds.outside_visuals) * touches.volume
             ):
                 return (
-                    f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
-                    f"{more:.0%} more of the collision of '{link}' would be in that"
+                    f"collision of '{link}' is offset from its visual by about "
+                    f"{np.linalg.norm(off):.3g} m (centering it would increase the overlap by "
+                    f"{more:.0%})"
                 )
     if around:
         return None
     if is_offset_from_visual(robot, link, bounds.box_overlap) and share() > bounds.neighbor_overlap:
-        what = "what is seen of it" if shown_box is not None else "its mass"
-        return f"the collision of '{link}' lies beside {what}"
+        if shown_box is not None:
+            return f"collision of '{link}' does not overlap its visual"
+        return f"collision of '{link}' does not contain its center of mass"
     low, high = box
     if not part.visuals and not part.mass:
         away = float(np.linalg.norm(np.maximum(0.0, np.maximum(low, -high))))
         if away > float((high - low).max()):
-            return f"the collision of '{link}' is {away:.3g} m away from its own frame"
+            return f"collision of '{link}' is {away:.3g} m away from the frame of the link"
         return None
     if not seen:
         return None
@@ -102,21 +104,21 @@ def explain_misplaced_collision(
         return None
     if unlike:
         return (
-            f"the collision of '{link}' is moved from what is seen of it, and {gain:.0%} more of "
-            "the two is in each other"
+            f"collision of '{link}' is offset from its visual, which increases its overlap with "
+            f"the neighboring link by {gain:.0%}"
         )
-    return f"the collision of '{link}' lies beside its mass"
+    return f"collision of '{link}' does not contain its center of mass"
 
 
 def _are_unlike(touches: Solids, seen: Solids, bounds: Thresholds) -> bool:
-    """Tell whether less is in both solids than if one were the other."""
+    """Tell whether collision and visual overlap less than a correctly placed pair does."""
     return touches.compute_shared_volume(seen) < bounds.unlike_overlap * min(
         touches.volume, seen.volume
     )
 
 
 def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array], bounds: Thresholds) -> float:
-    """Measure how far a collision is off a visual of its size [m]; 0 if near, or not its size."""
+    """Measure the offset of a collision from a visual of equal size [m]; 0 if near, or unequal."""
     size, size_seen = box[1] - box[0], shown[1] - shown[0]
     largest = float(size_seen.max())
     if (np.abs(size - size_seen) > bounds.copy_size * largest).any():
@@ -129,7 +131,7 @@ def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array], bounds: Th
 def _may_fit_better(
     touches: Solids, box: tuple[Array, Array], off: Array, bounds: Thresholds
 ) -> bool:
-    """Tell, by boxes, whether centering a collision can bring enough into its visual."""
+    """Return whether, by bounding boxes, centering a collision can increase the overlap enough."""
     size = box[1] - box[0]
     swept = float(np.abs(off) @ (np.prod(size) / np.maximum(size, 1e-12)))
     return swept > bounds.better_fit * touches.volume
@@ -138,14 +140,14 @@ def _may_fit_better(
 def _measure_better_fit(
     touches: Solids, off: Array, seen: Solids, theirs: Solids, bounds: Thresholds
 ) -> float:
-    """Measure how much more of a collision is in its visual when it is moved, as a part of it.
+    """Measure by which part of its volume the overlap of a collision and its visual grows if moved.
 
     Args:
-        touches: The collision.
-        off: How it is moved [m].
-        seen: The visual.
-        theirs: What touches of the neighbour, of which it may share no more when it is moved.
-        bounds: The thresholds.
+        touches: Collision geometry.
+        off: Translation [m].
+        seen: Visual geometry.
+        theirs: Collision geometry of the neighbor; 0 is returned if the overlap with it grows.
+        bounds: Thresholds.
     """
     moved = touches.transform(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
     more = (
@@ -161,8 +163,8 @@ def _is_nearer_mass(part: Link, box: tuple[Array, Array], off: Array) -> bool:
     """Tell whether a moved collision is nearer to the center of mass of its link."""
     if not part.mass or part.inertial is None:
         return False
-    centre = np.array(part.inertial.origin.xyz if part.inertial.origin else (0.0, 0.0, 0.0))
-    away = centre - (box[0] + box[1]) / 2
+    center = np.array(part.inertial.origin.xyz if part.inertial.origin else (0.0, 0.0, 0.0))
+    away = center - (box[0] + box[1]) / 2
     return bool(np.linalg.norm(away - off) < np.linalg.norm(away))
 
 
@@ -173,29 +175,29 @@ def _is_housing(
     link: str,
     other: int,
 ) -> bool:
-    """Tell whether a collision surrounds the joint of a link and a neighbor, as motors do.
+    """Tell whether a collision surrounds the joint of a link and a neighbor: a motor housing.
 
     Args:
-        box: Around the collision, in the link's frame.
-        shown: Around what is seen of the link.
-        snapshot: Where the bodies are.
-        link: The link.
-        other: Number of the neighbour's body.
+        box: Bounding box of the collision, in the link's frame [m].
+        shown: Bounding box of the visuals [m]; None without visuals.
+        snapshot: State of the robot.
+        link: Name of the link.
+        other: Index of the neighbor's body.
     """
     bodies = snapshot.bodies.bodies
     own = snapshot.get_body(link)
     place = bodies[own].places[link].invert()
-    centre, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
-    if bodies[other].parent == own:  # the joint is the neighbour's
+    center, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
+    if bodies[other].parent == own:  # the joint of the neighbor
         joint = np.array((place @ bodies[other].origin).translation)
     elif (
         shown is None
         or (box[1] - box[0]).max() < snapshot.thresholds.housing_size * (shown[1] - shown[0]).max()
     ):
         joint = np.array(place.translation)
-    else:  # a part as long as what is seen of it is no housing of its own joint
+    else:  # collision as long as the visual is not a housing of the link's own joint
         return False
-    return float(np.linalg.norm(centre - joint)) < snapshot.thresholds.housing_offset * size
+    return float(np.linalg.norm(center - joint)) < snapshot.thresholds.housing_offset * size
 
 
 def _make_union(some: Iterable[Solids]) -> Solids:
@@ -223,7 +225,7 @@ def _build_collision_solid(robot: Robot, shape: Shape, collision: Collision) -> 
     """Build the convex pieces of a collision in its own frame."""
     geometry = collision.geometry
     if isinstance(geometry, Mesh):
-        counts = tuple(map(len, shape.pieces))  # what is tried on bodies may have other pieces
+        counts = tuple(map(len, shape.pieces))  # a candidate may have other pieces
         key = ("solids", geometry.filename, geometry.scale, counts)
         return compute_hulls(compute_once(robot, key, lambda: find_outermost(shape.pieces)))
     return compute_hulls([tessellate_primitive_triangles(collision).reshape(-1, 3)])
@@ -258,8 +260,8 @@ def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
 
     Args:
         robot: The robot.
-        name: Of the link.
-        overlap: How much of the smaller bounding box is in the other along each axis, at least.
+        name: Name of the link.
+        overlap: Least part of the smaller bounding box that is in the other, along each axis.
     """
     link = robot.link[name]
     touches, seen = (
@@ -276,7 +278,7 @@ def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
 
 
 def list_visuals_with_known_pose(link: Link) -> list[Visual]:
-    """List the visuals of a link without glTF, whose up axis readers differ in."""
+    """List the visuals of a link without glTF, for which readers use different up axes."""
     return [
         visual
         for visual in link.visuals
@@ -288,11 +290,11 @@ def list_visuals_with_known_pose(link: Link) -> list[Visual]:
 
 
 def is_offset_from_com(robot: Robot, name: str) -> bool:
-    """Tell whether a link's center of mass is more than half a box outside its collision box."""
+    """Tell whether the center of mass is over half a box outside the collision's bounding box."""
     link = robot.link[name]
     touches = compute_bounding_box(robot, link.collisions)
     if touches is None or not link.mass or link.inertial is None:
         return False
-    centre = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))
+    center = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))
     slack = (touches[1] - touches[0]) / 2
-    return bool((centre < touches[0] - slack).any() or (centre > touches[1] + slack).any())
+    return bool((center < touches[0] - slack).any() or (center > touches[1] + slack).any())

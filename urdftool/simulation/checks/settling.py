@@ -1,4 +1,4 @@
-"""Checks of the end of a run: diverged, fallen, or not at rest, and why it still moves."""
+"""Check the end of a run: diverged, fallen, or not at rest, with the cause of the motion."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
     size = max(bodies.size, 1e-3)
     top = robot.link[bodies.bodies[0].name]
     heavy = max(bodies.mass * run.settings.gravity * size, 1e-9)
-    blew = recording.ended == "lost" or state.gain > run.thresholds.energy_gain * heavy + 1e-3
-    if blew and not state.fell:
+    diverged = recording.ended == "lost" or state.gain > run.thresholds.energy_gain * heavy + 1e-3
+    if diverged and not state.fell:
         name = _format_fastest_link(run)
-        gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "beyond all bounds"
+        gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "without bound"
         yield Fault(
             "diverged",
             Severity.ERROR,
-            f"it blew up: its energy grew {gain} at {_time_of_most_energy(recording):.2f} s, "
-            f"most of it in link '{name}'",
+            f"simulation diverged at {_time_of_most_energy(recording):.2f} s: total energy "
+            f"increased {gain}; fastest link '{name}'",
             robot.link[name].place,
             "link",
             name,
-            "parts that start in each other push each other off, or a link is far lighter, or its "
-            "inertia far smaller, than what hangs on it",
+            "likely cause: overlapping collision geometry at spawn, or a link much lighter than "
+            "its children",
             "tiny-moving-inertia",
         )
         return
@@ -45,13 +45,13 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         yield Fault(
             "fell-through",
             Severity.ERROR,
-            "it fell through the floor",
+            "the robot fell through the ground",
             top.place,
             "link",
             top.name,
-            "a part that could touch the floor was below it at the start"
+            "collision geometry started below the ground plane"
             if touching
-            else "no link has a <collision>, so nothing of it can touch",
+            else "no link has a <collision>, so no contact is possible",
             "missing-collision",
         )
         return
@@ -62,8 +62,8 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         yield Fault(
             "not-settled",
             Severity.ERROR,
-            f"it did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still {does}"
-            f"{at}",
+            f"the robot did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still "
+            f"{does}{at}",
             robot.link[name].place,
             "link",
             name,
@@ -89,14 +89,14 @@ def _format_fastest_link(run: Run) -> str:
 
 
 def _find_fastest_motion(run: Run) -> tuple[str, str]:
-    """Find the link that moves most at the end, and say how: it turns if none moves away."""
+    """Find the fastest link at the end, with its motion: rotation if no link translates."""
     speeds = _compute_speeds(run)
     rates = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, 3:]), axis=1)
     turning = int(rates.argmax())
     bounds, window = run.thresholds, run.thresholds.settle_window
     slow = speeds.max() * window < bounds.settle_creep * run.bodies.size
     if slow and rates[turning] * window > bounds.settle_turn:
-        return run.recording.bodies[turning], f"turns at {rates[turning]:.3g} rad/s"
+        return run.recording.bodies[turning], f"rotates at {rates[turning]:.3g} rad/s"
     return _format_fastest_link(run), f"moves at {speeds.max():.3g} m/s"
 
 
@@ -109,40 +109,41 @@ def _collect_fastest_joint(recording: Recording) -> tuple[str, float] | None:
 
 
 def diagnose_motion(run: Run, drift: float) -> str:
-    """Name the most probable reason why a robot still moves.
+    """Diagnose the most probable cause of motion at the end of a run.
 
     Args:
         run: A run that did not come to rest.
-        drift: How far its root moved along the plane [m].
+        drift: Distance by which the root moved along the plane [m].
     """
     recording, joints, bounds = run.recording, run.bodies.joints, run.thresholds
     moves = [_moves(run, column) for column in range(len(joints))]
     loose = [j for j in joints if j.name not in run.bodies.held and not j.leader]
     if any(moves[recording.joints.index(joint.name)] for joint in loose):
         damped = any(joint.damping or joint.friction for joint in loose)
-        which = f"joint '{loose[0].name}'" if len(loose) == 1 else f"{len(loose)} of its joints"
-        it, its = ("it", "its") if len(loose) == 1 else ("them", "their")
-        brake = f"has not stopped {it} yet" if damped else "is zero"
-        return f"nothing holds {which}, and {its} damping {brake}"
+        if len(loose) == 1:
+            damping = "damping has not stopped it yet" if damped else "it has no damping"
+            return f"joint '{loose[0].name}' is not held, and {damping}"
+        damping = "damping has not stopped them yet" if damped else "they have no damping"
+        return f"{len(loose)} joints are not held, and {damping}"
     swinging = [joint.name for column, joint in enumerate(joints) if is_swinging(run, column)]
     if swinging:
-        does = "swing about where they are" if len(swinging) > 1 else "swings about where it is"
-        return f"joint {quote_names(swinging)} {does} held"
+        if len(swinging) > 1:
+            return f"joints {quote_names(swinging)} oscillate about their targets"
+        return f"joint {quote_names(swinging)} oscillates about its target"
     weak = [j.name for column, j in enumerate(joints) if moves[column] and _yields(run, column)]
     if weak:
-        them = "them" if len(weak) > 1 else "it"
-        return f"joint {quote_names(weak)} may use less effort than it takes to hold {them}"
+        return f"effort limit of joint {quote_names(weak)} is too low to hold the load"
     if not run.bodies.fixed_base and drift > run.bodies.size:
-        return "it rolls or slides along the floor"
+        return "the robot rolls or slides along the ground"
     velocities = np.abs(np.nan_to_num(recording.velocities[-1]))
     slow = velocities[:, :3].max() < bounds.creep_speed * run.bodies.size
     slow = slow and velocities[:, 3:].max() < bounds.creep_rate
     engine = recording.capabilities
     if slow and engine.creeps:
         other = name_alternative(engine.name, lambda known: not known.creeps)
-        advice = f": {other} has others" if other else ""
-        return f"it creeps, which may be the engine's contacts{advice}"
-    return "parts push against each other, or it rolls"
+        advice = f"; compare with {other}" if other else ""
+        return f"the robot creeps, which the contacts of {engine.title} may cause{advice}"
+    return "links push against each other, or the robot rolls"
 
 
 def _moves(run: Run, column: int) -> bool:

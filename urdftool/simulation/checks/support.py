@@ -1,4 +1,4 @@
-"""Checks of what carries a robot at rest: enough of it, and by wheels or feet if it has some."""
+"""Check the support of a robot at rest: its support polygon, and contacts of wheels and feet."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .final_state import FinalState
 
 
 def check_support(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    """Report what carries a robot at rest and upright, where that cannot be or should not be."""
+    """Report a robot at rest without support, or supported by links other than wheels or feet."""
     bodies = run.bodies
     if (
         bodies.fixed_base
@@ -28,14 +28,14 @@ def check_support(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     ):
         return
     if not bodies.bodies[0].mass:
-        return  # which is reported; engines hold such a root in the air
+        return  # no-mass is reported; engines fix such a root in the air
     yield from _report_unsupported(robot, run, state)
     yield from _report_wheels_in_the_air(robot, run, state)
     yield from _report_body_on_ground(robot, run)
 
 
 def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    """Report a robot at rest that no contact with the ground could keep there."""
+    """Report a robot at rest that the ground does not carry within the support polygon."""
     bounds = run.thresholds
     weight = run.settings.gravity * math.fsum(body.weight[0] for body in run.bodies.bodies)
     carried = run.recording.carried
@@ -43,7 +43,7 @@ def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[F
     root = robot.link[run.bodies.bodies[0].name]
     names = quote_names(_list_supporting_links(run))
     if weight > 0 and carried < bounds.carried_weight * weight:
-        what = f"the ground carries {carried:.3g} N of the {weight:.3g} N that the robot weighs"
+        what = f"the ground carries only {carried:.3g} N of the robot's weight of {weight:.3g} N"
     elif state.margin is not None and state.margin < -least:
         what = f"the center of mass is {-1000 * state.margin:.0f} mm outside the support polygon"
         what += f" of {names}"
@@ -54,12 +54,12 @@ def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[F
         pairs = ", ".join(f"'{c.one}' and '{c.other}' ({1000 * c.depth:.0f} mm)" for c in inner[:3])
         why = f"contacts inside the robot carry it: {pairs} overlap"
     else:
-        why = "no robot stands so; another --engine or a smaller --timestep may show how it falls"
+        why = "this state is not physical; compare with another --engine or a smaller --timestep"
     yield Fault("unsupported", Severity.ERROR, what, root.place, "link", root.name, why)
 
 
 def _list_internal_overlaps(run: Run) -> list[Contact]:
-    """List the overlaps of links that push each other, the deepest first."""
+    """List the interpenetrations of links with contacts enabled, the deepest first."""
     if not run.settings.self_collision:
         return []
     found = [c for c in run.recording.contacts if c.other != GROUND and c.depth > 0]
@@ -130,13 +130,12 @@ def _report_body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
         yield Fault(
             "body-on-ground",
             Severity.INFO,
-            f"the body rests on the ground with link '{name}', and not on its {what} alone",
+            f"link '{name}' of the body rests on the ground in addition to the {what}",
             robot.link[name].place,
             "link",
             name,
-            "its collision geometry reaches as low as the wheels; raise it, or give the robot a "
-            "caster"
+            "its collision geometry reaches as low as the wheels; raise it, or add a caster"
             if on_wheels
-            else "the legs do not lift it where the joints start; --pose gives them another start",
+            else "the legs do not lift it at the initial joint positions; change them with --pose",
         )
         return

@@ -1,4 +1,4 @@
-"""Checks of a robot that tipped over, or moved along the ground."""
+"""Check whether a robot tipped over, or moved along the ground."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         yield Fault(
             "tipped-over" if fallen else "leans",
             Severity.ERROR,
-            f"it {'tipped over' if fallen else 'leans'}: link '{top.name}' is tilted by "
+            f"the robot {'tipped over' if fallen else 'leans'}: link '{top.name}' is tilted by "
             f"{math.degrees(state.tilt):.0f}°",
             top.place,
             "link",
@@ -36,20 +36,20 @@ def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
 
 def _explain_why_tilted(run: Run, state: FinalState) -> str:
     if _looks_like_manipulator(run):
-        return "an arm is usually bolted down: --fixed-base simulates it so"
+        return "this looks like a fixed-base manipulator; try --fixed-base"
     names = find_initial_support_links(run)
     if state.margin is not None and state.margin < 0:
-        why = "its centre of mass is not above where it touches the floor"
+        why = "the center of mass is outside the support polygon"
     elif state.supports:
-        why = f"it lies on {quote_names(state.supports)}"
+        why = f"now supported by {quote_names(state.supports)}"
     else:
-        why = "nothing under it touches the floor"
-    stood = f"it was put on {quote_names(names)}; " if names else ""
-    return f"{stood}{why}; a robot that is bolted down is simulated with --fixed-base"
+        why = "no link makes contact with the ground"
+    stood = f"initially supported by {quote_names(names)}; " if names else ""
+    return f"{stood}{why}. Use --fixed-base if the robot is mounted"
 
 
 def _looks_like_manipulator(run: Run) -> bool:
-    """Tell whether a robot is one chain of turning joints on a base, but for its hand."""
+    """Tell whether a robot is one chain of revolute joints on a base, except for its gripper."""
     bodies = run.bodies.bodies
     chain = [0]
     while True:
@@ -79,7 +79,7 @@ def _check_sliding(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]
         Severity.ERROR
         if bool(slope) or drift > run.thresholds.slide_failure * size
         else Severity.INFO,
-        f"it moved {drift:.3g} m along the floor, {drift / size:.0%} of its size",
+        f"the robot moved {drift:.3g} m along the ground, {drift / size:.0%} of its size",
         robot.link[name].place,
         "link",
         name,
@@ -93,17 +93,17 @@ def _format_why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
     if rolled and slope:
         joint = run.bodies.bodies[run.start.get_body(rolled[0])].joint
         held = joint is not None and joint.name in run.recording.targets
-        brake = "held with less effort than it takes" if held else "and nothing brakes them"
-        return f"its wheels turned, {brake}"
+        held_how = "the effort limit is too low to hold them" if held else "they are not held"
+        return f"the wheels turned, because {held_how}"
     if slick:
-        return f"the file gives {quote_names(slick)} less friction than the slope needs"
+        return f"friction of {quote_names(slick)} is too low for the slope"
     if slope and run.settings.friction < abs(math.tan(slope)):
-        return "--friction is less than the slope needs"
-    return "it was pushed, or rolls"
+        return "--friction is too low for the slope"
+    return "contacts push the robot, or it rolls"
 
 
 def _choose_rolled_links(run: Run, names: Iterable[str]) -> list[str]:
-    """Choose the links on a continuous joint that turned."""
+    """Choose the links whose continuous joint turned."""
     turned = np.abs(run.recording.positions[-1] - run.recording.positions[0])
     found = []
     for name in names:

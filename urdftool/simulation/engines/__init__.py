@@ -1,6 +1,6 @@
-"""Physics engines: a package each, which ``registry`` finds by its name.
+"""Physics engines, one package each, which ``registry`` finds by name.
 
-Nothing outside an engine's package knows which engine runs: what engines do differently is in
-their :class:`base.Capabilities`. An engine is an :class:`base.Engine` called ``ENGINE`` in a
+Code outside of an engine's package does not depend on the engine: differences are in
+:class:`base.Capabilities`. An engine is an :class:`base.Engine` called ``ENGINE`` in a
 package of its own, and a line in ``registry.REGISTRY``.
 """

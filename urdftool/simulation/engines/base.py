@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..settings import Settings
 
 UNLIMITED_EFFORT = 1e6
-"""The effort of a motor whose joint has no effort limit in the file [N·m, N]."""
+"""Effort limit of a motor whose joint has none in the file [N·m, N]."""
 
 Sample = dict[str, Any]
 """One value for each column of a recording, by name."""
@@ -23,21 +23,21 @@ Sample = dict[str, Any]
 
 @dataclass(frozen=True)
 class Capabilities:
-    """What an engine can do, and what it does differently from others.
+    """Capabilities of an engine, and its differences from others.
 
     Attributes:
         name: The value of ``--engine``.
         title: The name in messages.
         library: The Python package to import; ``extras.EXTRA_OF`` has the extra that installs it.
-        wheels: Where that package has wheels.
+        wheels: Platforms for which that package has wheels.
         closes_loops: Whether joints that close a kinematic loop are simulated.
-        max_joints: The most moving joints of a robot; None without a limit.
-        lumps_fixed_joints: Whether links on fixed joints are one body of its model file.
-        hull_per_object: Whether each object of a mesh file collides as a hull of its own; otherwise
-            the file is one hull.
+        max_joints: Maximum number of moving joints of a robot; None without a limit.
+        lumps_fixed_joints: Whether links connected by fixed joints are one body of the model file.
+        hull_per_object: Whether each object of a mesh file is a separate hull; otherwise the file
+            is one hull.
         uses_contact_stiffness: Whether ``<kp>`` and ``<kd>`` of the file apply.
         creeps: Whether contacts may let a robot at rest creep.
-        holds_massless_root: Whether a root without mass stays where it starts.
+        holds_massless_root: Whether a root without mass is fixed at its start pose.
     """
 
     name: str
@@ -58,10 +58,10 @@ class World(Protocol):
 
     Attributes:
         version: Version of the engine.
-        bodies: The robot.
-        settings: How it is spawned.
+        bodies: Rigid bodies of the robot.
+        settings: Settings of the simulation.
         read_back: Values that the engine loaded differently than the file has them.
-        capped: Damping of the joints whose damping the timestep does not allow
+        capped: Simulated damping of joints whose specified damping is unstable at the time step
             [N·m·s/rad, N·s/m].
     """
 
@@ -72,7 +72,7 @@ class World(Protocol):
     capped: dict[str, float]
 
     def set_gravity(self, gravity: tuple[float, float, float], poses: Array) -> None:
-        """Set gravity [m/s²] until the next sample; ``poses`` are those of the last one."""
+        """Set gravity [m/s²] until the next sample; ``poses`` are those of the last sample."""
 
     def step(self) -> None:
         """Advance by one timestep."""
@@ -87,13 +87,13 @@ class World(Protocol):
         """List the contacts with the plane."""
 
     def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
+        """Find the interpenetration of each pair of bodies, whether or not contacts are enabled."""
 
     def set_joint_position(self, joint: int, value: float) -> None:
-        """Move a joint [rad, m], and those that mimic it, without a step."""
+        """Set the position of a joint [rad, m], and of those that mimic it, without a step."""
 
     def clear_ground(self) -> None:
-        """Take the robot off the plane, if the plane would appear in :meth:`overlaps`."""
+        """Move the robot away from the plane, if that affects :meth:`find_overlaps`."""
 
 
 class Engine(ABC):
@@ -113,12 +113,12 @@ class Engine(ABC):
 
         Args:
             robot: The robot.
-            bodies: The same, as rigid bodies.
-            settings: How it is spawned.
-            folder: An empty folder.
+            bodies: Its rigid bodies.
+            settings: Settings of the simulation.
+            folder: Empty folder.
 
         Raises:
-            UrdftoolError: The robot has no form that the engine reads.
+            UrdftoolError: The robot cannot be written in a format of the engine.
         """
 
     @abstractmethod
@@ -126,11 +126,11 @@ class Engine(ABC):
         """Load the robot in this process.
 
         Args:
-            bodies: The robot, which :meth:`write_model` wrote.
-            settings: How it is spawned.
-            folder: Where its files are.
+            bodies: Rigid bodies of the robot.
+            settings: Settings of the simulation.
+            folder: Folder with the files of :meth:`write_model`.
 
         Raises:
             MissingDependency: The library is not installed.
-            ModelError: The engine does not load the robot.
+            ModelError: The engine cannot load the robot.
         """

@@ -1,4 +1,4 @@
-"""What runs in an engine's process: stepping until the robot rests, and sweeping its joints."""
+"""Run an engine in its process: step until the robot is at rest, and sweep its joints."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .base import Capabilities, Sample, World
 from .registry import load_engine, name_alternative
 
 SAMPLE = 1 / 30
-"""Time between samples, as near as the timestep allows [s]."""
+"""Time between samples, rounded to time steps [s]."""
 
 RUNAWAY = 1e3
-"""How far a robot may get before it is lost, in its sizes or meters."""
+"""Horizontal distance at which a robot has diverged [its size, at least m]."""
 
 SWEEP_STEPS = 36
-"""Intervals between the limits of a swept joint."""
+"""Number of intervals between the limits of a swept joint."""
 
 Emit = Callable[[tuple[Array, list[Contact]]], None]
 
@@ -41,16 +41,16 @@ def run(
     """Spawn a robot in an engine, and let it settle.
 
     Args:
-        engine: The engine's name.
-        bodies: The robot.
-        settings: How it is spawned, and for how long.
-        folder: Where ``Engine.write_model`` wrote it.
-        thresholds: When it is at rest.
-        emit: Receives the poses and the contacts of the start before the first step.
+        engine: Name of the engine.
+        bodies: Rigid bodies of the robot.
+        settings: Settings of the simulation.
+        folder: Folder with the files of ``Engine.write_model``.
+        thresholds: Thresholds of a robot at rest.
+        emit: Receives the poses and contacts of the start before the first step.
 
     Raises:
         MissingDependency: The engine is not installed.
-        ModelError: The engine does not load the robot.
+        ModelError: The engine cannot load the robot.
     """
     loaded = load_engine(engine)
     _check_joints(loaded.capabilities, len(bodies.joints))
@@ -64,15 +64,15 @@ def _check_joints(known: Capabilities, count: int) -> None:
         return
     other = name_alternative(known.name, lambda c: c.max_joints is None or c.max_joints >= count)
     raise ModelError(
-        f"the robot has {count} moving joints; {known.title} takes at most {most}"
-        + (f"; {other} takes more" if other else "")
+        f"the robot has {count} moving joints; {known.title} supports at most {most}"
+        + (f"; use {other}" if other else "")
     )
 
 
 def settle(
     world: World, capabilities: Capabilities, thresholds: Thresholds, emit: Emit
 ) -> Recording:
-    """Step until nothing moves, the time is over, or the robot is lost."""
+    """Step until the robot is at rest, the duration is over, or the simulation diverged."""
     bodies, settings = world.bodies, world.settings
     every = max(1, round(SAMPLE / settings.timestep))
     steps = max(1, round(settings.duration / settings.timestep))
@@ -138,15 +138,15 @@ def _is_sane(sample: Sample, bodies: RigidBodyModel) -> bool:
 
 
 class Stillness:
-    """Tells from samples since when a robot is at rest: by where it is, not by its velocities."""
+    """Detects when a robot is at rest, from positions of samples instead of velocities."""
 
     def __init__(self, bodies: RigidBodyModel, interval: float, thresholds: Thresholds) -> None:
-        """Begin.
+        """Initialize without samples.
 
         Args:
-            bodies: The robot.
+            bodies: Rigid bodies of the robot.
             interval: Time between samples [s].
-            thresholds: When a robot is at rest.
+            thresholds: Thresholds of a robot at rest.
         """
         self.creep = max(thresholds.settle_creep * bodies.size, 1e-5)
         self.turn = thresholds.settle_turn
@@ -160,12 +160,12 @@ class Stillness:
         self.seen: deque[tuple[float, Array, Array]] = deque(maxlen=self.window + 1)
 
     def add(self, time: float, poses: Array, positions: Array) -> float | None:
-        """Take a sample; return since when nothing moved, or None while something does.
+        """Add a sample; return the time since which the robot is at rest, or None if it moves.
 
         Args:
-            time: Of the sample [s].
-            poses: Shape (b, 7), as in ``Recording``.
-            positions: Shape (j,).
+            time: Time of the sample [s].
+            poses: Poses of the bodies, shape (b, 7), as in ``Recording``.
+            positions: Joint positions, shape (j,) [rad, m].
         """
         self.seen.append((time, poses, positions))
         if len(self.seen) <= self.window:
@@ -185,10 +185,10 @@ def sweep(engine: str, bodies: RigidBodyModel, settings: Settings, folder: Path)
     """Move each joint of a robot through its limits in an engine.
 
     Args:
-        engine: The engine's name.
-        bodies: The robot.
-        settings: Where the other joints are.
-        folder: Where ``Engine.write_model`` wrote it.
+        engine: Name of the engine.
+        bodies: Rigid bodies of the robot.
+        settings: Settings with the positions of the other joints.
+        folder: Folder with the files of ``Engine.write_model``.
     """
     world = load_engine(engine).open_world(bodies, settings, folder)
     world.clear_ground()
@@ -196,10 +196,10 @@ def sweep(engine: str, bodies: RigidBodyModel, settings: Settings, folder: Path)
 
 
 def sweep_world(world: World, bodies: RigidBodyModel) -> list[Swept]:
-    """Put each joint that follows none to positions between its limits, and look for overlaps.
+    """Move each joint, except mimic joints, through its limits, and find overlaps.
 
-    Overlaps of the start are left out. A continuous joint, and one without limits, goes through
-    half a turn, or a meter, to each side.
+    Overlaps of the start are ignored. A joint without limits moves by half a turn, or a meter, to
+    each side.
     """
     at_start = {_pair(contact) for contact in world.find_overlaps(ground=False)}
     found = []

@@ -1,4 +1,4 @@
-"""The physics engines by name, whether they are installed, and how to install them."""
+"""Find physics engines by name, whether they are installed, and how to install them."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ REGISTRY = {
     "pybullet": "pybullet",
     "mujoco": "mujoco",
 }
-"""The package of each engine, by the name of ``--engine``; the preferred one first."""
+"""Package of each engine, by the name of ``--engine``; the preferred one first."""
 
 BOTH = "both"
-"""The value of ``--engine`` that compares the first two engines."""
+"""Value of ``--engine`` that compares the first two engines."""
 
 
 def load_engine(name: str) -> Engine:
@@ -38,7 +38,7 @@ def get_library(name: str) -> str:
 
 
 def name_alternative(name: str, suits: Callable[[Capabilities], bool]) -> str:
-    """Name the first other engine that suits, as ``--engine mujoco``; empty if none does."""
+    """Name the first other engine with suitable capabilities, as ``--engine mujoco``, or empty."""
     others = (load_engine(other).capabilities for other in REGISTRY if other != name)
     return next((f"--engine {other.name}" for other in others if suits(other)), "")
 
@@ -65,7 +65,7 @@ def check_engines(names: Iterable[str]) -> None:
         names: Keys of ``REGISTRY``.
 
     Raises:
-        MissingDependency: With what to do on this Python and machine.
+        MissingDependency: An engine is not installed; the message has the command to install it.
     """
     for name in names:
         engine = load_engine(name)
@@ -88,7 +88,7 @@ def get_extra_library() -> str:
 
 
 def _get_advice() -> str:
-    """Say which engine can be installed on this machine, and how."""
+    """Describe which engine can be installed on this machine, and how."""
     if load_engine(next(iter(REGISTRY))).has_wheel():
         return install_command("simulate")
     for name in REGISTRY:

@@ -1,5 +1,5 @@
-"""Defects of the description that decide whether a run can be trusted.
+"""Defects of the description that affect the result of a run.
 
-Rules find them (``lint.validate``, purpose ``simulate``). ``description`` decides which matter in
-the bodies that the engine loaded, and gives them the kinds of verdicts.
+Rules find them (``lint.validate``, purpose ``simulate``). ``description`` decides which affect the
+bodies that the engine loaded, and assigns verdict kinds.
 """

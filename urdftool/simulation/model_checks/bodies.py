@@ -1,4 +1,4 @@
-"""Facts of the bodies that an engine loaded, which decide whether a defect of the file matters."""
+"""Check the bodies that an engine loaded: read-back values, missing mass, impossible tensors."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from .mass_distribution import has_shapes
 
 
 def check_read_back(robot: Robot, run: Run, known: set[str]) -> Iterator[Fault]:
-    """Report numbers that the engine took differently from the file.
+    """Report values that the engine loaded differently from the file.
 
     Args:
         robot: The robot.
         run: The run.
-        known: Names of bodies whose mass or inertia is reported already.
+        known: Names of bodies whose mass or inertia is already reported.
     """
     for difference in run.recording.read_back:
         if difference.name in known:
@@ -29,8 +29,9 @@ def check_read_back(robot: Robot, run: Run, known: set[str]) -> Iterator[Fault]:
         yield Fault(
             "engine-readback-mismatch",
             Severity.ERROR,
-            f"{difference.what} of {difference.kind} '{difference.name}' is {difference.said} in "
-            f"the file, and the engine took {difference.got}",
+            f"{run.recording.capabilities.title} loaded {difference.what} = {difference.loaded} "
+            f"for {difference.kind} '{difference.name}', but the file specifies "
+            f"{difference.specified}",
             None if part is None else part.place,
             difference.kind,
             difference.name,
@@ -48,7 +49,7 @@ def is_held(run: Run, body: RigidBody) -> bool:
 
 
 def list_massless_bodies(robot: Robot, run: Run) -> list[RigidBody]:
-    """List the bodies without mass that matter: a free root, and what bears mass or has shapes."""
+    """List the massless bodies that affect the run: a free root, and parents or shapes."""
     bodies = run.bodies.bodies
     loads = {body.parent for body in bodies if body.mass}
     return [
@@ -61,10 +62,10 @@ def list_massless_bodies(robot: Robot, run: Run) -> list[RigidBody]:
 
 
 def list_large_massless_links(robot: Robot, run: Run) -> set[str]:
-    """List links without mass that are a good part of their rigid body or the robot, by volume.
+    """List links without mass that are a large part, by volume, of their rigid body or the robot.
 
-    The mass of a link without shapes counts for those of its body that have some and no mass: so
-    are inertials kept out of a root. A neighbor with shapes of its own has its own mass only.
+    The mass of a link without shapes counts for the links of its body that have shapes and no mass:
+    some files keep the inertial of a root in a separate link.
     """
     found: set[str] = set()
     bodies, bounds = run.bodies, run.thresholds
@@ -87,7 +88,7 @@ def list_large_massless_links(robot: Robot, run: Run) -> set[str]:
         hollow = [
             name for name in body.links if _is_massless_shape(robot, name) and name in extents
         ]
-        if any(robot.link[name].visuals for name in body.links):  # others only help to collide
+        if any(robot.link[name].visuals for name in body.links):  # others are helpers for contacts
             hollow = [name for name in hollow if robot.link[name].visuals]
         if not hollow or (number == 0 and bodies.fixed_base):
             continue
@@ -115,27 +116,27 @@ def is_impossible(tensor: SymmetricTensor, excess: float) -> bool:
 
     Args:
         tensor: About the center of mass [kg·m²].
-        excess: How far it may exceed the triangle inequality [1].
+        excess: Allowed relative violation of the triangle inequality [1].
     """
     found = measure_consistency(tensor)
     return found.size == 0 or found.negativity > 1e-9 or found.excess > excess / (1 + excess)
 
 
-def describe_mass_taken(run: Run, body: RigidBody) -> str:
-    """Say what the engine that ran did with a body without mass."""
+def describe_simulated_mass(run: Run, body: RigidBody) -> str:
+    """Describe what the engine did with a body without mass."""
     engine = run.recording.capabilities
     for part in run.recording.read_back:
         if part.name == body.name and part.what == "mass":
-            return f"{engine.title} simulated a mass of {part.got}"
+            return f"{engine.title} simulated a mass of {part.loaded}"
     if body.parent < 0 and engine.holds_massless_root:
-        return f"{engine.title} holds such a root where it starts"
-    return f"{engine.title} simulated it with none, or next to none"
+        return f"{engine.title} fixes such a root at its start pose"
+    return f"{engine.title} simulated no mass or a negligible one"
 
 
-def describe_tensor_taken(run: Run, body: RigidBody) -> str:
-    """Say what the engine that ran took instead of an inconsistent tensor."""
+def describe_simulated_tensor(run: Run, body: RigidBody) -> str:
+    """Describe what the engine simulated instead of an inconsistent tensor."""
     engine = run.recording.capabilities.title
     for part in run.recording.read_back:
         if part.name == body.name and part.what == "principal moments":
-            return f"{engine} simulated principal moments of {part.got}"
-    return f"{engine} simulated it as written"
+            return f"{engine} simulated principal moments of {part.loaded}"
+    return f"{engine} simulated the tensor as written"

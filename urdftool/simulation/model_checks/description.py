@@ -1,4 +1,4 @@
-"""Findings of rules in a verdict: which of them matter in this run, and under which kind."""
+"""Decide which findings of rules affect a run, and report them under verdict kinds."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from ..rigid_bodies import RigidBody, link_mass_properties
 from ..run import Run
 from .bodies import (
     check_read_back,
-    describe_mass_taken,
-    describe_tensor_taken,
+    describe_simulated_mass,
+    describe_simulated_tensor,
     find_body,
     is_held,
     is_impossible,
@@ -47,10 +47,10 @@ KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "too-large": ("mesh-in-millimeters", "shape-in-millimeters"),
     }
 )
-"""Rules whose findings a kind of verdict consists of, the one that says most first."""
+"""Rules of each verdict kind, the most specific one first."""
 
 REMARKS = frozenset(("no-extent",))
-"""Kinds that never fail a run: the shape is left out, as the exporters do."""
+"""Kinds that never fail a run: the shape is ignored, as by the exporters."""
 
 
 class Described(NamedTuple):
@@ -61,7 +61,7 @@ class Described(NamedTuple):
         robot: The robot.
         run: The run.
         body: The rigid body of the link; None for a finding about the robot.
-        massless: Links that the run depends on and that have no mass.
+        massless: Links without mass that affect the run.
     """
 
     finding: Finding
@@ -72,7 +72,7 @@ class Described(NamedTuple):
 
 
 def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Report what rules find in the file and matters in a run, and what the engine misread."""
+    """Report findings of rules that affect a run, and values that the engine loaded differently."""
     findings = compute_once(robot, "findings", lambda: validate(robot, "simulate"))
     known = {body.name for body in run.bodies.bodies if not body.mass}
     massless = frozenset(
@@ -80,15 +80,15 @@ def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
         | list_large_massless_links(robot, run)
     )
     for kind, rules in KINDS.items():
-        told: set[str] = set()
+        reported: set[str] = set()
         for rule in rules:
             for finding in (one for one in findings if one.code == rule):
                 about = Described(finding, robot, run, find_body(run, finding.name), massless)
-                if finding.name in told or (finding.kind == "link" and about.body is None):
+                if finding.name in reported or (finding.kind == "link" and about.body is None):
                     continue
                 if (cause := _CAUSES[kind](about)) is None:
                     continue
-                told.add(finding.name)
+                reported.add(finding.name)
                 yield _make_fault(kind, about, cause)
                 if kind == "impossible-inertia" and about.body is not None:
                     known.add(about.body.name)
@@ -117,16 +117,16 @@ def _explain_always(_about: Described) -> str | None:
 
 
 def _explain_extent(_about: Described) -> str | None:
-    return "it is left out"
+    return "the shape is ignored"
 
 
 def _explain_scale(about: Described) -> str | None:
-    """Explain a shape in millimeters; its finding does, unless a mesh has a scale already."""
+    """Explain the scale of a mesh in millimeters; empty if the finding explains it."""
     scale = about.finding.data.get("scale", ())
     if not scale or all(factor == 1.0 for factor in scale):
         return ""
     right = " ".join(f"{factor / 1000:g}" for factor in scale)
-    return f'it is a thousand times too large by its scale; write <mesh scale="{right}">'
+    return f'the scale is a thousand times too large; write <mesh scale="{right}">'
 
 
 def _explain_moving_body(about: Described) -> str | None:
@@ -134,18 +134,18 @@ def _explain_moving_body(about: Described) -> str | None:
 
 
 def _explain_mass(about: Described) -> str | None:
-    """Explain a link without mass by what the engine took; None if its body has enough."""
+    """Explain a link without mass by the behavior of the engine; None if its body has enough."""
     run, body = about.run, about.body
     if body is None or about.finding.name not in about.massless:
         return None
     if body.mass:
-        return "it has a shape and no <inertial> with a mass"
-    advice = "" if body.parent >= 0 else ": give it one, or fix it to the world with --fixed-base"
-    return f"it has no <inertial> with a mass; {describe_mass_taken(run, body)}{advice}"
+        return "the link has geometry but no <inertial> with a mass"
+    advice = "" if body.parent >= 0 else "; add a mass, or pass --fixed-base"
+    return f"the link has no <inertial> with a mass; {describe_simulated_mass(run, body)}{advice}"
 
 
 def _explain_tensor(about: Described) -> str | None:
-    """Explain an inconsistent tensor by what the engine took; None if its body has another."""
+    """Explain an inconsistent tensor by the behavior of the engine; None if it has no effect."""
     run, body, link = about.run, about.body, about.robot.link
     if body is None or body.properties is None or is_held(run, body):
         return None
@@ -159,17 +159,17 @@ def _explain_tensor(about: Described) -> str | None:
         and is_impossible(own.tensor, excess)
     ]
     worst = max(bad, key=lambda one: one.mass).name if bad else body.name
-    return describe_tensor_taken(run, body) if about.finding.name == worst else None
+    return describe_simulated_tensor(run, body) if about.finding.name == worst else None
 
 
 def _explain_size(about: Described) -> str | None:
-    """Explain an inertia that slows its link; None where it does not matter."""
+    """Explain an inertia that slows its link; None if it has no effect."""
     robot, run, link = about.robot, about.run, about.robot.link[about.finding.name]
     if about.body is None or is_held(run, about.body):
         return None
     if not slows_link(robot, link, run, placeholder=about.finding.code == "placeholder-inertia"):
         return None
-    return "a tensor of ones, or of other units; the link turns far too slowly"
+    return "placeholder tensor or wrong units; the link rotates too slowly"
 
 
 def _explain_density(about: Described) -> str | None:
@@ -179,7 +179,7 @@ def _explain_density(about: Described) -> str | None:
         return None
     if compute_mass_share(link, run) <= run.thresholds.light_link:
         return None
-    return "lead is lighter: its mass is in grams, or its shapes in another unit"
+    return "the density exceeds that of lead; check the units of the mass and of the geometry"
 
 
 _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
@@ -194,4 +194,4 @@ _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
         "too-large": _explain_scale,
     }
 )
-"""For each kind, the cause of a fault; None where a finding does not matter in a run."""
+"""Function of each kind that explains a finding; None if the finding does not affect the run."""

@@ -1,4 +1,4 @@
-"""Whether the mass and inertia of a link matter in a run, by the size of its shapes."""
+"""Decide whether the mass and inertia of a link affect a run, by the size of its shapes."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ def compute_mass_share(link: Link, run: Run) -> float:
 def slows_link(robot: Robot, link: Link, run: Run, *, placeholder: bool) -> bool:
     """Tell whether an inertia that is too large for its link slows what the engine simulated.
 
-    The link has to be a good part of the robot's mass, or of the inertia of its rigid body, and its
-    mass spread beyond what is loaded of its shapes.
+    The link must have a large part of the robot's mass, or of the inertia of its rigid body, and
+    the tensor must imply mass outside of its shapes.
 
     Args:
         robot: The robot.
-        link: A link whose inertia a rule reports.
+        link: Link whose inertia a rule reports.
         run: The run.
         placeholder: Whether the tensor is a placeholder.
     """
@@ -61,12 +61,12 @@ def slows_link(robot: Robot, link: Link, run: Run, *, placeholder: bool) -> bool
         return True
     around = _measure_extent_around(
         robot, link, run, all_links=True
-    )  # the mass may be in what is fixed
+    )  # the mass may be in fixed links
     return all(_is_too_wide(own.inertia, own.mass, one, bounds) for one in (extent, around))
 
 
 def _slows_frame(robot: Robot, link: Link, own: SpatialInertia, spread: float, run: Run) -> bool:
-    """Tell whether no part of the robot's size could have the tensor of a link without shapes."""
+    """Tell whether the tensor of a link without shapes implies mass outside of the robot."""
     bodies = run.bodies.bodies
     if not run.bodies.size:  # the size of the robot is unknown
         return False
@@ -78,7 +78,7 @@ def _slows_frame(robot: Robot, link: Link, own: SpatialInertia, spread: float, r
     center = np.array(body.places[link.name].transform(own.com))
     at = np.array(run.start.get_pose(bodies.index(body)).transform(tuple(center.tolist())))
     reach = float(np.linalg.norm(_collect_frame_origins(run) - at, axis=1).max())
-    return spread > reach  # on average farther than the farthest corner
+    return spread > reach  # radius of gyration beyond the farthest corner
 
 
 def _collect_frame_origins(run: Run) -> Array:

@@ -1,8 +1,7 @@
-"""MuJoCo, on our own MJCF export.
+"""MuJoCo, with the MJCF export of the robot.
 
-``world`` steps it, on the model that ``scene`` writes. Contacts are as stiff as the timestep
-allows, friction does not creep, nothing is reset to the start when numbers diverge, and no log is
-written to the current folder.
+``world`` steps the model that ``scene`` writes. Contacts are as stiff as the time step allows,
+friction does not creep, a diverged state is not reset, and no log is written to the current folder.
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ class MuJoCo(Engine):
     )
 
     def has_wheel(self) -> bool:
-        """Tell whether MuJoCo has a wheel for this machine, which it has for every Python."""
+        """Tell whether MuJoCo has a wheel for this machine; it has wheels for every Python."""
         return platform.machine() in _MACHINES.get(sys.platform, ())
 
     def write_model(

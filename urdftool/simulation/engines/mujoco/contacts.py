@@ -1,4 +1,4 @@
-"""What touches what in MuJoCo, by the links of the file."""
+"""Read contacts and overlaps from MuJoCo, by the links of the file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from ...recording import GROUND, Contact
 from ...rigid_bodies import RigidBodyModel
 
-_TOUCH = 1e-6  # m: bodies that touch are not in each other
+_TOUCH = 1e-6  # m: a smaller depth is a contact, not an overlap
 
 
 class ContactReader:
@@ -25,7 +25,7 @@ class ContactReader:
         number_of: dict[str, int],
         plane: int,
     ) -> None:
-        """Take a model and its state, the body of each link, and the plane's geom."""
+        """Store a model and its state, the body of each link, and the geom of the plane."""
         self.mj, self.model, self.data, self.plane = mj, model, data, plane
         self._rigid: dict[int, int] = {}
         self._name: dict[int, str] = {}
@@ -70,7 +70,7 @@ class ContactReader:
         return found
 
     def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
+        """Find the interpenetration of each pair of bodies, whether or not contacts are enabled."""
         deepest: dict[tuple[int, int], Contact] = {}
         model, data = self.model, self.data
         others = [*self._solid, self.plane] if ground else self._solid
@@ -101,7 +101,7 @@ class ContactReader:
 
     def _make_overlap(self, one: int, other: int) -> Contact | None:
         ends = np.zeros(6)
-        # a bound above zero: at zero nothing is measured
+        # the bound must be above zero, or nothing is measured
         distance = self.mj.mj_geomDistance(self.model, self.data, one, other, 1e-9, ends)
         if distance > -_TOUCH:
             return None

@@ -1,4 +1,4 @@
-"""What drives joints in MuJoCo: a brake and a servo within their effort, or gains of a file."""
+"""Drive joints in MuJoCo: dry friction and a servo within the effort limit, or PID gains."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ _RIGID = (2.5, 1.0)  # of a brake: time constant in timesteps, damping over crit
 _IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 _STIFF = 0.5  # natural frequency of an unloaded joint under its servo, times the timestep
 _DAMPED = 10.0  # its damping over critical; a load on it lowers that
-_CREEP = 0.25  # s: how soon what is left of an error is integrated away
-_FAR = 0.02  # rad, m: a joint that gave way so far is driven back
-_NEAR = 2e-3  # rad, m: and is held again here,
-_SLOW = 0.1  # rad/s, m/s: when it is so slow
+_CREEP = 0.25  # s: time constant of the integral of the remaining error
+_FAR = 0.02  # rad, m: error at which the servo starts
+_NEAR = 2e-3  # rad, m: error at which friction holds the joint again,
+_SLOW = 0.1  # rad/s, m/s: below this speed
 
 
 class Motors:
-    """What holds joints where they start.
+    """Motors that hold joints at their initial positions.
 
-    While a joint is there, it is held by dry friction as large as its effort: a constraint that the
-    solver keeps within its bound together with contacts, however stiff, without an error or a swing
-    of its own. Where that gives way, a servo of the same effort drives it back: a spring and damper
-    by the inertia that the joint feels, and an integral part.
+    A joint at its position is held by dry friction equal to its effort limit: a constraint that the
+    solver solves together with contacts of any stiffness, without a position error or oscillation.
+    If the friction is overcome, a servo with the same effort limit drives the joint back: a spring
+    and damper in proportion to the inertia at the joint, and an integral term.
     """
 
     def __init__(
@@ -40,9 +40,9 @@ class Motors:
         settings: Settings,
         motors: dict[str, int],
     ) -> None:
-        """Take a model at its start, and the motor of each joint by name."""
+        """Set up the motors of a model at its start, by the name of their joint."""
         self._mj, self._model, self._data = mj, model, data
-        model.actuator_gainprm[:, :] = 0.0  # also of motors that the file brings along
+        model.actuator_gainprm[:, :] = 0.0  # also of motors in the file
         model.actuator_biasprm[:, :] = 0.0
         joints = {joint.name: joint for joint in bodies.joints}
         controls = settings.controls or {}
@@ -75,10 +75,10 @@ class Motors:
 
     def _make_servos(self, timestep: float) -> None:
         model = self._model
-        inertia = _compute_felt_inertias(self._mj, model, self._data, self._dofs)
+        inertia = _compute_motor_inertias(self._mj, model, self._data, self._dofs)
         fast = _STIFF / timestep
         self._stiffness = inertia * fast**2
-        # the implicit Euler method's spring: its force is that of the position after the step
+        # with implicit Euler, the spring force is that of the position after the step
         self._damping = 2 * _DAMPED * inertia * fast + self._stiffness * timestep
         self._growth = self._stiffness * timestep / _CREEP
         self._sum = np.zeros(len(self._dofs))
@@ -88,14 +88,14 @@ class Motors:
         model.actuator_forcerange[self._held] = np.outer(self._bound, [-1, 1])
 
     def _set_brake(self) -> None:
-        """Set the dry friction of joints that are held by it, and release the others."""
+        """Set the dry friction of joints held by it, and remove that of the others."""
         tight = np.where(self._braked, self._bound, 0.0)
         self._model.dof_frictionloss[self._dofs] = self._friction + tight
         self._model.actuator_biasprm[self._held, 2] = np.where(self._braked, 0.0, -self._damping)
         self._sum[self._braked] = 0.0
 
     def drive(self) -> None:
-        """Set what the motors do in the next step."""
+        """Set the controls of the motors for the next step."""
         data = self._data
         if len(self._driven):
             data.ctrl[self._driven] = self._pids.step(
@@ -134,8 +134,8 @@ class Motors:
         return found
 
 
-def _compute_felt_inertias(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
-    """Compute the inertia that a motor moves when every other joint is free [kg·m², kg]."""
+def _compute_motor_inertias(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
+    """Compute the inertia at each motor if all other joints are free [kg·m², kg]."""
     found = np.zeros(len(dofs))
     for row, dof in enumerate(dofs):
         unit, answer = np.zeros((1, model.nv)), np.zeros((1, model.nv))

@@ -1,4 +1,4 @@
-"""What MuJoCo took the robot for, compared with what it was given."""
+"""Compare the values that MuJoCo loaded with those of the robot."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ def read_back(
 
     Args:
         model: MuJoCo's model.
-        bodies: What it was given.
-        number_of: Its body of each link.
-        joints: Its joint of each joint.
+        bodies: Rigid bodies of the robot.
+        number_of: MuJoCo's body of each link.
+        joints: MuJoCo's joint of each joint.
     """
     found: list[ReadBack] = []
     number = 0
@@ -39,8 +39,8 @@ def read_back(
         numbers = [number_of[link] for link in body.links if number_of[link]]
         solid = np.isin(model.geom_bodyid, numbers) & (model.geom_contype != 0)
         if numbers and bool(solid.any()) != bool(body.shapes):
-            said, got = str(len(body.shapes)), str(int(solid.sum()))
-            found.append(ReadBack("link", body.name, "collision shapes", said, got))
+            specified, loaded = str(len(body.shapes)), str(int(solid.sum()))
+            found.append(ReadBack("link", body.name, "collision shapes", specified, loaded))
     return found
 
 
@@ -73,7 +73,7 @@ def _list_mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Ite
         yield ReadBack("link", body.name, "principal moments", f"{one} kg·m²", f"{two} kg·m²")
     if not np.allclose(got.com, said.com, atol=1e-6):
         one, two = (" ".join(f"{value:.4g}" for value in part.com) for part in (said, got))
-        yield ReadBack("link", body.name, "centre of mass", f"{one} m", f"{two} m")
+        yield ReadBack("link", body.name, "center of mass", f"{one} m", f"{two} m")
 
 
 _KINDS = {0: "floating", 1: "spherical", 2: "prismatic", 3: "revolute"}
@@ -85,8 +85,8 @@ def _list_joint(model: Any, body: RigidBody, number: int) -> Iterator[ReadBack]:
     if number < 0:
         yield ReadBack("joint", joint.name, "type", joint.kind, "fixed")
         return
-    wanted = 2 if joint.kind == "prismatic" else 3
-    if model.jnt_type[number] != wanted:
+    expected = 2 if joint.kind == "prismatic" else 3
+    if model.jnt_type[number] != expected:
         got = _KINDS.get(int(model.jnt_type[number]), "another")
         yield ReadBack("joint", joint.name, "type", joint.kind, got)
         return

@@ -51,10 +51,10 @@ class MuJoCoWorld:
     """
 
     def __init__(self, mj: Any, bodies: RigidBodyModel, settings: Settings, folder: Path) -> None:
-        """Set the scene; nothing moves yet."""
+        """Load the model and set its initial state."""
         self.mj, self.bodies, self.settings = mj, bodies, settings
         self.version = str(mj.__version__)
-        self.capped: dict[str, float] = {}  # its own integration bears any damping
+        self.capped: dict[str, float] = {}  # implicit integration is stable with any damping
         mj.set_mju_user_warning(lambda _: None)  # without it a log is written to the folder
         try:
             self.model = mj.MjModel.from_xml_path(str(folder / SCENE))
@@ -62,7 +62,7 @@ class MuJoCoWorld:
             reason = " ".join(str(error).split())
             if _TOO_DEEP in reason:
                 raise ModelError(_explain_depth()) from None
-            raise ModelError(f"MuJoCo does not compile the robot's MJCF: {reason}") from None
+            raise ModelError(f"MuJoCo cannot compile the MJCF of the robot: {reason}") from None
         self.data = mj.MjData(self.model)
         self.number_of = {
             link: self._get_body(link) for body in bodies.bodies for link in body.links
@@ -106,7 +106,7 @@ class MuJoCoWorld:
         option.gravity = self.settings.compute_gravity_at(0.0)
 
     def _set_forces(self) -> None:
-        """Leave out gravity compensation and springs that the bodies do without."""
+        """Remove gravity compensation and springs that the bodies do not have."""
         for body in self.bodies.bodies:
             if body.weightless is None:
                 self.model.body_gravcomp[[self.number_of[link] for link in body.links]] = 0.0
@@ -121,11 +121,11 @@ class MuJoCoWorld:
         model.geom_solref[:] = (max(_SOFT * settings.timestep, 1e-4), 1.0)
         model.geom_solimp[:] = _IMPEDANCE
         model.geom_margin[:] = 0.0
-        # what touches the plane is one group, the plane the other
+        # collision geometry of the robot is one group, the plane the other
         model.geom_contype[solid] = 1
         model.geom_conaffinity[solid] = 3 if settings.self_collision else 2
         model.geom_contype[self.plane], model.geom_conaffinity[self.plane] = 2, 1
-        model.geom_friction[self.plane, 0] = 0.0  # of two the larger one counts
+        model.geom_friction[self.plane, 0] = 0.0  # MuJoCo uses the larger value of two geoms
         lump = {self.number_of[link]: body for body in self.bodies.bodies for link in body.links}
         for geom in solid:
             body = lump.get(int(model.geom_bodyid[geom]))
@@ -135,7 +135,7 @@ class MuJoCoWorld:
             model.geom_friction[geom, 0] = settings.friction if own is None else own
 
     def _place(self) -> None:
-        """Put the root's link frame where it starts, and each joint."""
+        """Set the initial pose of the root's link frame and the initial joint positions."""
         mj, model, data = self.mj, self.model, self.data
         at, turn = (
             np.array(self.bodies.start.translation),
@@ -179,7 +179,7 @@ class MuJoCoWorld:
                 places[row], turns[row] = place + at, whole
 
     def set_joint_position(self, joint: int, value: float) -> None:
-        """Put a joint somewhere, with those that mimic it, without a step."""
+        """Set the position of a joint [rad, m], and of those that mimic it, without a step."""
         name = self.bodies.joints[joint].name
         for number, one in zip(self.joints, self.bodies.joints, strict=True):
             if number >= 0 and name in (one.name, one.leader):
@@ -188,10 +188,10 @@ class MuJoCoWorld:
         self.mj.mj_kinematics(self.model, self.data)
 
     def clear_ground(self) -> None:
-        """Do nothing: overlaps are measured with the bodies that are asked for."""
+        """Return without changes: overlaps with the plane are measured only on request."""
 
     def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
+        """Find the interpenetration of each pair of bodies, whether or not contacts are enabled."""
         return self.touches.find_overlaps(ground=ground)
 
     def list_contacts(self) -> list[Contact]:
@@ -256,9 +256,8 @@ class MuJoCoWorld:
 
 def _explain_depth() -> str:
     other = name_alternative("mujoco", lambda known: known.lumps_fixed_joints)
-    return (
-        "the robot has more links in a row than MuJoCo's reader of XML bears, which is about 500"
-        + (f"; {other} takes more where they are fixed" if other else "")
+    return "the kinematic chain exceeds MuJoCo's XML nesting limit (about 500 links)" + (
+        f"; {other} has no such limit for fixed joints" if other else ""
     )
 
 

@@ -1,9 +1,8 @@
 """PyBullet, without its silent defaults.
 
-``world`` steps it, on the URDF that ``urdf`` writes. Switched off are: tensors computed from shapes
-instead of read, a motor on every joint, damping that the file does not have, cylinders of flat
-sides, a base without mass that is fixed silently, joints without limits that are locked, and limits
-that yield to a heavy load.
+``world`` steps the URDF that ``urdf`` writes. Turned off are: tensors computed from shapes instead
+of the file, a motor on every joint, damping that the file does not have, faceted cylinders, a fixed
+base if the base has no mass, locked joints without limits, and limits that heavy loads exceed.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ class PyBullet(Engine):
         library="pybullet",
         wheels="Linux on x86-64 with Python 3.10 and 3.11",
         closes_loops=False,
-        max_joints=120,  # its messages have room for 128 degrees of freedom; the root takes seven
+        max_joints=120,  # its messages hold 128 degrees of freedom; the root has seven
         lumps_fixed_joints=True,
         hull_per_object=True,
         uses_contact_stiffness=True,

@@ -1,8 +1,8 @@
-"""Contacts in PyBullet by the links of the file, and wheels that roll.
+"""Read contacts from PyBullet by the links of the file, and clear those of rolling wheels.
 
-PyBullet keeps the points where a round body touched until they have left the floor. Those lie
-behind the axle, and the load they carry drives the wheel: it accelerates on a level floor. Removed
-before each step, there is one new point a step, below the axle. A body on its flat end needs
+PyBullet keeps the contact points of a round body until they separate from the plane. They are
+behind the axle, and their load accelerates the wheel on a level plane. If they are removed before
+each step, there is one new point below the axle in each step. A body on its flat end requires
 several points, and keeps them.
 """
 
@@ -16,7 +16,7 @@ import numpy as np
 from ...recording import GROUND, Array, Contact
 from ...rigid_bodies import RigidBody, RigidBodyModel
 
-_NEAR = 1e-4  # m; of two boxes it finds nothing when it is asked for a distance of zero
+_NEAR = 1e-4  # m; with a distance of zero, it finds nothing between two boxes
 
 
 class ContactReader:
@@ -25,7 +25,7 @@ class ContactReader:
     def __init__(
         self, p: Any, robot: int, plane: int, bodies: RigidBodyModel, link_of: Mapping[int, int]
     ) -> None:
-        """Take the engine's numbers of a robot and a plane, and its link of each body."""
+        """Store the engine's indices of a robot and a plane, and its link of each body."""
         self.p, self.robot, self.plane = p, robot, plane
         self.bodies, self.link_of = bodies, link_of
         self.body_of = {link: body for body, link in link_of.items()}
@@ -75,7 +75,7 @@ class ContactReader:
         return where
 
     def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
+        """Find the interpenetration of each pair of bodies, whether or not contacts are enabled."""
         p, found = self.p, []
         solid = [n for n, body in enumerate(self.bodies.bodies) if body.shapes]
         boxes = {n: np.array(p.getAABB(self.robot, self.link_of[n])) for n in solid}
@@ -103,17 +103,17 @@ class ContactReader:
 ROUND = ("cylinder", "capsule", "sphere")
 
 LYING = 0.5
-"""The upright part of an axis that still counts as lying: of 30° from the plane."""
+"""Largest vertical component of the unit axis of a rolling body: 30° from the plane."""
 
 
 NEARING = 0.05
-"""How near to the plane a body is that may touch it before it is looked at again [m]."""
+"""Distance from the plane below which a body may make contact before the next sample [m]."""
 
 
 def round_part(body: RigidBody) -> tuple[Array, float] | None:
     """Find the axes of a body's round shapes in its frame, (n, 3), and their reach [m].
 
-    None where shapes that are not round touch, too.
+    None if the body has other shapes, too.
     """
     if not body.shapes or any(shape.kind not in ROUND for shape in body.shapes):
         return None
@@ -125,11 +125,11 @@ def round_part(body: RigidBody) -> tuple[Array, float] | None:
 
 
 def is_lying(axes: Array, turn: Array) -> bool:
-    """Tell whether all axes of a body lie along the plane.
+    """Tell whether all axes of a body are near the plane's directions.
 
     Args:
-        axes: In the body's frame, shape (n, 3).
-        turn: The body in the world, a quaternion x, y, z, w, shape (4,).
+        axes: Unit axes in the body's frame, shape (n, 3).
+        turn: Orientation of the body in the world, quaternion x, y, z, w, shape (4,).
     """
     x, y, z, w = turn.tolist()
     up = np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
@@ -137,13 +137,13 @@ def is_lying(axes: Array, turn: Array) -> bool:
 
 
 def forget_contacts(p: Any, robot: int, plane: int, links: Sequence[int]) -> None:
-    """Clear the points where links touched the plane.
+    """Clear the contact points of links with the plane.
 
     Args:
         p: PyBullet.
-        robot: Its number of the robot.
-        plane: Its number of the plane.
-        links: Its numbers of the links.
+        robot: PyBullet's index of the robot.
+        plane: PyBullet's index of the plane.
+        links: PyBullet's indices of the links.
     """
     for link in links:
         p.setCollisionFilterPair(robot, plane, link, -1, 0)

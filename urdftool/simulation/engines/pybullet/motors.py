@@ -1,4 +1,4 @@
-"""Motors, damping, gains and springs of joints in PyBullet, and bodies without gravity."""
+"""Apply motors, damping, gains and joint springs in PyBullet, and bodies without gravity."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from ...settings import Settings
 from ..base import UNLIMITED_EFFORT
 
 Frame = Callable[[int], tuple[Any, Any]]
-"""The position [m] and quaternion x, y, z, w of a body's link frame in the world, by its number."""
+"""Position [m] and quaternion x, y, z, w of a body's link frame in the world, by its index."""
 
 
 class Motors:
     """The motors of a robot's joints.
 
     Attributes:
-        followers: The link of each joint that mimics another, that one's, and the joint.
-        driven: Links of joints that gains drive.
-        pids: Those gains.
-        damped: The damping that each joint gets [N·m·s/rad, N·s/m].
-        capped: Of those joints whose damping is less than the file says.
+        followers: Child link of each mimic joint, that of its leader, and the mimic joint.
+        driven: Child links of joints with PID gains.
+        pids: PID loops of these joints.
+        damped: Simulated damping of each joint by name [N·m·s/rad, N·s/m].
+        capped: Simulated damping of joints for which it is less than in the file.
     """
 
     def __init__(
         self, p: Any, robot: int, bodies: RigidBodyModel, settings: Settings, indices: list[int]
     ) -> None:
-        """Take the engine's number of a robot and of the link of each joint, and set them up."""
+        """Set up the motors by the engine's indices of a robot and of the child link of joints."""
         self.p, self.robot, self.indices = p, robot, indices
         self.bodies, self.settings = bodies, settings
         self._make()
@@ -66,7 +66,7 @@ class Motors:
         self._make_pids()
 
     def _make_pids(self) -> None:
-        """Make the PID loops of the joints that gains of a file drive."""
+        """Make the PID loops of the joints with gains of a controller file."""
         controls = self.settings.controls or {}
         some = [
             (link, joint)
@@ -90,7 +90,7 @@ class Motors:
             self._push()
 
     def _push(self) -> None:
-        """Give each joint that gains drive its effort for the next step."""
+        """Set the effort of joints with PID gains for the next step."""
         p = self.p
         states = np.array([s[:2] for s in p.getJointStates(self.robot, self.driven)])
         efforts = self.pids.step(states[:, 0], states[:, 1])
@@ -102,14 +102,14 @@ class Motors:
     def _limit_stable_damping(self) -> dict[str, float]:
         """Limit the damping of each joint to what its explicit integration allows.
 
-        Beyond half of inertia over timestep it would drive the joint instead of braking it; what is
-        left still stops it within two steps.
+        Damping above half of inertia over time step is unstable; the limit still stops the joint
+        within two steps.
         """
         if not any(joint.damping for joint in self.bodies.joints):
             return dict.fromkeys((joint.name for joint in self.bodies.joints), 0.0)
         try:
             moved = self._get_inertias()
-        except (self.p.error, SystemError):  # it takes rounding for a tensor that is none
+        except (self.p.error, SystemError):  # it rejects some tensors because of rounding
             moved = self._compute_added_inertias()
         return {
             joint.name: min(joint.damping, 0.5 * inertia / self.settings.timestep)
@@ -124,7 +124,7 @@ class Motors:
         return [float(matrix[first + r, first + r]) for r in np.argsort(np.argsort(self.indices))]
 
     def _compute_added_inertias(self) -> list[float]:
-        """Compute the same from the bodies below each joint."""
+        """Compute the inertia at each joint from the bodies below it [kg·m², kg]."""
         p, bodies = self.p, self.bodies.bodies
         states = [p.getLinkState(self.robot, n, computeForwardKinematics=1) for n in self.indices]
         found = [0.0] * len(states)
@@ -146,11 +146,11 @@ class Motors:
         return found
 
     def _sort_by_engine(self, values: list[float]) -> list[float]:
-        """Order values of joints as the engine numbers its links."""
+        """Sort values of joints by the engine's index of the child link."""
         return [value for _, value in sorted(zip(self.indices, values, strict=True))]
 
     def _follow(self) -> None:
-        """Send each joint that mimics another where that one is."""
+        """Set the target of each mimic joint from the position of its leader."""
         if not self.followers:
             return
         p = self.p
@@ -171,16 +171,16 @@ class Motors:
 
 
 class Forces:
-    """Forces that Gazebo's extensions ask for, and for which PyBullet has no setting.
+    """Forces of Gazebo extensions for which PyBullet has no setting.
 
-    Gravity acts on the world as a whole, so a link without gravity is pushed up by its own weight.
-    A spring of a joint is an effort in addition to that of its motor.
+    Gravity acts on all bodies, so a link without gravity gets an upward force equal to its weight.
+    A joint spring is an effort in addition to that of the motor.
     """
 
     def __init__(
         self, p: Any, robot: int, bodies: RigidBodyModel, indices: list[int], frame: Frame
     ) -> None:
-        """Take the engine's number of a robot and of the link of each joint, and its frames."""
+        """Store the engine's indices of a robot and of the child link of joints, and its frames."""
         self.p, self.robot, self._frame = p, robot, frame
         self._lifted = [
             (number, indices[number - 1] if number else -1, body.weightless)
@@ -197,7 +197,7 @@ class Forces:
         self._rest = np.array([rest for _, _, rest in springs])
 
     def apply(self, gravity: tuple[float, float, float]) -> None:
-        """Apply what acts in the next step, under gravity [m/s²]."""
+        """Apply the forces of the next step, under gravity [m/s²]."""
         p = self.p
         for number, link, part in self._lifted:
             center, _ = p.multiplyTransforms(*self._frame(number), tuple(part.com), (0, 0, 0, 1))

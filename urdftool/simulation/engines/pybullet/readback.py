@@ -1,4 +1,4 @@
-"""What PyBullet took the robot for, compared with what it was given."""
+"""Compare the values that PyBullet loaded with those of the robot."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def read_back(
 
     Args:
         p: PyBullet.
-        robot: Its number of the robot.
-        bodies: What it was given.
-        link_of: Its link of each body.
+        robot: PyBullet's index of the robot.
+        bodies: Rigid bodies of the robot.
+        link_of: PyBullet's link of each body.
     """
     found: list[ReadBack] = []
     for number, body in enumerate(bodies.bodies):
@@ -58,7 +58,7 @@ def _list_mass(info: Any, body: RigidBody, fixed_base: bool) -> Iterator[ReadBac
         yield ReadBack("link", body.name, "principal moments", f"{said} kg·m²", f"{got} kg·m²")
     if not np.allclose(info[3], frame.translation, atol=1e-6):
         said, got = (" ".join(f"{value:.4g}" for value in p) for p in (frame.translation, info[3]))
-        yield ReadBack("link", body.name, "centre of mass", f"{said} m", f"{got} m")
+        yield ReadBack("link", body.name, "center of mass", f"{said} m", f"{got} m")
 
 
 def _list_joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:

@@ -1,4 +1,4 @@
-"""The robot as an engine reads it best: one link a rigid body, plain names, meshes as OBJ."""
+"""Write a robot as URDF for PyBullet: one link per rigid body, plain names, meshes as OBJ."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ NAME = "robot.urdf"
 
 
 def write_folder(robot: RigidBodyModel, folder: Path) -> Path:
-    """Write a robot and its meshes; the path of the URDF.
+    """Write a robot and its meshes, and return the path of the URDF.
 
-    Body number i is link ``b{i}`` on joint ``j{i}``: no name of the user's file can be too long,
-    doubled or hostile for an engine.
+    Body i is link ``b{i}`` on joint ``j{i}``, so that names of the file cannot be too long,
+    repeated or invalid for the engine.
     """
     lines = ['<?xml version="1.0"?>', '<robot name="robot">']
     for number, body in enumerate(robot.bodies):

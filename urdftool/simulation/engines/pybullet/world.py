@@ -1,4 +1,4 @@
-"""The robot above a plane in PyBullet: loading, stepping and sampling."""
+"""Load, step and sample a robot above a plane in PyBullet."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from .readback import read_back
 from .urdf import NAME, compute_principal_frame
 
 _ITERATIONS = 100
-_STOP = 1e9  # N·m, N; its own is an impulse of 100 a step, which a load of 5 t breaks through
-_BREAKING = 0.005  # m; contacts kept longer lag behind what rolls, and push it on
+_STOP = 1e9  # N·m, N; the default, an impulse of 100 per step, does not hold a load of 5 t
+_BREAKING = 0.005  # m; contacts kept longer are behind a rolling body and accelerate it
 
 
 def import_pybullet() -> Any:
@@ -42,17 +42,17 @@ class PyBulletWorld:
 
     Attributes:
         p: The library.
-        robot: Its number of the robot.
-        plane: Its number of the plane.
-        link_of: The engine's link of each body; -1 is the root.
-        touches: What touches what.
-        motors: What holds the joints.
-        forces: What else acts on bodies and joints.
-        gravity: In the world [m/s²].
+        robot: PyBullet's index of the robot.
+        plane: PyBullet's index of the plane.
+        link_of: PyBullet's link of each body; -1 is the root.
+        touches: Reader of contacts and overlaps.
+        motors: Motors of the joints.
+        forces: Other forces on bodies and joints.
+        gravity: Gravity in the world [m/s²].
     """
 
     def __init__(self, p: Any, bodies: RigidBodyModel, settings: Settings, folder: Path) -> None:
-        """Set the scene; nothing moves yet."""
+        """Load the robot and set its initial state."""
         self.p, self.bodies, self.settings = p, bodies, settings
         p.connect(p.DIRECT)
         p.setTimeStep(settings.timestep)
@@ -87,7 +87,7 @@ class PyBulletWorld:
                 str(folder / NAME), flags=flags, useFixedBase=self.bodies.fixed_base
             )
         except p.error as error:
-            raise ModelError(f"PyBullet does not read the robot: {error}") from None
+            raise ModelError(f"PyBullet cannot load the robot: {error}") from None
         return number
 
     def _name_links(self) -> None:
@@ -98,7 +98,7 @@ class PyBulletWorld:
         self.indices = [self.link_of[number] for number in range(1, len(self.bodies.bodies))]
 
     def _place(self) -> None:
-        """Put the root's link frame where it starts, and each joint."""
+        """Set the initial pose of the root's link frame and the initial joint positions."""
         p = self.p
         frame, _ = compute_principal_frame(self.bodies.bodies[0])
         at = self.bodies.start @ frame
@@ -108,16 +108,18 @@ class PyBulletWorld:
         for number, joint in zip(self.indices, self.bodies.joints, strict=True):
             p.resetJointState(self.robot, number, self.bodies.positions[joint.name], 0.0)
 
-    def _check_friction(self, number: int, said: float) -> None:
+    def _check_friction(self, number: int, specified: float) -> None:
         body = self.bodies.bodies[number]
-        got = self.p.getDynamicsInfo(self.robot, self.link_of[number])[1]
-        if body.shapes and abs(got - said) > 1e-9:
+        loaded = self.p.getDynamicsInfo(self.robot, self.link_of[number])[1]
+        if body.shapes and abs(loaded - specified) > 1e-9:
             name = body.name
-            self.read_back.append(ReadBack("link", name, "friction", f"{said:g}", f"{got:g}"))
+            self.read_back.append(
+                ReadBack("link", name, "friction", f"{specified:g}", f"{loaded:g}")
+            )
 
     def _make_dynamics(self) -> None:
         p, settings = self.p, self.settings
-        # of the whole robot, and in calls of their own: for a link they undo what comes with them
+        # for the whole robot, in separate calls: for a link, they reset the other options
         p.changeDynamics(self.robot, -1, linearDamping=0.0, angularDamping=0.0)
         p.changeDynamics(self.robot, -1, maxJointVelocity=1e6)
         for number, body in enumerate(self.bodies.bodies):
@@ -138,13 +140,13 @@ class PyBulletWorld:
             self._check_friction(number, options["lateralFriction"])
 
     def clear_ground(self) -> None:
-        """Take the robot off the plane, which is not to matter."""
+        """Move the robot up, away from the plane."""
         at, turn = self.p.getBasePositionAndOrientation(self.robot)
         up = (at[0], at[1], at[2] + 10 * max(1.0, self.bodies.size))
         self.p.resetBasePositionAndOrientation(self.robot, up, turn)
 
     def set_joint_position(self, joint: int, value: float) -> None:
-        """Put a joint somewhere, with those that mimic it, without a step."""
+        """Set the position of a joint [rad, m], and of those that mimic it, without a step."""
         self.p.resetJointState(self.robot, self.indices[joint], value, 0.0)
         for link, leader, follower in self.motors.followers:
             if leader == self.indices[joint]:
@@ -157,15 +159,15 @@ class PyBulletWorld:
         return self.touches.list_contacts()
 
     def find_overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
+        """Find the interpenetration of each pair of bodies, whether or not contacts are enabled."""
         return self.touches.find_overlaps(ground=ground)
 
     def is_broken(self) -> bool:
-        """Return False: this engine reports nothing, and the driver checks its numbers."""
+        """Return False: PyBullet does not report divergence, and the driver checks the values."""
         return False
 
     def set_gravity(self, gravity: tuple[float, float, float], poses: Array) -> None:
-        """Set gravity, and see which links may roll."""
+        """Set gravity, and find the links that may roll."""
         self._rolling = self._round_links(poses)
         self.p.setGravity(*gravity)
         self.gravity = gravity
