@@ -19,13 +19,13 @@ _HOMES = {
     "Robot": "model.elements",
     "Severity": "diagnostic",
     "UrdftoolError": "errors",
-    "check": "lint.run",
+    "check": "api.lint",
     "compute_inertia": "inertia.compute",
     "expand": "api.expand",
     "export_mjcf": "api.export",
     "export_sdf": "api.export",
     "fix": "api.fix",
-    "load": "model.load",
+    "load": "api.load",
     "simplify_collisions": "api.collisions",
     "simulate": "api.simulate",
 }
@@ -52,14 +52,14 @@ if TYPE_CHECKING:
     from .api.expand import expand
     from .api.export import export_mjcf, export_sdf
     from .api.fix import fix
+    from .api.lint import check
+    from .api.load import load
     from .api.simulate import simulate
     from .diagnostic import Severity
     from .errors import UrdftoolError
     from .finding import Finding
     from .inertia.compute import compute_inertia
-    from .lint.run import check
     from .model.elements import Robot
-    from .model.load import load
 
 
 def __getattr__(name: str) -> object:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES, ROOT
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 ROBOTS = FIXTURES / "robots"
 SCHEMAS = ROOT / "docs" / "schemas"

@@ -1,12 +1,12 @@
 import pytest
 
 from tests.graph.robots import robot
+from urdftool.api.lint import check
 from urdftool.graph.detailed import create_detailed_figure
 from urdftool.graph.dot import to_dot
 from urdftool.graph.fold import fold_fixed
 from urdftool.graph.marks import mark_findings
 from urdftool.graph.mermaid import label, to_mermaid
-from urdftool.lint.run import check
 
 ARM = """<robot name="arm">
 <link name="base">

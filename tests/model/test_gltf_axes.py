@@ -10,10 +10,10 @@ import trimesh
 from lxml import etree
 
 from tests.conftest import FIXTURES
+from urdftool.api.lint import check
 from urdftool.collision.cache import compute_key
 from urdftool.collision.compute import Task
 from urdftool.formats.mjcf.cache import convert_all
-from urdftool.lint.run import check
 from urdftool.model.gltf_axes import describe_gltf_axes
 from urdftool.model.load import load
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 from urdftool.mechanics.spatial_inertia import combine_links
 from urdftool.model.attached import find_attached_links, is_fixed_to_world
 from urdftool.model.load import load

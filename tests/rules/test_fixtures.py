@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from tests import rule_table
+from urdftool.formats.detect import read_other_format
 from urdftool.lint.outcome import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
@@ -24,8 +25,8 @@ from urdftool.rules.table import RULES
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "rules"
 
-BAD = sorted(FIXTURES.glob("*/bad*.urdf*"))
-GOOD = sorted(FIXTURES.glob("*/good*.urdf*"))
+BAD = sorted((*FIXTURES.glob("*/bad*.urdf*"), *FIXTURES.glob("*/bad*.sdf")))
+GOOD = sorted((*FIXTURES.glob("*/good*.urdf*"), *FIXTURES.glob("*/good*.sdf")))
 
 
 def _name(path):
@@ -33,7 +34,8 @@ def _name(path):
 
 
 def _findings(path):
-    options = Options(Settings(extend_select=(path.parent.name,)))
+    settings = Settings(extend_select=(path.parent.name,))
+    options = Options(settings, read_other=read_other_format)
     report = check_file(path, options)
     assert report.error is None
     assert not report.failed_rules
@@ -54,7 +56,7 @@ def _expected(path):
             file.name.startswith(("bad", "good", "fixed")) or file.suffix == ".toml"
         ):
             continue
-        if file.suffix not in (".urdf", ".xacro"):
+        if file.suffix not in (".urdf", ".xacro", ".sdf"):
             continue
         for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
             for comment in re.findall(r"<!--\s([a-z0-9 -]+)\s-->", line):
@@ -86,8 +88,8 @@ def test_rule_is_complete(name):
     assert first.strip().endswith("."), "the first line is a fact, a sentence"
     assert rest.strip(), "why it hurts"
     folder = FIXTURES / name
-    assert list(folder.glob("bad*.urdf*")), f"{folder} has no bad fixture"
-    assert list(folder.glob("good*.urdf*")), f"{folder} has no good fixture"
+    assert folder in {path.parent for path in BAD}, f"{folder} has no bad fixture"
+    assert folder in {path.parent for path in GOOD}, f"{folder} has no good fixture"
 
 
 def test_no_fixture_without_a_rule():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 ROBOT = """<robot name="r">
   <link name="base"/>

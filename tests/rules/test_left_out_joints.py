@@ -2,8 +2,9 @@
 
 import pytest
 
+from urdftool.api.lint import check
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import check, check_file
+from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
 ARM = '<link name="base"/><link name="arm"/>'

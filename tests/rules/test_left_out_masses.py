@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 
 def _messages(path, rule, *targets):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 SHOWN = '<link name="l{0}"><visual><geometry><mesh filename="{1}"/></geometry></visual></link>'
 

@@ -2,7 +2,7 @@
 
 import struct
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 LINK = '<link name="l{0}"><visual><geometry><mesh filename="{1}"/></geometry></visual></link>'
 TRIANGLE = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 0.2, 0, 0, 0, 0.2, 0, 0)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 HEAD = """<?xml version="1.0"?>
 <robot name="head">

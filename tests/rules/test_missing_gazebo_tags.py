@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "rules"
 CART = FIXTURES / "missing-gazebo-tags" / "bad.urdf"

@@ -2,8 +2,8 @@
 
 import pytest
 
+from urdftool.api.lint import check
 from urdftool.errors import SourceError
-from urdftool.lint.run import check
 
 BOX = '<{0}><origin xyz="{1}"/><geometry><box size="0.1 0.1 0.1"/></geometry></{0}>'
 

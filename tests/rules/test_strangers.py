@@ -1,6 +1,6 @@
 """What URDF does not have: said once, at the first place, in words that nobody misreads."""
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 
 def messages(tmp_path, inside, rule):

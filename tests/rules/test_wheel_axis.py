@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 
 HEAD = '<?xml version="1.0"?>\n<robot name="r"><link name="base_link"/>\n'
 INERTIA = {

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.simulation.robots import body, inertial, simulated
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 from urdftool.lint.validate import PURPOSES
 from urdftool.model.load import load
 from urdftool.simulation.model_checks.description import _CAUSES, KINDS, REMARKS

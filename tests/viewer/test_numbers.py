@@ -1,5 +1,5 @@
 from tests.conftest import FIXTURES
-from urdftool.lint.run import check
+from urdftool.api.lint import check
 from urdftool.model.load import load
 from urdftool.viewer import panels
 from urdftool.viewer.marks import find_highest_severity, format_counts, group_by_link

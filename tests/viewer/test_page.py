@@ -4,9 +4,9 @@ import os
 
 import pytest
 
+from urdftool.api.lint import check
 from urdftool.drawing.shapes import read_robot_shapes
 from urdftool.errors import ModelError
-from urdftool.lint.run import check
 from urdftool.model.kinematics import add_mimic_positions, link_poses
 from urdftool.model.load import load
 from urdftool.model.pose import Pose, rotation_from_quaternion

@@ -209,7 +209,7 @@ def check_plugins(robot: Robot, target: str) -> list[Finding]:
     """
     from ..diagnostic import Severity
     from ..errors import ConfigError
-    from ..lint.run import check
+    from .lint import check
 
     if robot.source is None or not robot.plugins:
         return []

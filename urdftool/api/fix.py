@@ -48,6 +48,7 @@ def fix(
         ConfigError: A rule, target or option is unknown.
         OutputError: A file cannot be written, or was changed by another program.
     """
+    from ..formats.detect import read_other_format
     from ..lint.fix_run import fix_description
     from ..lint.outcome import Options
     from ..lint.run import check_file, warn_of_renamed
@@ -61,7 +62,7 @@ def fix(
         targets=check_targets(targets),
     )
     options = Options(chosen, args or {}, packages or {}, tuple(package_paths), config, fixes=True)
-    options.gltf_up = gltf_up
+    options.gltf_up, options.read_other = gltf_up, read_other_format
     if unsafe:
         from ..inertia.scales import Scales
         from ..rules.inertia.solids import DENSITY

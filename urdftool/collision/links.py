@@ -134,7 +134,7 @@ def _make_task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
     mesh = shape.geometry
     if not isinstance(mesh, Mesh):
         return None
-    place = mesh.element.locate_attribute("filename")
+    place = mesh.locate_attribute("filename")
     if not mesh.filename:
         raise MeshError("the mesh has no filename", at=place)
     assert robot.source is not None
@@ -147,7 +147,7 @@ def _make_task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
     if not all(mesh.scale):
         raise MeshError(
             "the scale of the mesh has a factor of zero; all three must differ from zero",
-            at=mesh.element.locate_attribute("scale"),
+            at=mesh.locate_attribute("scale"),
         )
     return Task(Path(path), mesh.scale, settings, robot.source.gltf_up)
 

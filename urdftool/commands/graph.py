@@ -121,7 +121,7 @@ def _make_figure(
     figure = figure_of(model)
     mark_faults(figure, faults)
     if linted:
-        from ..lint.run import check
+        from ..api.lint import check
 
         mark_findings(figure, check(model, config=console.config))
     if fold:

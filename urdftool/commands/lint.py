@@ -143,6 +143,7 @@ def command(
     findings that remain; with --diff: something would be fixed). Exit code 2, with all options: a
     robot could not be read or expanded, and was not checked.
     """  # noqa: D301 -- click reads the escape
+    from ..formats.detect import read_other_format
     from ..lint.discover import explain_nothing_found, find_descriptions
     from ..lint.outcome import Options
     from ..lint.parallel import check_files
@@ -174,6 +175,7 @@ def command(
     folder = choose_cache_folder("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up, options.workspace = console.gltf_up, workspace
+    options.read_other = read_other_format
     if folder is not None:
         from ..lint.cache import Cache
         from ..storage import DiskCache

@@ -123,6 +123,8 @@ def _report_unfixed(console: Console, reports: Sequence[Report], kinds: Kinds) -
     """Print which fixes could not be applied, and which options enable others."""
     outside: Counter[str] = Counter()
     for report in reports:
+        if report.format != "urdf":
+            console.print_note(f"{report.path}: not changed; fixes edit URDF and xacro only")
         outside.update(where for _, where in report.outside)
         for finding, reason in report.not_fixed:
             place, rule = finding.location, finding.code

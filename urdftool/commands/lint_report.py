@@ -84,6 +84,7 @@ def report(
         click.echo(text, err=True, nl=False)
     else:
         write_result(text, output.output_file, inputs=_list_inputs(outcome) if to_file else [])
+    _report_unread(console, outcome.reports)
     _report_skipped(console, outcome.reports, output.paths)
     broken = _report_errors(console, outcome.reports)
     if any(report.checked or report.stopped for report in outcome.reports):
@@ -161,6 +162,16 @@ def _describe_stale(baseline: Baseline, stale: list[Entry]) -> str:
         f"{baseline.path}: {what} no finding ({'; '.join(some + more)}); "
         f"remove with --write-baseline {baseline.path}"
     )
+
+
+def _report_unread(console: Console, reports: Iterable[Report]) -> None:
+    """Print what readers of SDF and MJCF left out, once for each file and kind."""
+    for report in reports:
+        if report.unread:
+            from ..formats.common.loss_report import format_lines
+
+            for line in format_lines(report.unread):
+                console.print_note(line)
 
 
 def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence[str]) -> None:

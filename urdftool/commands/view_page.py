@@ -87,6 +87,6 @@ def _load(console: Console, robot: Robot, kind: str) -> Shapes:
 
 
 def _check(console: Console, robot: Robot) -> list[Finding]:
-    from ..lint.run import check
+    from ..api.lint import check
 
     return check(robot, config=console.config)

@@ -1,10 +1,12 @@
-"""The format of a file, by its root element or its first bytes."""
+"""The format of a file, by its root element or its first bytes, and reading a file by its format."""
 
 from __future__ import annotations
 
 import re
 
+from ..model.elements import Robot
 from ..source.location import SourceFile
+from ..source.packages import Packages
 from .registry import Format, format_named
 
 _PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
@@ -26,3 +28,20 @@ def format_of(file: SourceFile) -> Format:
         at = skipped.end()
     tag = _TAG.match(data, at)
     return format_named(_FORMAT_OF.get(tag[1] if tag else b"", "urdf"))
+
+
+def read_other_format(file: SourceFile, packages: Packages) -> Robot | None:
+    """Read a robot in a format other than URDF; return None for URDF and xacro.
+
+    Args:
+        file: The file.
+        packages: Finder of meshes and included models.
+
+    Raises:
+        UrdftoolError: The file cannot be read.
+    """
+    found = format_of(file)
+    if found.name == "urdf":
+        return None
+    workspace = packages.workspace
+    return found.read(file.path, file=file, packages=packages, workspace=workspace).robot

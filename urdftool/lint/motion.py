@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from ..model.elements import Robot
-from ..source.document import Element
+from ..rules.rule import Problem
 
 WELDED = "does not use it: it fixes the root link to the world"
 UNUSED_JOINT = "does not use it, because the joint is fixed"
 
 
-def is_joint_unused(robot: Robot | None, element: Element) -> bool:
-    """Tell whether no reader uses the dynamics of an element, because it is a fixed joint."""
-    if robot is None or element.tag != "joint":
+def is_joint_unused(robot: Robot | None, problem: Problem) -> bool:
+    """Tell whether no reader uses the dynamics of a subject, because it is a fixed joint."""
+    if robot is None or problem.kind != "joint":
         return False
-    joint = robot.joint.get(element.get("name") or "")
+    joint = robot.joint.get(problem.name)
     return joint is not None and joint.is_fixed
 
 
-def is_link_unused(robot: Robot | None, element: Element) -> bool:
-    """Tell whether no reader uses the inertia of an element: a link that is fixed to the world."""
-    name = element.get("name")
-    if robot is None or name is None or element.tag != "link":
+def is_link_unused(robot: Robot | None, problem: Problem) -> bool:
+    """Tell whether no reader uses the inertia of a subject: a link that is fixed to the world."""
+    name = problem.name
+    if robot is None or not name or problem.kind != "link":
         return False
     seen: set[str] = set()
     while name != "world" and name not in seen:
@@ -32,13 +32,13 @@ def is_link_unused(robot: Robot | None, element: Element) -> bool:
     return name == "world"
 
 
-def is_welded_in_mujoco(robot: Robot | None, element: Element) -> bool:
+def is_welded_in_mujoco(robot: Robot | None, problem: Problem) -> bool:
     """Tell whether MuJoCo's URDF parser fixes a link to the world: the root and links fixed to it.
 
     The ``world`` body of MuJoCo has no mass, so the mass of such a link is lost. A root named
     ``world`` is the world itself.
     """
-    name = element.get("name")
-    if robot is None or element.tag != "link" or name not in robot.tree.bodies:
+    name = problem.name
+    if robot is None or problem.kind != "link" or name not in robot.tree.bodies:
         return False
     return robot.tree.get_parent_joint(robot.tree.bodies[name]) is None

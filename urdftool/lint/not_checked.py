@@ -82,7 +82,11 @@ def _get_first_element(elements: list[Element]) -> Element:
 
 
 def convert_error(
-    failure: UrdftoolError, severities: Mapping[str, Severity | None], *, unchecked: bool
+    failure: UrdftoolError,
+    severities: Mapping[str, Severity | None],
+    *,
+    unchecked: bool,
+    rule: str = "",
 ) -> Finding:
     """Return an error of reading a description as a finding.
 
@@ -91,9 +95,11 @@ def convert_error(
         severities: Configured severities of rules.
         unchecked: Whether the robot was not checked at all; the finding then is an error in any
             configuration.
+        rule: Rule of a file that is not URDF; empty for that of the error.
     """
     place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
-    rule = failure.rule or "not-well-formed"
+    effects = {} if rule else _get_effects(failure.rule or "not-well-formed", failure)
+    rule = rule or failure.rule or "not-well-formed"
     severity = None if unchecked else severities.get(rule)
     return Finding(
         rule,
@@ -101,7 +107,7 @@ def convert_error(
         failure.message,
         place,
         "file",
-        effects=_get_effects(rule, failure),
+        effects=effects,
         hint="; ".join(failure.notes),
         unchecked=unchecked,
         data={"case": failure.case, **failure.data} if failure.case else failure.data,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,12 +10,18 @@ from typing import TYPE_CHECKING
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..source.description import GltfUp
+from ..source.location import SourceFile
+from ..source.packages import Packages
 from ..workspace import Workspace
 from .settings import Settings
 
 if TYPE_CHECKING:
+    from ..model.elements import Robot
     from ..rules.fix import ComputeInertia
     from .cache import Cache
+
+
+ReadOther = Callable[[SourceFile, Packages], "Robot | None"]
 
 
 @dataclass
@@ -33,6 +39,8 @@ class Options:
         compute_inertia: Function for fixes that fill in inertia: returns (mass [kg], center of mass
             [m], six tensor elements [kg·m²]) by link, in the link frame, for a robot and link
             names.
+        read_other: Function that reads a file in a format other than URDF, with its packages, and
+            returns None for URDF; None reads every file as URDF.
         gltf_up: Up axis of glTF meshes; None uses the configuration.
         workspace: Access to the files of the run.
     """
@@ -45,6 +53,7 @@ class Options:
     cache: Cache | None = None
     fixes: bool = False
     compute_inertia: ComputeInertia | None = None
+    read_other: ReadOther | None = None
     gltf_up: GltfUp | None = None
     workspace: Workspace = field(default_factory=Workspace)
 
@@ -59,6 +68,8 @@ class Report:
         targets: Targets for which it was checked.
         ignored: Suppressed findings, each with the reason in its comment.
         files: Source files read.
+        format: Name of the format of the description.
+        unread: What a reader of another format than URDF left out, and so was not checked.
         skipped: Reason why it was not checked; empty if it was.
         error: Error that prevented reading it.
         stopped: Reason why its robot could not be read, so that it was not checked.
@@ -74,6 +85,8 @@ class Report:
     targets: frozenset[str] = frozenset()
     ignored: list[tuple[Finding, str]] = field(default_factory=list)
     files: tuple[str, ...] = ()
+    format: str = "urdf"
+    unread: Sequence[Finding] = ()
     skipped: str = ""
     error: UrdftoolError | None = None
     stopped: str = ""

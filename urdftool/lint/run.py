@@ -10,17 +10,17 @@ from typing import Any
 
 from ..configuration import Configuration, find_configuration
 from ..diagnostic import Severity
-from ..errors import ConfigError, SourceError, UrdftoolError
+from ..errors import ModelError, SourceError, UrdftoolError, XmlError
 from ..extras import find_missing_library
-from ..finding import Cause, Finding, Group, Site
+from ..finding import Cause, Finding, Group
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import applies_to
 from ..rules.old_names import find_old_names, find_old_rules
 from ..rules.rule import Problem, Rule
 from ..rules.table import APPLIES_TO, FIXES
-from ..source.description import Description, GltfUp, is_xacro, read_description
-from ..source.document import Document, Element, parse, read_file
+from ..source.description import Description, is_xacro, read_description
+from ..source.document import STDIN, Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.well_formed import repair
 from ..workspace import Workspace
@@ -35,75 +35,25 @@ from .motion import (
 )
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
-from .settings import Settings, check_selectors, check_targets, read_settings
+from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
 from .variants import as_one, get_variants, label
 
 
-def check(
-    robot: Robot | str | Path,
-    *,
-    args: Mapping[str, str] | None = None,
-    packages: Mapping[str, str | Path] | None = None,
-    package_paths: Iterable[str | Path] = (),
-    select: Iterable[str] | None = None,
-    ignore: Iterable[str] = (),
-    targets: Iterable[str] = (),
-    config: str | None = None,
-    fixes: bool = False,
-    gltf_up: GltfUp | None = None,
-    grouped: bool = False,
-) -> list[Finding]:
-    """Check a robot and return the findings in the order of the source.
-
-    Args:
-        robot: A robot from :func:`urdftool.load`, or the path of a description. For a path, a
-            file that is not well-formed or cannot be expanded is a finding too, an error with
-            ``unchecked`` if nothing else of the robot could be checked.
-        args: Values of xacro arguments, for a path.
-        packages: Folders of ROS packages by name, for a path.
-        package_paths: Folders that contain ROS packages, for a path.
-        select: Rule names, prefixes with ``*`` and families; None selects the default rules.
-        ignore: Rule names, prefixes and families to exclude.
-        targets: Simulators and middleware; if empty, they are inferred.
-        config: Configuration file; None uses the nearest one above the description.
-        fixes: Whether to compute the ``fix`` of each finding, as bytes of the source.
-        gltf_up: Up axis of glTF meshes, for a path; None uses the configuration.
-        grouped: Whether to merge equal findings of many links or files to one with ``members``,
-            and to nest ``consequences`` of another finding, as in ``urdftool lint``.
+def check_robot(robot: Robot, options: Options) -> Report:
+    """Check a robot that was read from a description, which is its ``source``.
 
     Raises:
-        SourceError: The file cannot be read.
-        ConfigError: A rule, target or option is unknown.
+        ConfigError: The configuration is invalid.
     """
-    chosen, ignored = None if select is None else list(select), list(ignore)
-    line = Settings(
-        select=None if chosen is None else check_selectors(chosen),
-        ignore=check_selectors(ignored),
-        targets=check_targets(targets),
-    )
-    if isinstance(robot, Robot):
-        if robot.source is None:
-            raise ConfigError("the robot was not read from a description; use urdftool.load")
-        configuration = find_configuration(robot.source.path, config)
-        settings = read_settings(robot.source.path, configuration, line)
-        report = Report(robot.source.path)
-        source = robot.source.without_cache()
-        again = replace(robot, source=source)
-        _check_description(source, again, settings, report, [], Options(fixes=fixes))
-    else:
-        options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
-        options.fixes, options.gltf_up = fixes, gltf_up
-        report = check_file(robot, options)
-        if report.error is not None:
-            raise report.error
-    warn_of_renamed((*(chosen or ()), *ignored), report.path, config)
-    if not grouped:
-        return report.findings
-    from .group import group
-
-    return group(report.findings)
+    assert robot.source is not None
+    configuration = find_configuration(robot.source.path, options.config)
+    settings = read_settings(robot.source.path, configuration, options.settings)
+    report = Report(robot.source.path)
+    source = robot.source.without_cache()
+    _check_description(source, replace(robot, source=source), settings, report, [], options)
+    return report
 
 
 def warn_of_renamed(selectors: Iterable[str], path: str | Path, config: str | None) -> None:
@@ -149,6 +99,9 @@ def find_cached_report(path: str | Path, options: Options) -> Report | None:
     return _as_one(reports)
 
 
+_URDF_ENDINGS = (".urdf", ".xacro")
+"""Endings of files that readers of URDF open, whatever their content."""
+
 _Question = tuple[str | Path, Options, Configuration, Settings]
 
 
@@ -174,6 +127,8 @@ def _check_with_cache(
     view = options.workspace.with_record()
     report = _check_variant(path, replace(options, workspace=view), configuration, settings)
     assert view.dependencies is not None
+    if report.format != "urdf":  # MuJoCo reads files itself
+        return label(options.arguments), report
     options.cache.write(options.cache.get_key(*question), report, view.dependencies)
     return label(options.arguments), report
 
@@ -192,6 +147,19 @@ def _check_variant(
     try:
         file = read_file(path, options.workspace)
         refuse_other_files(file)
+        if options.read_other is not None and not file.path.endswith(_URDF_ENDINGS):
+            try:
+                other = _read_other(file, options, configuration)
+            except (SourceError, ModelError) as error:
+                rule = "not-well-formed" if isinstance(error, XmlError) else "unreadable-model"
+                report.stopped = error.message
+                report.findings = [convert_error(error, {}, unchecked=True, rule=rule)]
+                return report
+            if other is not None:
+                assert other.source is not None
+                report.unread = other.unread
+                _check_description(other.source, other, settings, report, [], options)
+                return report
         try:
             description = _read(file, options, configuration)
         except SourceError as error:
@@ -205,7 +173,7 @@ def _check_variant(
                 report.skipped = explain_no_links(description)
                 return report
             refuse_srdf(description)
-    except SourceError as error:
+    except UrdftoolError as error:
         report.error = error
         return report
     robot = None
@@ -222,6 +190,25 @@ def _check_variant(
         description = _make_unexpanded(file, failures, options.workspace)
     _check_description(description, robot, settings, report, failures, options)
     return report
+
+
+def _read_other(file: SourceFile, options: Options, configuration: Configuration) -> Robot | None:
+    """Read a robot in a format other than URDF; None for URDF and xacro.
+
+    Raises:
+        UrdftoolError: The file cannot be read.
+    """
+    from ..source.packages import Packages
+
+    packages = Packages(
+        None if file.path == STDIN else file.path,
+        named=options.packages,
+        paths=options.package_paths,
+        configured=configuration.packages,
+        workspace=options.workspace,
+    )
+    assert options.read_other is not None
+    return options.read_other(file, packages)
 
 
 def _read(file: SourceFile, options: Options, configuration: Configuration) -> Description:
@@ -281,8 +268,11 @@ def _check_description(
         targets = frozenset()
     report.targets = targets
     report.files = tuple(file.path for file in description.files)
+    report.format = "urdf" if robot is None else robot.format
     rules = _select_rules(settings, targets, description)
-    documents = list(_list_documents(description))
+    if report.format != "urdf":
+        rules = [rule for rule in rules if report.format in rule.formats]
+    documents = list(_list_documents(description, report.format))
     findings = [
         convert_error(failure, settings.severity, unchecked=robot is None) for failure in failures
     ]
@@ -293,7 +283,7 @@ def _check_description(
     }
     ran: set[str] = set()
     origins: dict[int, Any] = {}
-    rejections = Rejections(robot)
+    rejections = Rejections(robot if report.format == "urdf" else None)
     for rule in rules:
         if "robot" in rule.needs and robot is None:
             continue
@@ -308,7 +298,7 @@ def _check_description(
                 findings.append(finding)
                 if finding.effects:
                     rejections.add(rule.name, rule.select_keys(problem.effects))
-                if options.fixes and rule.name in FIXES:
+                if options.fixes and report.format == "urdf" and rule.name in FIXES:
                     origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)
     if suppressions or wrong:
@@ -318,7 +308,8 @@ def _check_description(
         idle = {name for name in selected if not applies_to(name, tags)}
         stale = report_unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.code in selected]
-    if options.fixes and any(f.code in FIXES for f in findings):
+    fixes = options.fixes and report.format == "urdf"
+    if fixes and any(f.code in FIXES for f in findings):
         from .fix import Origin, add_fixes
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
@@ -352,9 +343,9 @@ def _collect_tags(description: Description) -> set[str]:
     return tags
 
 
-def _list_documents(description: Description) -> Iterator[Document]:
+def _list_documents(description: Description, name: str) -> Iterator[Document]:
     """Yield the source files, unexpanded, without those that are not well-formed."""
-    if description.expansion is None and description.document.root.tag:
+    if name == "urdf" and description.expansion is None and description.document.root.tag:
         yield description.document
         return
     for file in description.files:
@@ -393,15 +384,17 @@ def _convert_finding(
 ) -> Finding | None:
     """Convert a problem to a finding; None for a defect in motion of a link fixed to the world."""
     severity = settings.severity.get(rule.name)
-    effects = rule.select_effects(problem.effects)
+    effects, hint = rule.select_effects(problem.effects), problem.hint
+    if robot is not None and robot.format != "urdf":
+        effects, hint = {}, ""  # they are about URDF
     if severity is None:
         severity = problem.severity or rule.get_severity(targets)
         if rule.of_motion and severity is not Severity.ERROR:
-            if is_link_unused(robot, problem.element):
+            if is_link_unused(robot, problem):
                 return None
-            if is_joint_unused(robot, problem.element):
+            if is_joint_unused(robot, problem):
                 severity, effects = Severity.INFO, {"every reader": UNUSED_JOINT}
-            elif is_welded_in_mujoco(robot, problem.element):
+            elif is_welded_in_mujoco(robot, problem):
                 effects = _replace_mujoco(effects)
     causes = rule.caused_by if problem.caused_by is None else problem.caused_by
     concerned = targets if rule.on is None else targets.intersection(rule.on)
@@ -414,10 +407,10 @@ def _convert_finding(
         problem.name,
         tuple(sorted(concerned)) if rule.on is not None else (),
         effects,
-        problem.hint,
-        site=_make_site(problem.element),
+        hint,
+        site=problem.site,
         group=Group(rule.group, problem.group, problem.alike) if rule.group else None,
-        cause=Cause(causes, _make_site(problem.cause_element)) if causes else None,
+        cause=Cause(causes, problem.cause_site) if causes else None,
         owner=problem.owner,
         data=problem.data,
     )
@@ -435,7 +428,3 @@ def _replace_mujoco(effects: dict[str, str]) -> dict[str, str]:
         found[others] = effect
         found["mujoco"] = WELDED
     return found
-
-
-def _make_site(element: Element) -> Site:
-    return element.file.path, element.start

@@ -155,13 +155,6 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
 ``export:sdf``, ``export:mjcf`` and ``export:usd`` come on top of ``export``."""
 
 
-_FAMILIES = ("tree", "inertia")
-"""Families of rules that need no text of URDF, so that they check robots of any format."""
-
-_RULES = ("unknown-joint-type",)
-"""Further rules that need no text of URDF."""
-
-
 def validate(robot: Robot, purpose: str) -> list[Finding]:
     """Report what keeps a robot from being used for a purpose, as errors.
 
@@ -198,7 +191,7 @@ def find_problems(robot: Robot, purpose: str) -> Iterator[tuple[str, Problem]]:
     """
     for name, where, most in PURPOSES[purpose]:
         rule = get_rule(name)
-        if robot.xml is None and rule.family not in _FAMILIES and name not in _RULES:
+        if robot.format not in rule.formats or (robot.xml is None and len(rule.formats) == 1):
             continue
         check = rule.full_check or rule.check
         number = 0

@@ -8,7 +8,7 @@ parsed (rules of the ``xml`` family report them). Parts do not change after read
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -41,6 +41,7 @@ from .shapes import Sphere as Sphere
 from .shapes import UnknownShape as UnknownShape
 
 if TYPE_CHECKING:
+    from ..finding import Finding
     from ..source.description import Description
     from .tree import KinematicTree
 
@@ -356,6 +357,7 @@ class Robot(Part):
 
     Attributes:
         name: Name; empty if not written.
+        format: Name of the format of its source.
         version: URDF version as written.
         links: Links in the order of the file.
         joints: Joints in the order of the file.
@@ -369,6 +371,7 @@ class Robot(Part):
         configurations: Named joint positions.
         cameras: Cameras on links.
         mounted_sensors: Sensors of links and joints.
+        unread: What the robot does not hold of its source, once for each kind.
         source: Description from which it was read; None if it was read from a bare element.
         memo: Values shared by several rules, computed once.
     """
@@ -389,6 +392,8 @@ class Robot(Part):
     configurations: list[Configuration] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     mounted_sensors: list[MountedSensor] = field(default_factory=list)
+    format: str = "urdf"
+    unread: Sequence[Finding] = field(default=(), repr=False)
     source: Description | None = field(default=None, repr=False)
     memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 

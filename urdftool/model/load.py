@@ -41,18 +41,7 @@ def load(
     package_paths: Iterable[str | Path] = (),
     gltf_up: GltfUp = "y",
 ) -> Robot:
-    """Read a robot from a URDF or xacro file.
-
-    The robot may be invalid in any way that leaves its XML well-formed; :func:`urdftool.check`
-    reports its defects.
-
-    Args:
-        path: A ``.urdf`` or ``.xacro`` file, or ``-`` for standard input.
-        args: Values of xacro arguments.
-        packages: Folders of ROS packages by name; others are searched as on the command line.
-        package_paths: Folders that contain ROS packages.
-        gltf_up: Up axis of glTF meshes: ``"y"`` as in their standard, rotated to Z as in RViz;
-            ``"z"`` for files made for readers that keep the axes of the file.
+    """Read a robot from a URDF or xacro file; the arguments are those of :func:`urdftool.load`.
 
     Raises:
         SourceError: The file cannot be read, parsed or expanded.

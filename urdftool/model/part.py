@@ -44,6 +44,11 @@ class Part:
         return self.provenance if isinstance(self.provenance, Element) else None
 
     @property
+    def tag(self) -> str:
+        """Return the tag of the URDF element; the name of the class in lower case without one."""
+        return type(self).__name__.lower() if self.xml is None else self.xml.tag
+
+    @property
     def sources(self) -> list[Provenance]:
         """Return the source in a list; an empty one for a generated part."""
         return [] if self.provenance is None else [self.provenance]

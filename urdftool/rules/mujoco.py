@@ -7,10 +7,12 @@ from ..model.mesh_formats import READ_BY, get_suffix
 
 
 def keeps_visuals(robot: Robot) -> bool:
-    """Tell whether MuJoCo keeps the visuals of a robot, which it discards by default."""
+    """Tell whether MuJoCo keeps the visuals; from a URDF it discards them by default."""
+    if robot.xml is None:
+        return True
     return any(
         (compiler.get("discardvisual") or "").strip() == "false"
-        for mujoco in robot.element.list_children("mujoco")
+        for mujoco in robot.xml.list_children("mujoco")
         for compiler in mujoco.list_children("compiler")
     )
 

@@ -34,6 +34,10 @@ Arguments of the decorator control how findings are reported together:
     are fixed to the world, and for fixed joints, a warning becomes an info. Errors stay, because
     readers reject the robot anyway.
 
+``formats=ANY_FORMAT``
+    The rule also applies to robots of other formats: it uses ``element`` of no part, and its
+    messages hold in each of them. Effects and fixes are those of URDF, and are left out.
+
 A fix is a function after its rule, ``@zero_axis.fix(UNSAFE)``; see :mod:`urdftool.rules.fix`. It
 takes its values from ``Problem(data=…)``.
 
@@ -54,7 +58,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..diagnostic import Severity
-from ..finding import Scope
+from ..finding import Scope, Site
 from ..model.elements import Part, Robot
 from ..source.document import Element
 from ..source.location import Place
@@ -65,6 +69,9 @@ TARGETS = ("ros1", "ros2", "gazebo-classic", "gz", "mujoco", "pybullet", "moveit
 
 GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")
+
+ANY_FORMAT = ("urdf", "sdf", "mjcf")
+URDF_AND_SDF = ("urdf", "sdf")
 
 Check = Callable[..., Iterable["Problem"]]
 CheckRobot = Callable[["Robot"], Iterable["Problem"]]
@@ -152,10 +159,7 @@ class Problem:
     @property
     def kind(self) -> str:
         """Tag of the subject, such as ``link``."""
-        subject = self.subject
-        if isinstance(subject, Part) and subject.xml is None:
-            return type(subject).__name__.lower()
-        return self.element.tag
+        return self.subject.tag
 
     @property
     def name(self) -> str:
@@ -168,7 +172,7 @@ class Problem:
     @property
     def element(self) -> Element:
         """The element of the subject."""
-        return _get_element(self.subject)
+        return self.subject if isinstance(self.subject, Element) else self.subject.element
 
     @property
     def owner(self) -> str:
@@ -185,13 +189,20 @@ class Problem:
         return ""
 
     @property
-    def cause_element(self) -> Element:
-        """The subject of the finding that explains this one."""
-        return _get_element(self.subject if self.cause is None else self.cause)
+    def site(self) -> Site:
+        """File and first byte of the subject."""
+        return _get_site(self.subject)
+
+    @property
+    def cause_site(self) -> Site:
+        """File and first byte of the subject of the finding that explains this one."""
+        return _get_site(self.subject if self.cause is None else self.cause)
 
 
-def _get_element(subject: Part | Element) -> Element:
-    return subject if isinstance(subject, Element) else subject.element
+def _get_site(subject: Part | Element) -> Site:
+    element = subject if isinstance(subject, Element) else subject.xml
+    at = subject.place if element is None else element
+    return at.file.path, at.start
 
 
 class FixTraits(NamedTuple):
@@ -246,6 +257,7 @@ class Rule:
         caused_by: Rules whose finding about the same element explains one of this rule.
         of_motion: Whether it matters only for moving parts: for a link that is fixed to the world,
             or for a fixed joint, a warning is an info.
+        formats: Names of the formats to which it applies.
         make_fix: Proposes changes for a problem, or None for cases that it does not fix; None if
             the rule has no fix.
         fix_traits: Facts about the fix.
@@ -266,6 +278,7 @@ class Rule:
     group: Scope | None = None
     caused_by: tuple[str, ...] = ()
     of_motion: bool = False
+    formats: tuple[str, ...] = ("urdf",)
     make_fix: Callable[..., Proposal | None] | None = None
     fix_traits: FixTraits | None = None
     full_check: CheckRobot | None = None
@@ -353,6 +366,7 @@ def rule(
     group: Scope | None = None,
     caused_by: tuple[str, ...] = (),
     of_motion: bool = False,
+    formats: tuple[str, ...] = ("urdf",),
 ) -> Callable[[Any], Rule]:
     """Make a rule of a function; the arguments are those of :class:`Rule`."""
 
@@ -373,6 +387,7 @@ def rule(
             group=group,
             caused_by=caused_by,
             of_motion=of_motion,
+            formats=formats,
         )
 
     return make

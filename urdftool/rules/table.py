@@ -7,7 +7,13 @@ from .rule import BOTH, SAFE, UNSAFE, FixTraits
 
 RULES: dict[str, dict[str, tuple[str, ...]]] = {
     "xml": {
-        "document": ("not-well-formed", "content-before-declaration", "wrong-root", "missing-name"),
+        "document": (
+            "not-well-formed",
+            "content-before-declaration",
+            "wrong-root",
+            "unreadable-model",
+            "missing-name",
+        ),
         "vocabulary": ("unknown-element", "unknown-attribute", "wrong-case-keyword"),
         "shape": ("repeated-element", "several-shapes-in-geometry", "empty-geometry"),
         "numbers": ("wrong-arity", "not-a-number", "tab-or-newline-in-vector"),

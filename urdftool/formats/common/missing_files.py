@@ -63,7 +63,7 @@ def create_missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
     return make_defect(
         "mesh-not-found",
         f"mesh '{mesh.filename}' of link '{link.name}' {missing.message}",
-        mesh.element.locate_attribute("filename"),
+        mesh.locate_attribute("filename"),
         "link",
         link.name,
         missing.hint,

@@ -116,7 +116,7 @@ def _report_uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
             wrong.append(create_missing_mesh(robot, link, mesh))
         elif not all(mesh.scale):
             text = f"scale of mesh '{mesh.filename}' of link '{link.name}' has a zero in it"
-            place = mesh.element.locate_attribute("scale")
+            place = mesh.locate_attribute("scale")
             wrong.append(make_defect("bad-scale", text, place, "link", link.name))
         else:
             uses.append((path.resolve(), isinstance(shape, Collision), shape))
@@ -128,7 +128,7 @@ def _report_unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -
     shape = next(shape for file, role, shape in uses if (file, role) == job)
     if collides and any((file, role) == (path, False) for file, role, _ in uses):
         return  # reported for the visual
-    place = _make_mesh(shape).element.locate_attribute("filename")
+    place = _make_mesh(shape).locate_attribute("filename")
     link = shape.element.parent
     name = (link.get("name") or "") if link is not None else ""
     yield make_defect("corrupt-mesh", f"mesh {path}: {message}", place, "link", name)
@@ -175,7 +175,7 @@ def _report_notes(
         result = made.get((path, collides))
         if result is None:
             continue
-        place = _make_mesh(shape).element.locate_attribute("filename")
+        place = _make_mesh(shape).locate_attribute("filename")
         for note in result.notes:
             if (path, note) not in reported:
                 reported.add((path, note))

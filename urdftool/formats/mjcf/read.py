@@ -61,7 +61,7 @@ def read(
     losses = Losses()
     context = Context(expanded, compiled, losses)
     written = Written(expanded.root.place)
-    robot = Robot(written, expanded.root.get("model") or compiled.name)
+    robot = Robot(written, expanded.root.get("model") or compiled.name, format="mjcf")
     finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
     document = Document(file, expanded.root, [])
     robot.source = Description(str(path), document, expanded.files, finder)
@@ -70,7 +70,9 @@ def read(
     add_extras(context, robot)
     for warning in compiled.warnings:
         losses.add("warning", f"MuJoCo warns: {warning}", "", written.place, Severity.INFO)
-    return Reading(robot, losses.make_findings())
+    found = losses.make_findings()
+    robot.unread = found
+    return Reading(robot, found)
 
 
 def _compile(expanded: Expanded) -> Compiled:

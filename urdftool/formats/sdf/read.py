@@ -61,10 +61,12 @@ def read(
     top = _choose(models.list_top_models(root), losses)
     if top is None:
         raise ModelError("the file has no model with a link", at=root.place)
-    robot = Robot(Written(top.element.place), top.name)
+    robot = Robot(Written(top.element.place), top.name, format="sdf")
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
     _fill(Context(robot, losses, file.path), top)
-    return Reading(robot, losses.make_findings())
+    found = losses.make_findings()
+    robot.unread = found
+    return Reading(robot, found)
 
 
 def _choose(found: list[Scope], losses: Losses) -> Scope | None:

@@ -147,7 +147,7 @@ def report_mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
                 yield create_missing_mesh(robot, link, mesh)
                 continue
             text = f"mesh '{mesh.filename}' of link '{link.name}' cannot be used: {refused}"
-            place = mesh.element.locate_attribute("filename")
+            place = mesh.locate_attribute("filename")
             yield make_defect("corrupt-mesh", text, place, "link", link.name)
 
 

@@ -189,7 +189,11 @@ def _group_by_look(mesh: Triangles) -> list[tuple[Look | None, Faces, Points | N
     for part in mesh.parts:
         groups.setdefault(_look(part), []).append(part)
     return [
-        (look, np.concatenate([mesh.get_part_faces(part) for part in parts]), _join_coordinates(parts))
+        (
+            look,
+            np.concatenate([mesh.get_part_faces(part) for part in parts]),
+            _join_coordinates(parts),
+        )
         for look, parts in groups.items()
     ]
 

@@ -64,7 +64,8 @@ def get_wheel(robot: Robot, joint: Joint) -> Wheel | None:
     link = robot.link.get(joint.child)
     if link is None or not _is_continuous(joint) or _STEERS.search(link.name + joint.name):
         return None
-    if joint.axis is not None and parse_numbers(joint.axis.element.get("xyz"), 3) is None:
+    written = None if joint.axis is None else joint.axis.xml
+    if written is not None and parse_numbers(written.get("xyz"), 3) is None:
         return None  # an unreadable axis, which the default replaces
     members = find_attached_links(robot, link)
     if not any(_WHEEL.search(member.name + joint.name) for member, _ in members):

@@ -10,7 +10,7 @@ from ...model.elements import Collision, Link, Mesh, Robot, Vector, Visual
 from ...model.pose import Pose, Rotation, make_pose, multiply_matrices, transpose
 from ..fix import FixContext, Proposal, unsafe
 from ..mesh.link_extents import get_convex_points, get_extents
-from ..rule import UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import copy_origin
 
 APPLIES_TO = ("mesh",)
@@ -34,6 +34,7 @@ class DisplacedMesh(NamedTuple):
 @rule(
     WARNING,
     effects={"pybullet, mujoco": "make contact at the collision, away from the visual"},
+    formats=ANY_FORMAT,
 )
 def collision_mesh_displaced(
     robot: Robot, *, distance: float = 1e-4, angle: float = 1e-3
@@ -54,10 +55,11 @@ def collision_mesh_displaced(
                 apart.append(f"offset by {found.distance:.3g} m")
             if found.angle > angle:
                 apart.append(f"rotated by {math.degrees(found.angle):.3g}°")
+            pose = "<origin>" if link.xml is not None else "pose"
             yield Problem(
                 link,
                 f"collision of link '{link.name}' uses the mesh of its visual, but is "
-                f"{' and '.join(apart)}; give both the same <origin>",
+                f"{' and '.join(apart)}; give both the same {pose}",
                 at=found.collision.origin or found.collision,
                 data={"distance": found.distance, "angle": found.angle},
             )

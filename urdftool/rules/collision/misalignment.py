@@ -149,7 +149,8 @@ def compare_places(robot: Robot, link: Link, part: float) -> Misalignment | None
 
 def _has_readable_origin(shape: Visual | Collision) -> bool:
     """Tell whether an origin has three numbers; another rule reports others."""
-    text = shape.origin.element.get("xyz") if shape.origin is not None else None
+    xml = None if shape.origin is None else shape.origin.xml
+    text = None if xml is None else xml.get("xyz")
     return text is None or parse_numbers(text, 3) is not None
 
 

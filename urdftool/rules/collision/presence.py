@@ -16,7 +16,7 @@ from ..gazebo.contact import compute_axis_elevation
 from ..inertia.bodies import compute_mass, find_rigid_bodies
 from ..mesh.link_extents import get_extents
 from ..mujoco import keeps_visuals
-from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..shape_changes import copy_shape
 from ..symmetry import get_family
 from ..words import join_some
@@ -39,6 +39,7 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
         "mujoco": "creates no geom for the link, because it discards the visuals of a URDF",
     },
     group="robot",
+    formats=URDF_AND_SDF,
 )
 def missing_collision(
     robot: Robot, *, smallest: float = 0.01, small: float = 0.03
@@ -103,6 +104,7 @@ def report_robot_without_collision(robot: Robot) -> Iterator[Problem]:
         "moveit": "ignores it when planning; MoveIt 2 warns",
         "mujoco": "creates no geom for the link, because it discards the visuals of a URDF",
     },
+    formats=URDF_AND_SDF,
 )
 def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
     """One link has no collision, but similar links have one.
@@ -190,7 +192,7 @@ def _find_only_body(robot: Robot) -> Iterator[tuple[Link, str]]:
 
 
 def _has_misspelled_collision(link: Link) -> bool:
-    return "collision" in find_misspelled_children(link.element).values()
+    return "collision" in find_misspelled_children(link.xml).values()
 
 
 @rule(

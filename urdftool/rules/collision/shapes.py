@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Collision, Link, Robot, UnknownShape, Visual
+from ...model.elements import Collision, Geometry, Link, Robot, UnknownShape, Visual
 from ...model.millimeters import find_shapes_in_millimeters
 from ...model.read import number, parse_numbers
 from ...suggestions import find_nearest
@@ -19,7 +19,7 @@ from ..fix import (
     unsafe,
 )
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..xml.from_sdf import move_out_of_geometry
 from ..xml.vocabulary_table import VOCABULARY
 
@@ -40,6 +40,7 @@ _SIZES = {
         _SILENT: "accept it without a message",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     """A shape has a length of zero or less.
@@ -53,26 +54,34 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     for link, shape in robot.shapes:
         if shape.geometry is None:
             continue
-        element = shape.geometry.element
+        geometry = shape.geometry
         kind = "collision" if isinstance(shape, Collision) else "visual"
-        for name in _SIZES.get(element.tag, ()):
-            text = element.get(name)
+        for name in _SIZES.get(geometry.tag, ()):
+            text = _get_size(geometry, name)
             one = number(text)
             values = parse_numbers(text, 3) if name == "size" else None if one is None else (one,)
             if values is None or min(values) > 0:
                 continue
             rejected = kind == "collision" or keeps
-            aborts = element.tag != "sphere" or min(values) < 0
+            aborts = geometry.tag != "sphere" or min(values) < 0
             yield Problem(
                 link,
-                f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
+                f"{name} of a <{geometry.tag}> in a {kind} of link '{link.name}' is {text}; "
                 "lengths must be positive",
-                at=element.locate_attribute(name),
+                at=geometry.locate_attribute(name),
                 data={"attribute": name, "value": text, "collides": kind == "collision"},
-                alike=(name, element.tag, kind),
+                alike=(name, geometry.tag, kind),
                 severity=ERROR if rejected else WARNING,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )
+
+
+def _get_size(geometry: Geometry, name: str) -> str | None:
+    """Get a length or the size of a shape as text, as written in URDF."""
+    if geometry.xml is not None:
+        return geometry.xml.get(name)
+    value: float | tuple[float, ...] = getattr(geometry, name)
+    return " ".join(f"{part:g}" for part in (value if isinstance(value, tuple) else (value,)))
 
 
 _UNKNOWN_SHAPE = "urdfdom, gz, gazebo-classic, pinocchio"
@@ -177,6 +186,7 @@ def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
         "gz, gazebo-classic, pybullet": "take the numbers as meters",
         "mujoco": "takes the numbers of a collision as meters; ignores a visual by default",
     },
+    formats=ANY_FORMAT,
 )
 def shape_in_millimeters(robot: Robot) -> Iterator[Problem]:
     """A primitive shape is a thousand times too large: its lengths are in millimeters.
@@ -189,17 +199,19 @@ def shape_in_millimeters(robot: Robot) -> Iterator[Problem]:
         for shape in find_shapes_in_millimeters(link):
             if shape.geometry is None:
                 continue
-            element = shape.geometry.element
+            geometry = shape.geometry
             kind = "collision" if isinstance(shape, Collision) else "visual"
-            names = _SIZES[element.tag]
-            lengths = " and ".join(f"{name} {element.get(name)} m" for name in names)
-            right = " ".join(f'{name}="{_divide_by_thousand(element.get(name))}"' for name in names)
+            sizes = {name: _get_size(geometry, name) or "" for name in _SIZES[geometry.tag]}
+            lengths = " and ".join(f"{name} {text} m" for name, text in sizes.items())
+            right = " ".join(
+                f'{name}="{_divide_by_thousand(text)}"' for name, text in sizes.items()
+            )
             yield Problem(
                 link,
-                f"<{element.tag}> in a {kind} of link '{link.name}' has {lengths}, probably in "
+                f"<{geometry.tag}> in a {kind} of link '{link.name}' has {lengths}, probably in "
                 f"millimeters; write {right}",
                 at=shape.geometry,
-                data={name: element.get(name) or "" for name in names},
+                data=sizes,
             )
 
 

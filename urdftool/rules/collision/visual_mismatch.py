@@ -12,7 +12,7 @@ from ...source.description import Description
 from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
 from ..mesh.link_extents import LinkExtents, get_extents
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses, is_concave
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..shape_changes import copy_origin, set_in_origin
 from .displaced import find_displaced
 from .misalignment import compare_places, join_attached_boxes, measure_boxes
@@ -113,7 +113,7 @@ def _report_visual_meshes(
             "geometry"
             + (f"; so do {others}, with up to {most}" if others else "")
             + ". Use primitives or simpler meshes",
-            at=heavy[0][0].mesh.element.locate_attribute("filename"),
+            at=heavy[0][0].mesh.locate_attribute("filename"),
             hint=_SIMPLER,
             severity=WARNING,
             effects=effects,
@@ -124,7 +124,7 @@ def _report_visual_meshes(
             plain[0].link,
             f"link '{plain[0].link.name}' uses its visual mesh as collision geometry{more}; "
             "primitives or simpler meshes are faster",
-            at=plain[0].mesh.element.locate_attribute("filename"),
+            at=plain[0].mesh.locate_attribute("filename"),
             effects=effects,
         )
 
@@ -134,6 +134,7 @@ def _report_visual_meshes(
     effects={
         "mujoco": "rejects an STL file of more than 200 000 triangles",
     },
+    formats=URDF_AND_SDF,
 )
 def collision_mesh_too_dense(
     robot: Robot, description: Description, *, most: float = 20000, mujoco: float = 200000
@@ -159,7 +160,7 @@ def collision_mesh_too_dense(
             yield Problem(
                 use.link,
                 f"collision mesh '{use.uri}' has {faces} triangles; simplify it to a few thousand",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "triangles": faces, "limit": mujoco if is_too_many else most},
                 hint=_SIMPLER,
                 severity=ERROR if is_too_many else None,
@@ -172,6 +173,7 @@ def collision_mesh_too_dense(
     effects={
         "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
     },
+    formats=ANY_FORMAT,
 )
 def collision_much_larger_than_visual(
     robot: Robot, *, ratio: float = 2.0, least: float = 0.1
@@ -266,6 +268,7 @@ def _is_doubled(link: Link, collision_box: Bounds, visual_box: Bounds) -> bool:
         ),
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def collision_much_smaller_than_visual(
     robot: Robot, *, ratio: float = 4.0, speck: float = 0.002
@@ -329,6 +332,7 @@ def _is_smaller(collision_box: Bounds, visual_box: Bounds, ratio: float) -> bool
     effects={
         "gz, gazebo-classic, mujoco": "use the collision geometry where it is written",
     },
+    formats=ANY_FORMAT,
 )
 def collision_off_visual(
     robot: Robot, description: Description, *, apart: float = 0.5
@@ -350,10 +354,12 @@ def collision_off_visual(
         is_rotated = gltf and description.gltf_up == "y"
         if found.odd:
             what = f"{found.odd} of link '{link.name}' is offset from its {found.other} by "
-            what += f"{found.distance:.3g} m, and {found.why}; {found.remedy}"
+            what += f"{found.distance:.3g} m, and {found.why}; "
+            what += found.remedy if link.xml is not None else "check the poses of both"
         else:
             what = f"visual and collision of link '{link.name}' are {found.distance:.3g} m apart; "
-            what += "give both the same <origin>" if found.alike else "check the <origin> of both"
+            pose = "<origin>" if link.xml is not None else "pose"
+            what += f"give both the same {pose}" if found.alike else f"check the {pose} of both"
         shape = link.visuals[0] if found.odd == "visual" else link.collisions[0]
         yield Problem(
             link,

@@ -19,7 +19,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import set_in_origin
 from .axle import (
     TWIN_POSITION,
@@ -44,6 +44,7 @@ if TYPE_CHECKING:
             "use the cylinder as written, across the axle: the wheel rolls over its edge"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Problem]:
     """The cylinder of a wheel is not aligned with the axis of its joint.
@@ -70,11 +71,12 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
         if right == "cylinder":
             what = f"{line} is at {angle:.0f}° to {disc}, which {why}; "
             data |= {"odd": "axis", "write": format_axis(cylinder)}
-            what += f'write <axis xyz="{data["write"]}"/>'
+            what += f'write <axis xyz="{data["write"]}"/>' if joint.xml is not None else "check it"
         elif right == "axis":
             same = any(one.what == VISUAL for one in select_agreeing(wheel.others, cylinder, 45))
+            pose = "<origin>" if joint.xml is not None else "pose"
             also = ", and that of its visual," if same else ""
-            what = f"{disc} is at {angle:.0f}° to {line}, which {why}; rotate its <origin>{also} "
+            what = f"{disc} is at {angle:.0f}° to {line}, which {why}; rotate its {pose}{also} "
             what += "so that z points along the axis"
             data |= {"odd": "cylinder"}
         else:
@@ -167,6 +169,7 @@ def _write_axis(joint: Joint, text: str) -> Proposal | None:
             "use the caster as written: the wheels spin without contact, or the robot tilts"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def caster_height_mismatch(
     robot: Robot, *, deepest: float = 0.001, steepest: float = 3.0
@@ -213,7 +216,7 @@ def _report_caster(caster: Caster, consequence: str) -> Problem:
     what = "joint" if isinstance(caster.moved, Joint) else "collision"
     data: dict[str, Any] = {"above": caster.above}
     right = ""
-    if caster.height is not None:
+    if caster.height is not None and caster.link.xml is not None:
         data["write"] = _format_length(caster.height)
         right = f"; write z = {data['write']} for its {what}"
     return Problem(

@@ -45,7 +45,7 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' does not exist in "
                     "the robot" + suggest_name(joint.name, robot.joint),
-                    at=joint.element.locate_attribute("name"),
+                    at=joint.locate_attribute("name"),
                     data={
                         "joint": joint.name,
                         "suggestion": find_nearest(joint.name, robot.joint),
@@ -82,7 +82,7 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; remove it",
-                    at=joint.element.locate_attribute("name"),
+                    at=joint.locate_attribute("name"),
                     data={"joint": joint.name},
                 )
 

@@ -51,7 +51,7 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
                 control.element,
                 f"ros2_control '{control.name}' has the unknown type '{control.type}'; "
                 f"the types are {', '.join(_TYPES)}" + suggest_name(control.type, _TYPES),
-                at=control.element.locate_attribute("type"),
+                at=control.locate_attribute("type"),
                 data={"type": control.type, "suggestion": find_nearest(control.type, _TYPES)},
             )
 

@@ -100,7 +100,7 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
                         control.element,
                         f"joint '{joint.name}' has the nonstandard interface '{interface.name}'"
                         + suggest_name(interface.name, _STANDARD, 0.8),
-                        at=interface.element.locate_attribute("name"),
+                        at=interface.locate_attribute("name"),
                         data={"suggestion": near},
                     )
 

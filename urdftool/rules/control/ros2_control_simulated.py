@@ -249,7 +249,7 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                             suggest_name(interface.name, _IMU)
                             or f"; the states are {', '.join(_IMU)}"
                         ),
-                        at=interface.element.locate_attribute("name"),
+                        at=interface.locate_attribute("name"),
                         data={"suggestion": find_nearest(interface.name, _IMU)},
                     )
 
@@ -283,6 +283,6 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
                     control.element,
                     f"no <sensor> in a <gazebo> block has the name '{part.name}'"
                     + suggest_name(part.name, known),
-                    at=part.element.locate_attribute("name"),
+                    at=part.locate_attribute("name"),
                     data={"sensor": part.name, "suggestion": find_nearest(part.name, known)},
                 )

@@ -62,7 +62,7 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                 transmission.element,
                 f"{describe_transmission(transmission)} drives joint '{joint.name}', "
                 "which is fixed; remove it",
-                at=joint.element.locate_attribute("name"),
+                at=joint.locate_attribute("name"),
                 severity=None if len(keys) > 1 else WARNING,
                 effects=keys,
                 data={"joint": joint.name},

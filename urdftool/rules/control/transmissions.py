@@ -51,7 +51,7 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     transmission.element,
                     f"{describe_transmission(transmission)} refers to joint '{joint.name}', "
                     f"which does not exist{suggest_name(joint.name, idle, 0.8)}",
-                    at=joint.element.locate_attribute("name"),
+                    at=joint.locate_attribute("name"),
                     data={"joint": joint.name, "suggestion": find_nearest(joint.name, idle, 0.8)},
                 )
 
@@ -295,7 +295,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 transmission.element,
                 f"another transmission also has the name '{name}'; make it unique",
-                at=transmission.element.locate_attribute("name"),
+                at=transmission.locate_attribute("name"),
                 data={"name": name},
             )
             continue
@@ -309,7 +309,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
                 transmission.element,
                 f"joint '{joint.name}' is already driven by transmission '{other}'; remove "
                 "one of them",
-                at=joint.element.locate_attribute("name"),
+                at=joint.locate_attribute("name"),
                 data={"joint": joint.name, "other": other},
             )
 

@@ -115,7 +115,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             block.element,
             f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",
-            at=block.element.locate_attribute("reference"),
+            at=block.locate_attribute("reference"),
             severity=WARNING if settles else None,
             alike=(what, is_massless),
             data={"joint": joint.name, "elements": list(dict.fromkeys(one.tag for one in lost))},
@@ -259,7 +259,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
                         link,
                         f"name of {what} '{shape.name}' does not begin with '{link.name}', so "
                         f"Gazebo applies no {lost} to it; write '{link.name}_{shape.name}'",
-                        at=shape.element.locate_attribute("name"),
+                        at=shape.locate_attribute("name"),
                         alike=(what, *sorted(tags)),
                         data={"write": f"{link.name}_{shape.name}", "elements": sorted(tags)},
                     )

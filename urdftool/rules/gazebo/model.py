@@ -104,14 +104,14 @@ def reserved_name(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 part,
                 f"name '{name}' is reserved in SDF; remove the underscores",
-                at=part.element.locate_attribute("name"),
+                at=part.locate_attribute("name"),
             )
     if "world" in robot.link and robot.tree.get_parent_joint("world") is not None:
         link = robot.link["world"]
         yield Problem(
             link,
             "link 'world' is not the root, but the name is reserved for the fixed world; rename it",
-            at=link.element.locate_attribute("name"),
+            at=link.locate_attribute("name"),
         )
 
 

@@ -82,7 +82,7 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
         yield Problem(
             plugin.element,
             f"'{plugin.filename}' is for Gazebo Classic, and new Gazebo cannot load it{right}",
-            at=plugin.element.locate_attribute("filename"),
+            at=plugin.locate_attribute("filename"),
             data={"counterpart": instead} if instead else {},
         )
 
@@ -140,7 +140,7 @@ def gz_plugin_in_classic(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             yield Problem(
                 plugin.element,
                 f"'{plugin.filename}' is for new Gazebo, and Gazebo Classic cannot load it",
-                at=plugin.element.locate_attribute("filename"),
+                at=plugin.locate_attribute("filename"),
             )
 
 
@@ -166,7 +166,7 @@ def ignition_name(robot: Robot) -> Iterator[Problem]:
                 plugin.element,
                 f"'{plugin.filename}' is an old name of Ignition Gazebo; write '{new}'"
                 + (" and gz::sim:: in its name" if "ignition::" in plugin.name else ""),
-                at=plugin.element.locate_attribute("filename"),
+                at=plugin.locate_attribute("filename"),
                 data={"write": new},
             )
 
@@ -208,7 +208,7 @@ def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
                 plugin.element,
                 f"the class in '{plugin.filename}' is '{right}', not '{plugin.name}'; write it "
                 "as the name",
-                at=plugin.element.locate_attribute("name"),
+                at=plugin.locate_attribute("name"),
                 data={"class": right},
             )
 
@@ -346,7 +346,7 @@ def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
                 yield Problem(
                     plugin.element,
                     f"another plugin also has the name '{plugin.name}'; make it unique",
-                    at=plugin.element.locate_attribute("name"),
+                    at=plugin.locate_attribute("name"),
                 )
             seen.add(key)
 

@@ -59,7 +59,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
                 block.element,
                 f"reference '{name}' is an SDF link in a <gazebo> block, so Gazebo ignores this "
                 "block; write its settings in that link",
-                at=block.element.locate_attribute("reference"),
+                at=block.locate_attribute("reference"),
                 data={"name": name},
             )
             continue
@@ -70,7 +70,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
             block.element,
             f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
             + suggest_name(name, known, _MIN_SIMILARITY),
-            at=block.element.locate_attribute("reference"),
+            at=block.locate_attribute("reference"),
             data={"name": name, "suggestion": find_nearest(name, known, _MIN_SIMILARITY)},
         )
 

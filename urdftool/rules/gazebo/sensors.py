@@ -78,7 +78,7 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 sensor.element,
                 f"{name}{what}{near or '; write, for example, camera, imu or gpu_lidar'}",
-                at=sensor.element.locate_attribute("type"),
+                at=sensor.locate_attribute("type"),
                 data={"suggestion": find_nearest(sensor.type, TYPES) if sensor.type else ""},
             )
 
@@ -112,7 +112,7 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
                 f"sensor '{sensor.name}' has type '{sensor.type}', which new Gazebo does not "
                 "support; "
                 "write gpu_lidar",
-                at=sensor.element.locate_attribute("type"),
+                at=sensor.locate_attribute("type"),
             )
 
 
@@ -149,7 +149,7 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
                     f"sensor '{sensor.name}' has '{plugin.filename}', which new Gazebo cannot "
                     "load; "
                     "write <topic>, and bridge it with ros_gz_bridge",
-                    at=plugin.element.locate_attribute("filename"),
+                    at=plugin.locate_attribute("filename"),
                 )
 
 
@@ -329,7 +329,7 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
                 sensor.element,
                 f"another sensor on body '{body}' has the name '{sensor.name}' (on {where}); "
                 "make it unique",
-                at=sensor.element.locate_attribute("name"),
+                at=sensor.locate_attribute("name"),
                 data={"name": sensor.name, "body": body},
             )
 

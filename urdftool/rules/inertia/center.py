@@ -20,7 +20,7 @@ from ..fix import (
     unsafe,
 )
 from ..mesh.link_extents import get_extents
-from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import LIGHT, find_negligible_links
 from .corrections import write_tensor
 from .frame import compute_tensor_about_center
@@ -38,6 +38,7 @@ from .tensors import is_zero
     of_motion=True,
     group="robot",
     caused_by=SIZE_IN_DOUBT,
+    formats=ANY_FORMAT,
 )
 def com_outside_geometry(
     robot: Robot, *, margin: float = MARGIN, together: float = 6, light: float = LIGHT

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from ...model.elements import Inertial, Robot
 from ..fix import FixContext, Proposal, set_attribute, unsafe
-from ..rule import ERROR, UNSAFE, Problem, rule
+from ..rule import ERROR, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..xml.vocabulary_table import find_misspelled_attributes, find_misspelled_children
-from .tensors import SIX
+from .tensors import SIX, has_written_inertial, has_written_tensor
 
 
 @rule(
@@ -27,6 +27,7 @@ from .tensors import SIX
         "pybullet (no element)": "rejects the robot",
         "pybullet, drake (a number)": "take 0 for a missing number",
     },
+    formats=URDF_AND_SDF,
 )
 def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
     """An ``<inertial>`` lacks its mass, its inertia or one of the six components.
@@ -37,6 +38,17 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
     """
     for link in robot.links:
         if link.inertial is None:
+            continue
+        if robot.format == "sdf":
+            if has_written_inertial(robot, link) and not has_written_tensor(robot, link):
+                text = f"<inertial> of link '{link.name}' lacks <inertia>"
+                yield Problem(
+                    link,
+                    f"{text}; SDF then takes 1 kg·m² about each axis. Write it",
+                    at=link.inertial,
+                    severity=WARNING,
+                    data={"missing": ["<inertia>"]},
+                )
             continue
         missing, at = _find_missing(link.inertial)
         if missing:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ...model.elements import Link, Robot
 from ..mesh.link_extents import get_extents
-from ..rule import WARNING, Problem, rule
+from ..rule import ANY_FORMAT, WARNING, Problem, rule
 from .tensors import get_tensors, is_zero
 
 DENSITY_RATIO, MAX_DENSITY_RATIO, MOMENT_RATIO, FIT_FACTOR, MIN_LINKS = 3.0, 1.2, 0.35, 3.0, 4.0
@@ -29,7 +29,11 @@ class _Body(NamedTuple):
     """Its moments of inertia, relative to those of the solid box."""
 
 
-@rule(WARNING, effects={"mujoco, pybullet, pinocchio": "take it as written"})
+@rule(
+    WARNING,
+    effects={"mujoco, pybullet, pinocchio": "take it as written"},
+    formats=ANY_FORMAT,
+)
 def mass_outlier(
     robot: Robot,
     *,

@@ -13,10 +13,11 @@ from ...model.millimeters import find_shapes_in_millimeters
 from ...source.location import Place
 from ..fix import FixContext, Proposal, remove_sign
 from ..mesh.link_extents import LinkExtents, get_extents
-from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import join_some
 from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
 from .solids import compute_volume
+from .tensors import has_written_inertial
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
 _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
@@ -37,6 +38,7 @@ _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
         "pybullet (root)": "fixes the root link to the world",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A rigid body has mass 0, or a link of mass 0 has an inertia.
@@ -77,6 +79,11 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         if link is not next(one for one in links if one in zero):
             continue  # one finding per body
         moved = joint is not None and not joint.is_fixed
+        if robot.format != "urdf":
+            if moved or (joint is None and (robot.base is None or robot.base.is_free)):
+                text = f"mass of link '{link.name}' is 0; a moving body must have a mass. Write it"
+                yield Problem(link, text, at=link.inertial, severity=ERROR, alike="moves")
+            continue
         if not targets.isdisjoint(GAZEBO):
             case, severity = "removed", ERROR
             so = "Gazebo removes the link and everything attached to it"
@@ -157,6 +164,7 @@ def _report_massless_pairs(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
         "pybullet, urdfdom, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
     },
+    formats=ANY_FORMAT,
 )
 def negative_mass(robot: Robot) -> Iterator[Problem]:
     """A link's mass is negative.
@@ -185,6 +193,7 @@ def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
     },
     of_motion=True,
+    formats=URDF_AND_SDF,
 )
 def implausible_mass(
     robot: Robot, *, heaviest: float = 1000.0, lightest: float = 1e-5
@@ -227,6 +236,7 @@ def implausible_mass(
         *("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier"),
         "collision-much-larger-than-visual",
     ),
+    formats=ANY_FORMAT,
 )
 def implausible_density(
     robot: Robot,
@@ -310,6 +320,8 @@ def _find_densities(
     """
     reach = get_extents(robot)
     for link, mass, place in _get_masses(robot):
+        if robot.format != "urdf" and not has_written_inertial(robot, link):
+            continue  # a default of SDF, or the density of the geoms of MJCF
         density, in_box = _compute_density(reach.get_link_box(link), link, mass)
         if any(find_shapes_in_millimeters(link)) or _is_incomplete(link):
             continue

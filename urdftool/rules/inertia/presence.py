@@ -17,10 +17,22 @@ from ..fix import (
     unsafe,
 )
 from ..gazebo.lumped_model import find_kept_links
-from ..rule import ERROR, GAZEBO, INFO, ROS, UNSAFE, WARNING, Problem, rule
+from ..rule import (
+    ANY_FORMAT,
+    ERROR,
+    GAZEBO,
+    INFO,
+    ROS,
+    UNSAFE,
+    URDF_AND_SDF,
+    WARNING,
+    Problem,
+    rule,
+)
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
 from .solids import DENSITY, compute_volume
+from .tensors import has_written_inertial
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _MARKER = 1e-3  # [kg]
@@ -44,6 +56,7 @@ _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-cla
         "pinocchio, KDL, drake": "take 0 kg",
     },
     group="robot",
+    formats=URDF_AND_SDF,
 )
 def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A link with geometry has no ``<inertial>``.
@@ -55,13 +68,16 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     Frames without geometry need none, although PyBullet gives them 1 kg. A marker below 1 g at
     the density of water is an info where MuJoCo substitutes the mass.
     """
+    if robot.format == "sdf":
+        yield from _report_default_inertials(robot)
+        return
     in_gazebo = not targets.isdisjoint(GAZEBO)
     tops: dict[str, Link] | None = None
     kept = find_kept_links(robot)
     for link in robot.links:
         if link.inertial is not None or link.is_frame or link.name == "world":
             continue
-        if link.xml is not None and "inertial" in find_misspelled_children(link.xml).values():
+        if "inertial" in find_misspelled_children(link.xml).values():
             continue
         if tops is None:
             found = find_rigid_bodies(robot).values()
@@ -117,6 +133,20 @@ def report_every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
         if link.inertial is None and not link.is_frame and link.name != "world":
             text = f"link '{link.name}' has no <inertial> and so has no mass"
             yield Problem(link, text, hint=_HINT)
+
+
+def _report_default_inertials(robot: Robot) -> Iterator[Problem]:
+    """Report links of SDF whose mass and inertia are the defaults of the format."""
+    for link in robot.links:
+        if has_written_inertial(robot, link) or link.is_virtual or is_fixed_to_world(robot, link):
+            continue
+        if link.inertial is not None and not (robot.base and not robot.base.is_free):
+            so = "; SDF then takes 1 kg and 1 kg·m² about each axis. Write its mass and inertia"
+            yield Problem(
+                link,
+                f"link '{link.name}' has no <inertial>{so}",
+                group=f"{{count}} links have no <inertial>{so}: {{names}}",
+            )
 
 
 def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
@@ -177,6 +207,7 @@ def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
         "pybullet": "gives it 1 kg",
         "pinocchio": "its mass matrix is singular if no descendant has mass",
     },
+    formats=ANY_FORMAT,
 )
 def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint moves a frame to which nothing with a mass is fixed.
@@ -225,7 +256,7 @@ def find_moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
     """List the rigid bodies on moving joints, each as joint, name of the topmost link and links."""
     for name, links in find_rigid_bodies(robot).items():
         joint = robot.tree.get_parent_joint(name)
-        if joint is not None and not joint.is_fixed:
+        if joint is not None and not joint.is_fixed and not links[0].is_virtual:
             yield joint, name, links
 
 
@@ -245,7 +276,7 @@ def _describe_descendants(robot: Robot, name: str) -> str:
 def _is_bare(links: list[Link]) -> bool:
     """Tell whether no link of a body has an inertial, nor geometry that requires one."""
     for link in links:
-        misspelled = {} if link.xml is None else find_misspelled_children(link.xml)
+        misspelled = find_misspelled_children(link.xml)
         if not link.is_frame or "inertial" in misspelled.values():
             return False
     return True
@@ -257,6 +288,7 @@ def _is_bare(links: list[Link]) -> bool:
     effects={
         "gz, gazebo-classic": "load nothing: a model must have at least one link",
     },
+    formats=ANY_FORMAT,
 )
 def massless_root_body(robot: Robot) -> Iterator[Problem]:
     """The root and all links fixed to it have no mass, although joints move other links on it.

@@ -12,7 +12,7 @@ from ...model.elements import Link, Robot, Vector
 from ...model.pose import compute_norm, rotate, transpose
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..mesh.link_extents import get_extents
-from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from ..symmetry import Pair, Sides, get_family, get_sides, map_twin_links
 from .tensors import is_accepted, is_zero
 
@@ -32,6 +32,7 @@ _CHECKING = "gz, gazebo-classic, mujoco, drake"
         *("inertia-component-typo", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
         *("inertia-triangle-inequality", "inertia-not-positive-definite"),
     ),
+    formats=ANY_FORMAT,
 )
 def left_right_asymmetry(
     robot: Robot,
@@ -167,6 +168,7 @@ def _spread(link: Link) -> float:
 @rule(
     WARNING,
     effects={"mujoco, pybullet, pinocchio": "take it as written"},
+    formats=ANY_FORMAT,
 )
 def com_not_mirrored(
     robot: Robot, *, least: float = 0.002, similar: float = 0.1, clear: float = 0.05
@@ -228,10 +230,11 @@ def com_not_mirrored(
         image = mirror_image(found, link, right_one)
         where = "on the same side as" if sign < 0 else "on the other side than"
         assert link.inertial is not None
+        remedy = f'write xyz="{image}"' if link.xml is not None else "check its sign"
         yield Problem(
             link,
             f"center of mass of link '{link.name}' is at {'xyz'[axis]} = {wrong_one[axis]:.3g} m, "
-            f"{where} that of '{twin.name}', but {why}; write xyz=\"{image}\"",
+            f"{where} that of '{twin.name}', but {why}; {remedy}",
             at=link.inertial.origin or link.inertial,
             data={"twin": twin.name, "axis": "xyz"[axis], "write": image},
         )

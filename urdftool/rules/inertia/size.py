@@ -19,7 +19,7 @@ from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.pose import make_pose
 from ..fix import FixContext, Proposal
 from ..mesh.link_extents import get_extents
-from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import find_rigid_bodies, find_slight_parts
 from .corrections import correct_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
 from .density import find_outlier
@@ -41,6 +41,7 @@ _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
     },
     group="robot",
     of_motion=True,
+    formats=ANY_FORMAT,
 )
 def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
@@ -128,6 +129,7 @@ def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     },
     of_motion=True,
     group="robot",
+    formats=ANY_FORMAT,
 )
 def inertia_exceeds_geometry(
     robot: Robot,
@@ -243,6 +245,7 @@ def has_mesh(link: Link) -> bool:
     },
     of_motion=True,
     caused_by=SIZE_IN_DOUBT,
+    formats=ANY_FORMAT,
 )
 def inertia_below_geometry(
     robot: Robot, *, least: float = 0.12, part: float = 0.1
@@ -292,6 +295,7 @@ def inertia_below_geometry(
         "pinocchio": "takes it as written",
     },
     of_motion=True,
+    formats=ANY_FORMAT,
 )
 def radius_of_gyration(
     robot: Robot,

@@ -150,7 +150,7 @@ def get_solid_kind(link: Link) -> str:
     shape = get_only_shape(link)
     if compute_solid_moments(link) is None or shape is None or shape.geometry is None:
         return ""
-    return shape.geometry.element.tag
+    return shape.geometry.tag
 
 
 def describe_solid(link: Link) -> str:

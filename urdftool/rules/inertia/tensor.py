@@ -12,7 +12,7 @@ from ...model.kinematics import MOVABLE, get_limits, link_poses
 from ...model.pose import Pose
 from ...source.location import Place
 from ..fix import FixContext, Proposal, set_attribute, unsafe
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import compute_body_inertia, compute_mass, find_rigid_bodies
 from .corrections import write_inertia_of_shapes, write_meant_inertia
 from .joint_inertia import compute_joint_inertia
@@ -44,6 +44,7 @@ _NOT_GAZEBO = ("mujoco", "pybullet", "urdfdom, KDL, pinocchio", "drake")
         "urdfdom, KDL, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
     },
+    formats=ANY_FORMAT,
 )
 def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
     """An inertia tensor has a negative principal moment.
@@ -77,6 +78,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
         "urdfdom, KDL, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
     },
+    formats=ANY_FORMAT,
 )
 def inertia_triangle_inequality(
     robot: Robot, *, tolerance: float = 1e-6, rounding: float = 0.01
@@ -133,6 +135,7 @@ def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | 
         "urdfdom, KDL, pinocchio": "accept it without a message",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def inertia_triangle_inequality_rounding(
     robot: Robot, *, tolerance: float = EXACT, rounding: float = 0.01
@@ -200,6 +203,7 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     },
     of_motion=True,
     group="robot",
+    formats=ANY_FORMAT,
 )
 def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -> Iterator[Problem]:
     """A rigid body has a mass and no inertia: all six components are 0.
@@ -282,6 +286,7 @@ _SINGULAR = {
     raised={"mujoco": ERROR},
     effects=_SINGULAR,
     group="robot",
+    formats=ANY_FORMAT,
 )
 def singular_inertia(
     robot: Robot, targets: frozenset[str], *, smallest: float = 1e-9

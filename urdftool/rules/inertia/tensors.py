@@ -23,11 +23,14 @@ SIX = COMPONENTS
 def get_tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
     """Get links with mass and six readable components, each with its inertial and tensor.
 
-    Missing or unreadable components, and tensors without mass, are left to other rules.
+    Missing or unreadable components, and tensors without mass, are left to other rules. Tensors
+    that SDF or MuJoCo supplies are left out.
     """
     for link in robot.links:
         inertial = link.inertial
         if inertial is None or not inertial.mass or inertial.inertia is None:
+            continue
+        if not has_written_tensor(robot, link):
             continue
         six = inertial.inertia.six
         if 0.0 in six:
@@ -37,6 +40,26 @@ def get_tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]
             if tensor is not None and any(number(attributes.get(n)) is None for n in zeros):
                 continue
         yield link, inertial, six
+
+
+def has_written_tensor(robot: Robot, link: Link) -> bool:
+    """Tell whether a tensor is written, and is not a default of SDF or inferred by MuJoCo.
+
+    Readers of SDF give a default the place of the ``<inertial>`` that lacks ``<inertia>``.
+    """
+    if not has_written_inertial(robot, link) or link.inertial is None:
+        return False
+    tensor = link.inertial.inertia
+    return tensor is not None and (robot.format != "sdf" or tensor.place != link.inertial.place)
+
+
+def has_written_inertial(robot: Robot, link: Link) -> bool:
+    """Tell whether an ``<inertial>`` is written.
+
+    Readers of SDF and MJCF give a default or inferred inertial the place of its link.
+    """
+    inertial = link.inertial
+    return inertial is not None and (robot.format == "urdf" or inertial.place != link.place)
 
 
 def is_zero(six: SymmetricTensor, mass: float) -> bool:

@@ -14,7 +14,7 @@ from ...model.read import number
 from ...source.document import Element
 from ..fix import FixContext, Proposal, find_attribute, remove_attribute, safe
 from ..mesh.link_extents import get_extents
-from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .corrections import write_proposed_inertia
 from .proposals import find_proposal, format_tensor
 from .solids import compute_solid_tensor
@@ -32,6 +32,7 @@ _GAZEBO = "gz, gazebo-classic"
         "mujoco": "rejects the file",
     },
     of_motion=True,
+    formats=URDF_AND_SDF,
 )
 def inertia_component_typo(robot: Robot) -> Iterator[Problem]:
     """The six components of an inertia are in the wrong order.
@@ -60,6 +61,7 @@ def inertia_component_typo(robot: Robot) -> Iterator[Problem]:
         "mujoco": "rejects the file",
     },
     of_motion=True,
+    formats=URDF_AND_SDF,
 )
 def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
     """One component of an inertia is off by a power of ten.

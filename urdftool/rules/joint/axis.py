@@ -16,7 +16,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 
 
 @rule(
@@ -27,6 +27,7 @@ from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
         "pybullet": "loads it; the joint position becomes NaN when a force acts on it",
         "urdfdom, pinocchio": "accept it without a message; the mass matrix is singular",
     },
+    formats=ANY_FORMAT,
 )
 def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
     """The axis of a moving joint is the zero vector.
@@ -41,7 +42,7 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
             yield Problem(
                 joint,
                 f"axis of joint '{joint.name}' is zero; write a direction such as 0 0 1",
-                at=joint.axis.element.locate_attribute("xyz"),
+                at=joint.axis.locate_attribute("xyz"),
             )
 
 
@@ -70,7 +71,7 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
             yield Problem(
                 joint,
                 f"axis of joint '{joint.name}' has length {length:.6g}; write a unit vector",
-                at=joint.axis.element.locate_attribute("xyz"),
+                at=joint.axis.locate_attribute("xyz"),
                 data={"length": length},
             )
 
@@ -152,7 +153,7 @@ def axis_nearly_canonical(
             joint,
             f"axis of joint '{joint.name}' is {middle / high:.1g} rad off a coordinate axis; "
             f"write {snapped} if that is intended",
-            at=joint.axis.element.locate_attribute("xyz"),
+            at=joint.axis.locate_attribute("xyz"),
             data={"write": snapped, "angle": middle / high},
         )
 

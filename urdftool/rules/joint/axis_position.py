@@ -11,7 +11,7 @@ from ...model.elements import Joint, Robot, Vector
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, rotate
 from ..mesh.link_extents import LinkExtents, get_extents
-from ..rule import WARNING, Problem, rule
+from ..rule import ANY_FORMAT, WARNING, Problem, rule
 from ..words import quote
 
 _TURNING = ("revolute", "continuous")
@@ -48,6 +48,7 @@ class _AxisDistances(NamedTuple):
     effects={
         "mujoco, pybullet, pinocchio": "turn the child about that axis, away from its parent",
     },
+    formats=ANY_FORMAT,
 )
 def axis_misses_links(
     robot: Robot,

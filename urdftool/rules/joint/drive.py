@@ -20,7 +20,7 @@ from ..fix import (
     unsafe,
 )
 from ..gazebo.contact import is_wheel
-from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import quote
 from ..xml.vocabulary_table import (
     find_misspelled_attributes,
@@ -40,6 +40,7 @@ _UNITS = {"prismatic": ("N", "m/s")}
         "mujoco": "loads it without the limit",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The effort limit of a moving joint is 0.
@@ -50,7 +51,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     a transmission, ros2_control or a plugin drives other joints and not this one: it is passive,
     and 0 is correct.
     """
-    passive = "gz" not in targets and is_for_another_reader(robot.element)
+    passive = "gz" not in targets and is_for_another_reader(robot.xml)
     actuated = find_actuated_joints(robot)
     for joint, limit in _iterate_driven(robot):
         if limit.effort == 0.0 and not is_passive(joint, actuated):
@@ -59,7 +60,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 f"effort limit of joint '{joint.name}' is 0; "
                 f"write the maximum {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} "
                 "of its drive, if it has one",
-                at=limit.element.locate_attribute("effort"),
+                at=limit.locate_attribute("effort"),
                 severity=INFO if passive else None,
                 alike=joint.type == "prismatic",
             )
@@ -73,6 +74,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
         "gz": "passes a limit of 0 on to the engine",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
     """The velocity limit of a moving joint is 0.
@@ -86,7 +88,7 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"velocity limit of joint '{joint.name}' is 0, so it must not move; "
                 f"write its maximum [{_get_units(joint)[1]}]",
-                at=limit.element.locate_attribute("velocity"),
+                at=limit.locate_attribute("velocity"),
                 alike=joint.type == "prismatic",
             )
 
@@ -126,7 +128,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     joint,
                     f"{name} limit of joint '{joint.name}' is {value:g}; write {-value:g}",
-                    at=joint.limit.element.locate_attribute(name),
+                    at=joint.limit.locate_attribute(name),
                     data={name: value},
                 )
 
@@ -170,7 +172,7 @@ def implausible_velocity(
             one.joint,
             f"velocity limit of joint '{one.joint.name}'{more} is {one.what}; "
             "write the maximum of the drive",
-            at=one.limit.element.locate_attribute("velocity"),
+            at=one.limit.locate_attribute("velocity"),
             alike=(one.is_slide, one.is_endless, bool(more)),
             data={"velocity": one.value},
         )
@@ -211,7 +213,7 @@ def implausible_effort(
             one.joint,
             f"effort limit of joint '{one.joint.name}'{more} is {one.what}; "
             "write the maximum of the drive",
-            at=one.limit.element.locate_attribute("effort"),
+            at=one.limit.locate_attribute("effort"),
             alike=(one.is_slide, one.is_endless, bool(more)),
             data={"effort": one.value},
         )
@@ -277,6 +279,7 @@ def _deduplicate(
         "mujoco, pybullet": "use the negative value: the joint gains energy",
     },
     of_motion=True,
+    formats=ANY_FORMAT,
 )
 def negative_dynamics(robot: Robot) -> Iterator[Problem]:
     """The damping or friction of a joint is negative.
@@ -293,7 +296,7 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     joint,
                     f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
-                    at=dynamics.element.locate_attribute(name),
+                    at=dynamics.locate_attribute(name),
                     severity=INFO if joint.is_fixed else None,
                     data={name: value},
                 )

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Vector
 from ...model.pose import make_pose, rotate
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, INFO, WARNING, Problem, rule
 
 APPLIES_TO = ("joint",)
 
@@ -48,6 +48,7 @@ def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
             "move both fingers in the same direction: the gripper cannot grip"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def fingers_move_together(robot: Robot) -> Iterator[Problem]:
     """The two prismatic fingers of a gripper move in the same direction.

@@ -15,7 +15,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, rule, select_holding
+from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import suggest_word
 
@@ -42,6 +42,7 @@ _SYNONYMS = {
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint has no known type",
         "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet load 'spherical'",
     },
+    formats=ANY_FORMAT,
 )
 def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint has no type, or a type that is not in URDF.
@@ -52,7 +53,9 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
     for joint in robot.joints:
         if joint.type.lower() in JOINT_TYPES or is_unexpanded(joint.type):
             continue
-        names = joint.element.attributes
+        if joint.xml is None:
+            continue  # a type of SDF or MJCF
+        names = joint.xml.attributes
         if "type" in names or not any(name.lower() == "type" for name in names):
             yield _report_unknown_type(joint, targets)
 

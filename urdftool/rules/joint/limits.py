@@ -262,7 +262,7 @@ def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             joint,
             f"joint '{joint.name}' is continuous, so most readers ignore its bounds; {remedy}",
-            at=limit.element.locate_attribute(name),
+            at=limit.locate_attribute(name),
         )
 
 

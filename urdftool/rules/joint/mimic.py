@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Mimic, Robot
 from ...source.document import Element
 from ..fix import FixContext, Proposal, format_numbers, get_suggestion, set_attribute, unsafe
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, suggest_name
 from ..xml.vocabulary_table import find_misspelled_attributes
@@ -32,6 +32,7 @@ APPLIES_TO = ("mimic",)
         "pybullet": "does not read <mimic>",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
     """A mimic joint refers to a joint that does not exist.
@@ -60,7 +61,7 @@ def report_unknown_leaders(robot: Robot) -> Iterator[Problem]:
             if mimic.joint.strip():
                 yield _report_unknown_leader(robot, joint, mimic)
             else:
-                place = mimic.element.locate_attribute("joint")
+                place = mimic.locate_attribute("joint")
                 yield Problem(joint, _describe_missing_leader(joint), at=place)
 
 
@@ -73,7 +74,7 @@ def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
     return Problem(
         joint,
         f"joint '{joint.name}' mimics '{mimic.joint}', but the robot has no such joint{near}",
-        at=mimic.element.locate_attribute("joint"),
+        at=mimic.locate_attribute("joint"),
         alike=bool(near),
         data={"suggestion": find_nearest(mimic.joint, robot.joint)},
     )
@@ -103,6 +104,7 @@ def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | N
         "mujoco": "3.3 ignores it; 4.0 couples the two joints twice",
         "drake": "couples the two joints twice; rejects a joint that mimics itself",
     },
+    formats=ANY_FORMAT,
 )
 def mimic_cycle(robot: Robot) -> Iterator[Problem]:
     """Mimic joints follow each other in a circle.
@@ -144,7 +146,7 @@ def _report_cycle(joint: Joint, circle: list[str]) -> Problem:
     else:
         names = " follows ".join(f"'{name}'" for name in (*circle, circle[0]))
         message = f"mimic joints follow each other: {names}; remove one <mimic>"
-    place = joint.mimic.element.locate_attribute("joint")
+    place = joint.mimic.locate_attribute("joint")
     return Problem(joint, message, at=place, data={"joints": circle})
 
 
@@ -175,7 +177,7 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
             joint,
             f"joint '{joint.name}' mimics '{leader.name}', itself a mimic joint; "
             f"mimic '{first.name}' with multiplier {multiplier:g} and offset {offset:g}",
-            at=mimic.element.locate_attribute("joint"),
+            at=mimic.locate_attribute("joint"),
             data={"joint": first.name, "multiplier": multiplier, "offset": offset},
         )
 
@@ -202,6 +204,7 @@ def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | Non
     effects={
         "mujoco": "4.0: limit and mimic constraint conflict, and the leader stops early too",
     },
+    formats=ANY_FORMAT,
 )
 def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
     """The limits of a mimic joint are too narrow for the range of its leader.
@@ -228,7 +231,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
                 f"mimic joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
                 f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}; "
                 f"reduce the limits of '{leader.name}'",
-                at=joint.limit.element.locate_attribute(name),
+                at=joint.limit.locate_attribute(name),
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )
 
@@ -266,6 +269,7 @@ def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | 
         "moveit": "ignores it: the degrees of freedom differ",
         "ros2_control": "stops with an exception for a fixed joint",
     },
+    formats=URDF_AND_SDF,
 )
 def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
     """A mimic joint or its leader does not have exactly one axis, or the multiplier is 0.
@@ -290,7 +294,7 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"joint '{joint.name}' follows '{leader.name}' with multiplier 0, so it never "
                     "moves; write its multiplier, or make it fixed",
-                    at=mimic.element.locate_attribute("multiplier"),
+                    at=mimic.locate_attribute("multiplier"),
                     effects=(),
                 )
     for (kind, leading), found in alike.items():
@@ -327,7 +331,7 @@ def report_fixed_leaders(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"joint '{joint.name}' mimics '{leader.name}', which is fixed; <mimic> requires "
                 "joints with one axis",
-                at=mimic.element.locate_attribute("joint"),
+                at=mimic.locate_attribute("joint"),
                 data={"type": leader.type, "joints": [joint.name]},
             )
 

@@ -16,7 +16,7 @@ from ..fix import (
     unsafe,
 )
 from ..mesh.link_extents import get_extents
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 
 
 @rule(
@@ -28,6 +28,7 @@ from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
         "moveit": "keeps the empty range: no state is within bounds",
         "drake": "aborts",
     },
+    formats=ANY_FORMAT,
 )
 def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The lower limit of a joint is above its upper limit.
@@ -47,7 +48,7 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             yield Problem(
                 joint,
                 _describe_inverted_limit(joint, lower, upper),
-                at=limit.element.locate_attribute("lower"),
+                at=limit.locate_attribute("lower"),
                 severity=INFO if meant else None,
                 data={"lower": lower, "upper": upper},
             )
@@ -66,7 +67,9 @@ def report_inverted_limits(robot: Robot) -> Iterator[Problem]:
 
 
 def _describe_inverted_limit(joint: Joint, lower: float, upper: float) -> str:
-    if is_pybullet_unlimited(lower, upper):
+    if joint.xml is None:
+        so = "swap them"
+    elif is_pybullet_unlimited(lower, upper):
         so = "PyBullet and MuJoCo take the joint as unlimited, other readers do not; "
         so += (
             "make it continuous, or write lower below upper"
@@ -130,6 +133,7 @@ def is_locked(joint: Joint) -> bool:
         "gz, gazebo-classic, pinocchio, drake": "keep the two equal limits",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     """The lower and upper limit of a joint are equal.
@@ -143,7 +147,7 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; "
                 "make it fixed, or write its range",
-                at=limit.element.locate_attribute("upper"),
+                at=limit.locate_attribute("upper"),
                 data={"position": lower},
             )
 
@@ -173,6 +177,7 @@ def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
             "keep it as a limit that is never reached"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[Problem]:
     """A limit of a revolute joint is larger than two turns.
@@ -191,7 +196,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
             continue
         name = "upper" if abs(upper) > largest else "lower"
         value = upper if name == "upper" else lower
-        at = limit.element.locate_attribute(name)
+        at = limit.locate_attribute(name)
         what = f"{name} limit {value:g} of joint '{joint.name}'"
         if abs(value) >= 1e3:
             yield Problem(
@@ -249,6 +254,7 @@ def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal |
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take meters",
     },
+    formats=URDF_AND_SDF,
 )
 def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
     """A limit of a prismatic joint, or the distance of a joint from its parent, is above 10 m.
@@ -259,7 +265,7 @@ def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator
     reported either. ``largest`` [m] is the largest length that is not reported.
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
-        if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
+        if joint.type == "prismatic" and largest < max(abs(lower), abs(upper)) < math.inf:
             if _is_frame_joint(robot, joint) or _has_shape_as_long(robot, upper - lower):
                 continue
             name = "upper" if abs(upper) > largest else "lower"
@@ -268,7 +274,7 @@ def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator
                 joint,
                 f"{name} limit of joint '{joint.name}' is {value:g} m; "
                 f"if it is in millimeters, write {value / 1000:g}",
-                at=limit.element.locate_attribute(name),
+                at=limit.locate_attribute(name),
                 data={"limit": value},
             )
     for joint in robot.joints:
@@ -281,7 +287,7 @@ def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator
                 joint,
                 f"joint '{joint.name}' is {abs(far):g} m from its parent; "
                 f"if it is in millimeters, write {far / 1000:g}",
-                at=joint.origin.element.locate_attribute("xyz"),
+                at=joint.origin.locate_attribute("xyz"),
                 data={"distance": abs(far)},
             )
 
@@ -347,7 +353,7 @@ def limit_rounded_outward(
                     joint,
                     f"{name} limit {value:g} of joint '{joint.name}' exceeds {turns * 90}° "
                     f"by {beyond:.1g} rad; write {inside:g}",
-                    at=limit.element.locate_attribute(name),
+                    at=limit.locate_attribute(name),
                     alike=name,
                     data={"write": f"{inside:.9g}", "beyond": beyond},
                 )
@@ -369,6 +375,7 @@ def round_limit_toward_zero(problem: Problem, _context: FixContext) -> Proposal 
     effects={
         "moveit": "takes the whole range: several joint positions give one pose",
     },
+    formats=ANY_FORMAT,
 )
 def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
     """The range of a revolute joint is more than one turn.
@@ -412,7 +419,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
                 joint,
                 f"joint '{joint.name}' cannot be at 0, where simulators start it: "
                 f"its range is {lower:g} to {upper:g}",
-                at=limit.element.locate_attribute(name),
+                at=limit.locate_attribute(name),
                 group="{count} joints cannot be at 0, where simulators start them: {names}",
                 data={"lower": lower, "upper": upper},
             )

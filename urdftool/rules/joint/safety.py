@@ -144,7 +144,7 @@ def soft_limits_outside_hard(
         yield Problem(
             joint,
             what,
-            at=safety.element.locate_attribute(name),
+            at=safety.locate_attribute(name),
             data={"soft_lower": low, "soft_upper": high},
         )
 

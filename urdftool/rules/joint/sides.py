@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ...model.elements import Joint, Link, Robot, Vector
-from ..rule import INFO, Problem, rule
+from ..rule import ANY_FORMAT, INFO, Problem, rule
 from ..symmetry import Pair, Sides, get_family, get_sides
 from ..words import quote
 
@@ -19,6 +19,7 @@ from ..words import quote
         "urdfdom, gz, gazebo-classic, mujoco": "place the joint as written",
     },
     group="robot",
+    formats=ANY_FORMAT,
 )
 def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
     """A joint is not at the mirror image of the corresponding joint on the other side.
@@ -57,6 +58,7 @@ def _has_the_same_origin(pair: Pair) -> bool:
             "keep the two ranges as written"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def limits_not_mirrored(
     robot: Robot, *, tolerance: float = 0.03, together: float = 3
@@ -140,6 +142,7 @@ def _find_asymmetric_ranges(
             "keep the axis: the same command turns one of them in the opposite direction"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def axis_against_others(robot: Robot) -> Iterator[Problem]:
     """The axis of a joint is reversed compared with similar joints.

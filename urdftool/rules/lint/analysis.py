@@ -46,7 +46,7 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             first.link,
             f"mesh '{first.uri}' of link '{first.link.name}' could not be read{more}; mass, "
             "inertia, scale and overlaps of the link were not checked",
-            at=first.mesh.element.locate_attribute("filename"),
+            at=first.mesh.locate_attribute("filename"),
         )
     if overlap.is_partly_checked(robot):
         yield Problem(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ...model.elements import Link
 from ...source.document import Element
 from ..xml.numbers import has_readable_numbers
 from .mesh_uses import MeshUse
@@ -17,13 +16,16 @@ def is_dropped(use: MeshUse) -> bool:
     urdfdom reads the inertial, the visuals and then the collisions of a link, and stops at the
     first element that it cannot read.
     """
-    if not (_reads_inertial(use.link) and _reads_shapes(use.link, "visual")):
+    link = use.link.xml
+    if link is None:
+        return False
+    if not (_reads_inertial(link) and _reads_shapes(link, "visual")):
         return True
-    return use.collides and not _reads_shapes(use.link, "collision")
+    return use.collides and not _reads_shapes(link, "collision")
 
 
-def _reads_inertial(link: Link) -> bool:
-    inertial = link.element.find_child("inertial")
+def _reads_inertial(link: Element) -> bool:
+    inertial = link.find_child("inertial")
     if inertial is None:
         return True
     mass, inertia = inertial.find_child("mass"), inertial.find_child("inertia")
@@ -34,8 +36,8 @@ def _reads_inertial(link: Link) -> bool:
     return all(map(has_readable_numbers, (*inertial.list_children("origin"), mass, inertia)))
 
 
-def _reads_shapes(link: Link, tag: str) -> bool:
-    return all(map(_reads_shape, link.element.list_children(tag)))
+def _reads_shapes(link: Element, tag: str) -> bool:
+    return all(map(_reads_shape, link.list_children(tag)))
 
 
 def _reads_shape(element: Element) -> bool:

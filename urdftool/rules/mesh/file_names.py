@@ -42,7 +42,7 @@ def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' has {what} in its name; use letters, digits, _ and -",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "characters": odd},
             )
 
@@ -92,7 +92,7 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
                 use.link,
                 f"MuJoCo cannot open '{use.uri}'; "
                 'add <mujoco><compiler meshdir="…" strippath="true"/> to the robot',
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
             )
             return
@@ -135,7 +135,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
         yield Problem(
             use.link,
             f"MuJoCo names both meshes '{first[stem]}' and '{use.uri}' '{stem}'{more}; rename one",
-            at=use.mesh.element.locate_attribute("filename"),
+            at=use.mesh.locate_attribute("filename"),
             data={"uris": [first[stem], use.uri], "name": stem},
         )
 

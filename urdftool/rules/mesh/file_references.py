@@ -10,7 +10,7 @@ from urllib.parse import unquote
 from ...model.elements import Robot
 from ...source.description import Description
 from ...workspace import Workspace, memoize_by_workspace
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import INFO, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import quote
 from .mesh_uses import MeshUse, get_mesh_uses
 
@@ -28,6 +28,7 @@ _MOST = 4_000_000  # bytes that are searched
     effects={
         "mujoco, pybullet, drake": "load the robot anyway",
     },
+    formats=URDF_AND_SDF,
 )
 def missing_mesh_dependency(
     robot: Robot, description: Description, *, together: float = 3
@@ -55,7 +56,7 @@ def missing_mesh_dependency(
         yield Problem(
             use.link,
             f"mesh '{use.uri}' refers to {quote(missing)}, but the file does not exist{others}",
-            at=use.mesh.element.locate_attribute("filename"),
+            at=use.mesh.locate_attribute("filename"),
             severity=None if any(_has_shape(name) for one in named for name in one) else INFO,
             data={"uri": use.uri, "names": list(missing)},
         )

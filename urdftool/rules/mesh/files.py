@@ -17,7 +17,7 @@ from ...source.packages import find_own_package, shorten_path
 from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, SAFE, Problem, rule
+from ..rule import ERROR, SAFE, URDF_AND_SDF, Problem, rule
 from ..words import find_nearest
 from .changes import change_uses
 from .dropped import is_dropped
@@ -40,6 +40,7 @@ _NOT_OPENED = "urdfdom, gz, gazebo-classic"
         "mujoco": "rejects the robot",
         "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
+    formats=URDF_AND_SDF,
 )
 def mesh_not_found(
     robot: Robot, description: Description, *, together: float = 3
@@ -72,7 +73,7 @@ def mesh_not_found(
                 first.link,
                 f"folder '{shorten_path(folder)}' does not exist, but {len(paths)} meshes refer to "
                 f"it, first '{first.uri}'",
-                at=first.mesh.element.locate_attribute("filename"),
+                at=first.mesh.locate_attribute("filename"),
                 data={"folder": str(folder), "count": len(paths)},
                 effects=_select_effects(keeps, [use for path in paths for use in missing[path]]),
             )
@@ -83,7 +84,7 @@ def mesh_not_found(
                 first.link,
                 f"mesh file of link '{first.link.name}' does not exist: '{first.uri}' refers to "
                 f"'{shorten_path(path)}'{_suggest_file(description.workspace, path)}",
-                at=first.mesh.element.locate_attribute("filename"),
+                at=first.mesh.locate_attribute("filename"),
                 data={"uri": first.uri, "path": str(path)},
                 effects=_select_effects(keeps, missing[path]),
             )
@@ -104,7 +105,7 @@ def _select_effects(keeps: bool, uses: list[MeshUse]) -> list[str]:
 def _is_above(use: MeshUse) -> bool:
     """Tell whether PyBullet finds a file, as it searches all folders above the description."""
     path = use.uri.removeprefix("package://").removeprefix("file://")
-    folder = Path(use.workspace.resolve_links(use.mesh.element.file.path)).parent
+    folder = Path(use.workspace.resolve_links(use.mesh.place.path)).parent
     folders = (folder, *folder.parents[:-1])
     return any(use.workspace.is_file(above / path) for above in folders)
 
@@ -169,6 +170,7 @@ def _walk_files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
         ),
         "mujoco": "rejects the robot for a collision on Linux",
     },
+    formats=URDF_AND_SDF,
 )
 def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Problem]:
     """The name of a mesh file differs in case from the file on disk.
@@ -189,7 +191,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is '{shown}' on disk, so Linux does not find it; match the case",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "name": shown},
             )
 
@@ -237,6 +239,7 @@ def _split_difference(old: str, new: str) -> tuple[str, str]:
         "pinocchio": "rejects the geometry of the robot",
         "drake": "rejects the robot for a collision",
     },
+    formats=URDF_AND_SDF,
 )
 def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh file exists, but does not contain a mesh.
@@ -256,7 +259,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {wrong}",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
             )
 
@@ -271,6 +274,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
         "drake": "rejects the robot for a collision",
     },
     group="repository",
+    formats=URDF_AND_SDF,
 )
 def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh file is a git-lfs pointer instead of the mesh.
@@ -288,7 +292,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {_LFS}",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
                 group="{count} mesh files are git-lfs pointers instead of meshes, in the links "
                 "{names}; run 'git lfs pull'",

@@ -16,7 +16,7 @@ from ...workspace import Workspace, memoize_by_workspace
 from ..file_rewrites import BINARY, HEADED
 from ..fix import Change, FixContext, Proposal, safe, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import BOTH, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, BOTH, ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_existing_uses, rewrite_in_place, write_new_file
 from .mesh_uses import MeshUse, get_mesh_uses
 
@@ -46,6 +46,7 @@ _OF_FORMAT = {
 @rule(
     ERROR,
     effects=_OF_FORMAT,
+    formats=URDF_AND_SDF,
 )
 def unsupported_mesh_format(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -79,7 +80,7 @@ def unsupported_mesh_format(
                     if ending == "stlb"
                     else f"convert it, for example to {READ_BY[who[0]][0]}"
                 ),
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 effects=_select_effects(ending, any(u.collides for u in same)),
                 data={"uri": use.uri, "format": ending, "readers": who},
             )
@@ -150,7 +151,7 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is ASCII STL, which many readers reject; convert it",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 effects=[*["mujoco"] * (keeps or use.collides), *_OF_TEXT],
                 data={"uri": use.uri},
             )
@@ -193,7 +194,7 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
             found[0].link,
             f"binary STL mesh '{found[0].uri}'{more} begins with 'solid', as ASCII STL does; "
             "overwrite the 80 bytes of its header",
-            at=found[0].mesh.element.locate_attribute("filename"),
+            at=found[0].mesh.locate_attribute("filename"),
             data={"uris": [use.uri for use in found]},
         )
 
@@ -223,6 +224,7 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
         "rviz, pybullet (both)": "apply the unit, but not the axis",
         "moveit (collision)": "applies neither",
     },
+    formats=ANY_FORMAT,
 )
 def dae_unit_or_axis(
     robot: Robot, description: Description, *, together: float = 3
@@ -251,7 +253,7 @@ def dae_unit_or_axis(
                 use.link,
                 f"mesh '{use.uri}'{more}: {what}, which readers apply differently; "
                 "export it in meters",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 effects=(
                     f"rviz, pybullet ({case})",
                     *(("moveit (collision)",) if use.uri in colliding else ()),
@@ -309,7 +311,7 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
             uses[0].link,
             f"collision mesh '{uses[0].uri}'{more} is COLLADA, which MuJoCo and Drake reject; "
             "convert it to OBJ",
-            at=uses[0].mesh.element.locate_attribute("filename"),
+            at=uses[0].mesh.locate_attribute("filename"),
             data={"uris": list(dict.fromkeys(use.uri for use in uses))},
         )
 

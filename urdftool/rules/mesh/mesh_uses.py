@@ -61,7 +61,7 @@ class MeshUse:
     @property
     def written(self) -> str:
         """The ``filename`` as written in the source, with its xacro expressions."""
-        place = self.mesh.element.locate_attribute("filename")
+        place = self.mesh.locate_attribute("filename")
         data = place.file.data[place.start : place.end]
         return data.decode(place.file.encoding, "replace").partition("=")[2].strip(" \t\r\n\"'")
 

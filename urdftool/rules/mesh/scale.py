@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ...diagnostic import FileRewrite
 from ...geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
-from ...model.elements import Robot
+from ...model.elements import Mesh, Robot
 from ...model.read import parse_numbers
 from ...source.description import Description
 from ...workspace import Workspace, memoize_by_workspace
@@ -22,7 +22,7 @@ from ..fix import (
     substitute,
     unsafe,
 )
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_uses, write_new_file
 from .link_extents import compute_mesh_box
 from .mesh_uses import MeshUse, get_mesh_uses
@@ -93,6 +93,7 @@ def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
     effects={
         "mujoco, pybullet, pinocchio": "take the numbers of the file as meters",
     },
+    formats=ANY_FORMAT,
 )
 def mesh_in_millimeters(
     robot: Robot, description: Description, *, largest: float = 10.0
@@ -131,11 +132,15 @@ def report_every_mesh_in_millimeters(robot: Robot) -> Iterator[Problem]:
 
 def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
     length = _compute_largest(use, whole=True) or length  # a sample is a lower bound
-    right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
+    right = ""
+    if use.mesh.xml is None and use.mesh.scale == (1.0, 1.0, 1.0):
+        right = "; write the scale 0.001 0.001 0.001"
+    elif use.mesh.xml is not None and not use.mesh.xml.get("scale"):
+        right = '; write scale="0.001 0.001 0.001"'
     return Problem(
         use.link,
         f"mesh '{use.uri}' is {length:.3g} m long, so it is probably in millimeters{right}",
-        at=use.mesh.element.locate_attribute("filename"),
+        at=use.mesh.locate_attribute("filename"),
         data={
             "uri": use.uri,
             "length": length,
@@ -161,6 +166,7 @@ def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | Non
     effects={
         "mujoco, pybullet": "apply the scale, which makes the mesh a thousand times too small",
     },
+    formats=ANY_FORMAT,
 )
 def mesh_scaled_twice(
     robot: Robot, description: Description, *, smallest: float = 0.001
@@ -185,7 +191,7 @@ def mesh_scaled_twice(
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is only {length * 1000:.3g} mm long{right}",
-                at=use.mesh.element.locate_attribute("scale"),
+                at=use.mesh.locate_attribute("scale"),
                 data={"uri": use.uri, "length": length, "limit": smallest, "scale": scale},
             )
 
@@ -209,6 +215,7 @@ def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
         "gz (collision)": "takes the scale as written",
         "urdfdom, gazebo-classic, pybullet": "take the scale as written",
     },
+    formats=URDF_AND_SDF,
 )
 def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh is mirrored by a negative scale.
@@ -230,7 +237,7 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
             found[0].link,
             f"mesh '{found[0].uri}'{more} has a negative scale, which turns its triangles inside "
             "out; use a mirrored copy of the file",
-            at=found[0].mesh.element.locate_attribute("scale"),
+            at=found[0].mesh.locate_attribute("scale"),
             effects=(
                 "mujoco",
                 "gz (visual)" if visual else "gz (collision)",
@@ -267,6 +274,7 @@ def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | Non
     effects={
         "urdfdom, gz, gazebo-classic, pybullet": "take each scale as written",
     },
+    formats=ANY_FORMAT,
 )
 def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh file is used with two different scales.
@@ -293,7 +301,7 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
                 use.link,
                 f"mesh '{uri}' of link '{use.link.name}' has scale {_format_scale(scale)}, but "
                 f"{_format_scale(usual)} in other places; use one scale",
-                at=use.mesh.element.locate_attribute("scale")
+                at=use.mesh.locate_attribute("scale")
                 if "scale" in use.mesh.element.attributes
                 else use.mesh.element,
             )
@@ -326,6 +334,7 @@ def _format_scale(scale: tuple[float, ...]) -> str:
     effects={
         "urdfdom, gz, gazebo-classic, pybullet": "take the scale as written",
     },
+    formats=ANY_FORMAT,
 )
 def mesh_scale_outlier(
     robot: Robot, description: Description, *, several: float = 4
@@ -356,7 +365,7 @@ def mesh_scale_outlier(
                 use.link,
                 f"mesh '{use.uri}' of link '{use.link.name}' is scaled {factor:g} times as much as "
                 f"the other {scales.count(usual)} meshes; check its scale",
-                at=use.mesh.element.locate_attribute("scale"),
+                at=use.mesh.locate_attribute("scale"),
                 data={"uri": use.uri, "factor": factor},
             )
 
@@ -368,6 +377,7 @@ def mesh_scale_outlier(
         "mujoco": "rejects it for a collision",
         "urdfdom, gz, gazebo-classic, pybullet": "accept it: the shape is flat",
     },
+    formats=URDF_AND_SDF,
 )
 def bad_scale(robot: Robot) -> Iterator[Problem]:
     """A mesh has a scale of zero.
@@ -376,16 +386,18 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
     """
     for link, shape in robot.shapes:
         mesh = shape.geometry
-        if mesh is None or mesh.element.tag != "mesh":
+        if not isinstance(mesh, Mesh):
             continue
-        text = mesh.element.get("scale")
+        text = f"{mesh.scale[0]:g} {mesh.scale[1]:g} {mesh.scale[2]:g}"
+        if mesh.xml is not None:
+            text = mesh.xml.get("scale") or ""
         values = parse_numbers(text, 3)
         if values is not None and 0 in values:
             yield Problem(
                 link,
                 f"scale '{text}' of a mesh of link '{link.name}' has a factor 0, which makes it "
                 "flat; write nonzero factors",
-                at=mesh.element.locate_attribute("scale"),
+                at=mesh.locate_attribute("scale"),
                 data={"scale": list(values)},
             )
 
@@ -410,7 +422,7 @@ def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Proble
                 use.link,
                 f"mesh '{use.uri}' has the non-uniform scale {use.mesh.element.get('scale')}; "
                 "scale the file itself",
-                at=use.mesh.element.locate_attribute("scale"),
+                at=use.mesh.locate_attribute("scale"),
                 data={"uri": use.uri, "scale": list(use.mesh.scale)},
             )
 
@@ -440,6 +452,6 @@ def heavy_visual(
             yield Problem(
                 use.link,
                 f"visual mesh '{use.uri}' is {size / 1e6:.0f} MB large; simplify it",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "bytes": size},
             )

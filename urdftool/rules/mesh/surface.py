@@ -14,7 +14,7 @@ from ...workspace import Workspace, memoize_by_workspace
 from ..cross_file_references import check_alone
 from ..file_rewrites import TURNED, WITHOUT_COLLAPSED, count_collapsed
 from ..fix import FixContext, Proposal, unsafe
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_existing_uses, rewrite_in_place
 from .mesh_uses import MeshUse, get_mesh_uses, is_concave
 
@@ -95,7 +95,7 @@ def _combine_findings(
     others = ", ".join(f"'{other.link.name}'" for other, _ in rest)
     text = message(use).format(what) + (f"; so are those of {others}" if rest else "")
     uris = [use.uri for use, _ in found]
-    place = use.mesh.element.locate_attribute("filename")
+    place = use.mesh.locate_attribute("filename")
     return [Problem(use.link, text, at=place, data={"uris": uris})]
 
 
@@ -146,6 +146,7 @@ def not_watertight(
         "mujoco": "3.3 and 4.0 load it",
         "rviz": "lights it by the normals of the file",
     },
+    formats=URDF_AND_SDF,
 )
 def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     """The triangles of a collision mesh face inward.
@@ -159,7 +160,7 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 use.link,
                 f"collision mesh '{use.uri}' of link '{use.link.name}' is inside out; reverse its "
                 "triangles",
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
             )
 
@@ -180,6 +181,7 @@ def turn_triangles(problem: Problem, context: FixContext) -> Proposal | None:
         "mujoco, pybullet, pinocchio": "load it",
         "rviz": "normalizes a normal of length 0",
     },
+    formats=URDF_AND_SDF,
 )
 def degenerate_triangles(
     robot: Robot, description: Description, *, most: float = MOST_SLIVERS
@@ -270,7 +272,7 @@ def nonconvex_collision_mesh(
             use.link,
             f"collision mesh '{use.uri}' of link '{use.link.name}' is not convex: the volume of "
             f"its convex hull is {hull / abs(surface.volume):.2g} times as large",
-            at=use.mesh.element.locate_attribute("filename"),
+            at=use.mesh.locate_attribute("filename"),
             data={"uri": use.uri, "ratio": hull / abs(surface.volume), "limit": ratio},
             hint="'urdftool collision' decomposes it into convex parts",
             group=""

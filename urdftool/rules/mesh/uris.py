@@ -13,7 +13,7 @@ from ...source.description import Description
 from ...source.document import Element
 from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..xml.vocabulary_table import find_misspelled_attributes
 from .changes import change_uses
 from .mesh_uses import MeshUse, get_mesh_uses
@@ -26,6 +26,7 @@ APPLIES_TO = ("mesh",)
     effects={
         "pybullet, drake": "reject the robot on any other machine",
     },
+    formats=URDF_AND_SDF,
 )
 def absolute_path(
     robot: Robot, description: Description, *, together: float = 3
@@ -57,13 +58,14 @@ def absolute_path(
 def _report_absolute(use: MeshUse, others: int = 0, folder: str | None = None) -> Problem:
     """Report a mesh, and the number of other missing files in its folder."""
     name = use.uri.replace("\\", "/").rstrip("/").rpartition("/")[2]
+    scheme = "package://PACKAGE" if use.mesh.xml is not None else "model://MODEL"
     more = "" if folder is None else f"; {others} more meshes refer to folder {folder}"
     data = {"uri": use.uri} if folder is None else {"uri": use.uri, "folder": folder}
     return Problem(
         use.link,
         f"mesh '{use.uri}' is an absolute path{'' if use.exists else ' that does not exist here'}; "
-        f"write package://PACKAGE/meshes/{name}{more}",
-        at=use.mesh.element.locate_attribute("filename"),
+        f"write {scheme}/meshes/{name}{more}",
+        at=use.mesh.locate_attribute("filename"),
         severity=None if use.exists else ERROR,
         data=data,
     )
@@ -210,7 +212,11 @@ def find_malformation(use: MeshUse) -> Malformation | None:
     """Find the defect of a mesh URI; None if it has none."""
     uri = use.uri
     scheme, separator, rest = uri.partition("://")
-    if "filename" not in use.mesh.element.attributes or "${" in uri or "$(" in uri:
+    if (
+        (use.mesh.xml is not None and "filename" not in use.mesh.xml.attributes)
+        or "${" in uri
+        or "$(" in uri
+    ):
         return None
     defect, what = "", ""
     if not uri.strip():
@@ -294,7 +300,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
         yield Problem(
             first.link,
             f"mesh '{first.uri}'{more}: {what}",
-            at=first.mesh.element.locate_attribute("filename"),
+            at=first.mesh.locate_attribute("filename"),
             data={"scheme": scheme, "uris": list(dict.fromkeys(use.uri for use in uses))},
             severity=None if known else ERROR,
             effects=[
@@ -338,7 +344,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
         yield Problem(
             first.link,
             f"mesh '{first.uri}'{more} is a relative path; write {right}",
-            at=first.mesh.element.locate_attribute("filename"),
+            at=first.mesh.locate_attribute("filename"),
             data={"uris": list(dict.fromkeys(use.uri for use in relative))},
         )
 

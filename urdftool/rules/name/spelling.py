@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Link, Material, Robot
 from ..fix import FixContext, Proposal, append_number
 from ..renaming import get_part, rename_material, rename_part
-from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import fold
 
@@ -36,7 +36,7 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
             first,
             f"names of {len(slashed)} links begin with a slash, which tf2 rejects (first "
             f"'{first.name}'); remove the slash, or write the empty prefix",
-            at=first.element.locate_attribute("name"),
+            at=first.locate_attribute("name"),
         )
     for link in robot.links:
         name = link.name
@@ -54,7 +54,7 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
         yield Problem(
             link,
             f"name of link '{name}' {what}, which tf2 rejects; write '{right}'",
-            at=link.element.locate_attribute("name"),
+            at=link.locate_attribute("name"),
             data={"write": right},
         )
 
@@ -85,7 +85,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 part,
                 f"name of {part.element.tag} '{part.name}' is not an identifier; write '{renamed}'",
-                at=part.element.locate_attribute("name"),
+                at=part.locate_attribute("name"),
                 data={"write": renamed},
             )
 
@@ -114,7 +114,7 @@ def name_style(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 part,
                 f"name of {part.element.tag} '{part.name}' is not in lower case with underscores",
-                at=part.element.locate_attribute("name"),
+                at=part.locate_attribute("name"),
             )
 
 
@@ -133,6 +133,7 @@ def write_snake_case(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": "accept it",
     },
+    formats=ANY_FORMAT,
 )
 def non_ascii_name(robot: Robot) -> Iterator[Problem]:
     """A name has non-ASCII characters.
@@ -148,7 +149,7 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 part,
                 f"name of {part.element.tag} '{part.name}' has non-ASCII characters",
-                at=part.element.locate_attribute("name"),
+                at=part.locate_attribute("name"),
             )
 
 
@@ -195,7 +196,7 @@ def confusable_names(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     part,
                     f"{tag} '{name}' is easily confused with {tag} '{first}'; rename one",
-                    at=part.element.locate_attribute("name"),
+                    at=part.locate_attribute("name"),
                 )
 
 
@@ -222,7 +223,7 @@ def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[P
                 link,
                 f"{shape.element.tag} name '{shape.name}' is used twice, again in link "
                 f"'{link.name}'; write a unique name, or none",
-                at=shape.element.locate_attribute("name"),
+                at=shape.locate_attribute("name"),
             )
         seen.add(key)
 

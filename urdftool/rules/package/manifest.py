@@ -189,7 +189,7 @@ def _find_used_packages(
         if name and name not in found and not is_in_own_package(use, description):
             found.add(name)
             if not _is_itself(name, own[1], description):
-                yield name, use.link, use.mesh.element.locate_attribute("filename")
+                yield name, use.link, use.mesh.locate_attribute("filename")
     first = description.files[0]
     for match in _FIND.finditer(first.data):
         name = match[1].decode("ascii")
@@ -341,7 +341,7 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
                 f"package.xml of '{own[0]}' does not export the path of its meshes to Gazebo; "
                 "write "
                 '<export><gazebo_ros gazebo_model_path="${prefix}/.."/></export>',
-                at=use.mesh.element.locate_attribute("filename"),
+                at=use.mesh.locate_attribute("filename"),
             )
             return
 
@@ -409,7 +409,7 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
             uses[0].link,
             f"package '{name}' does not have {files}, but this package does; "
             f"write package://{own[0]}/…",
-            at=uses[0].mesh.element.locate_attribute("filename"),
+            at=uses[0].mesh.locate_attribute("filename"),
             data={"package": name, "write": own[0]},
         )
 

@@ -48,7 +48,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             uses[0].link,
             f"package '{name}' is not found, so {meshes} not checked; "
             + (suggest_folder(name, near) if near is not None else remedy),
-            at=uses[0].mesh.element.locate_attribute("filename"),
+            at=uses[0].mesh.locate_attribute("filename"),
             hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),
         )
@@ -72,7 +72,7 @@ def _report_assumed_packages(robot: Robot, description: Description) -> Iterator
             f"package '{name}' is not found, so {meshes} read from the folder "
             f"'{shorten_path(folder)}', as PyBullet does; write "
             f"'{_make_uri(uses[0], description)}'",
-            at=uses[0].mesh.element.locate_attribute("filename"),
+            at=uses[0].mesh.locate_attribute("filename"),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
         )
 

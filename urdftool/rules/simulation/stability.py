@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, INFO, WARNING, Problem, rule
 
 
 @rule(
@@ -14,6 +14,7 @@ from ..rule import INFO, WARNING, Problem, rule
     effects={
         "gazebo-classic": "solves joints iteratively, by default 50 times; this one may give way",
     },
+    formats=ANY_FORMAT,
 )
 def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) -> Iterator[Problem]:
     """A joint carries a body that is much heavier than the body above it.

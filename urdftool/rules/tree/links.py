@@ -24,7 +24,18 @@ from ..fix import (
 from ..gazebo.lumped_model import find_kept_links, find_sdf_joints, is_joint_kept, is_named_as_link
 from ..gazebo.lumping import is_lumped
 from ..renaming import rename_part
-from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule, select_holding
+from ..rule import (
+    ANY_FORMAT,
+    BOTH,
+    ERROR,
+    GAZEBO,
+    INFO,
+    UNSAFE,
+    WARNING,
+    Problem,
+    rule,
+    select_holding,
+)
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, suggest_name
 from ..xml.vocabulary_table import find_misspelled_children, is_for_another_reader
@@ -36,6 +47,7 @@ from ..xml.vocabulary_table import find_misspelled_children, is_for_another_read
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
         "mujoco, drake": "load a model without a body",
     },
+    formats=ANY_FORMAT,
 )
 def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     """The robot has no link.
@@ -45,7 +57,7 @@ def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     """
     if not (robot.name.strip() or robot.element.children) and description.document.comments:
         return
-    if not robot.links and "link" not in find_misspelled_children(robot.element).values():
+    if not robot.links and "link" not in find_misspelled_children(robot.xml).values():
         yield _report_no_link(robot)
 
 
@@ -69,6 +81,7 @@ def _report_no_link(robot: Robot) -> Problem:
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: link is not unique",
         "mujoco, pybullet, drake": "reject the file",
     },
+    formats=ANY_FORMAT,
 )
 def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
     """Two links have the same name.
@@ -99,7 +112,7 @@ def _report_second(part: Link | Joint, first: Link | Joint) -> Problem:
     return Problem(
         part,
         f"{kind} name '{part.name}' is used twice (first in line {first.place.line}); rename one",
-        at=part.element.locate_attribute("name") if named else None,
+        at=part.locate_attribute("name") if named else None,
     )
 
 
@@ -110,6 +123,7 @@ def _report_second(part: Link | Joint, first: Link | Joint) -> Problem:
         "mujoco": "loads it",
         "pybullet": "crashes",
     },
+    formats=ANY_FORMAT,
 )
 def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
     """Two joints have the same name.
@@ -184,7 +198,7 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
                 joint,
                 f"joint '{name}' has the name of a link, but both share one namespace in SDF; "
                 f"rename it to '{name}_joint'",
-                at=joint.element.locate_attribute("name"),
+                at=joint.locate_attribute("name"),
                 severity=WARNING if in_gazebo and lumped and not stay else None,
                 effects=select_holding(_CLASH, case),
             )
@@ -231,10 +245,7 @@ def rename_joint(problem: Problem, context: FixContext) -> Proposal | None:
     return rename_part(context, joint, f"{joint.name}_joint")
 
 
-@rule(
-    ERROR,
-    effects=_WITHOUT_PARENT,
-)
+@rule(ERROR, effects=_WITHOUT_PARENT, formats=ANY_FORMAT)
 def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
     """A joint's parent is not a link of the robot.
 
@@ -266,7 +277,7 @@ def _report_unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Probl
         f"parent '{name}' of joint '{joint.name}' is not a link{_describe_remedy(name, robot)}",
         at=parent.locate_attribute("link"),
         data={"suggestion": find_nearest(name, robot.link)},
-        severity=INFO if is_world and is_for_another_reader(robot.element) else None,
+        severity=INFO if is_world and is_for_another_reader(robot.xml) else None,
         effects=select_holding(
             _WITHOUT_PARENT, "the parent is world" if is_world else "the parent is not world"
         ),
@@ -309,6 +320,7 @@ def _write_suggestion(problem: Problem) -> Proposal | None:
             "reject the robot: child link not found"
         ),
     },
+    formats=ANY_FORMAT,
 )
 def unknown_child_link(robot: Robot) -> Iterator[Problem]:
     """A joint's child is not a link of the robot.
@@ -382,12 +394,10 @@ def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
     return _write_suggestion(problem)
 
 
-@rule(
-    ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "reject the robot",
-    },
-)
+_READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
+
+
+@rule(ERROR, effects={_READERS: "reject the robot"}, formats=ANY_FORMAT)
 def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
     """A joint lacks its parent or child link.
 
@@ -437,7 +447,7 @@ def _find_missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
         if name.strip():
             continue
         if element is None:
-            if tag not in find_misspelled_children(joint.element).values():
+            if tag not in find_misspelled_children(joint.xml).values():
                 yield tag, None
         elif element.attributes.keys() <= {"link"}:
             yield tag, element
@@ -458,10 +468,7 @@ _TO_ITSELF = {
 }
 
 
-@rule(
-    ERROR,
-    effects=_TO_ITSELF,
-)
+@rule(ERROR, effects=_TO_ITSELF, formats=ANY_FORMAT)
 def joint_to_itself(robot: Robot) -> Iterator[Problem]:
     """A joint connects a link to itself.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
-from ..rule import ERROR, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import quote
 from ..xml.vocabulary_table import find_misspelled_children
@@ -21,6 +21,7 @@ _SHOWN = 6
         "pybullet": "crashes",
         "drake": "loads each root that no <drake:joint> joins as a free body",
     },
+    formats=ANY_FORMAT,
 )
 def multiple_roots(robot: Robot) -> Iterator[Problem]:
     """Several links have no parent joint.
@@ -29,7 +30,7 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     world, and PyBullet crashes. Usually a joint was forgotten. Only Drake reads ``<drake:joint>``.
     """
     roots = robot.tree.roots
-    if len(roots) < 2 or "joint" in find_misspelled_children(robot.element).values():
+    if len(roots) < 2 or "joint" in find_misspelled_children(robot.xml).values():
         return
     main = _find_main_root(robot)
     joined = _find_drake_roots(robot)
@@ -74,7 +75,7 @@ def _find_drake_roots(robot: Robot) -> set[str]:
     """Find the roots that a ``<drake:joint>`` connects to another link."""
     roots = {link.name for link in robot.tree.roots}
     found = set()
-    for joint in robot.element.list_children("drake:joint"):
+    for joint in () if robot.xml is None else robot.xml.list_children("drake:joint"):
         if joint.get("type") in _STANDARD:
             continue  # Drake rejects it
         parent, child = joint.find_child("parent"), joint.find_child("child")
@@ -105,6 +106,7 @@ def _find_main_root(robot: Robot) -> Link:
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "reject the robot",
     },
+    formats=ANY_FORMAT,
 )
 def no_root(robot: Robot) -> Iterator[Problem]:
     """Every link is the child of a joint, so the robot has no root.
@@ -144,6 +146,7 @@ def _describe_missing_root(cycle: list[Link]) -> str:
         "gz, gazebo-classic, pybullet, pinocchio": "load the robot without those links",
         "mujoco, drake": "reject the file",
     },
+    formats=ANY_FORMAT,
 )
 def detached_cycle(robot: Robot) -> Iterator[Problem]:
     """Joints connect some links in a cycle without a connection to the root.
@@ -217,7 +220,7 @@ def _find_cycle(robot: Robot, link: Link) -> list[Link]:
         return []
     names = list(above)
     circle = names[names.index(name) :]
-    start = min(range(len(circle)), key=lambda i: robot.link[circle[i]].element.start)
+    start = min(range(len(circle)), key=lambda i: robot.link[circle[i]].place.start)
     return [robot.link[n] for n in (*circle[start:], *circle[:start])]
 
 
@@ -240,6 +243,7 @@ def _format_cycle(cycle: list[Link]) -> str:
         "mujoco, pinocchio, drake": "reject the robot",
         "pybullet": "crashes",
     },
+    formats=ANY_FORMAT,
 )
 def multiple_parents(robot: Robot) -> Iterator[Problem]:
     """A link is the child of two joints.

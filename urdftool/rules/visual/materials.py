@@ -61,7 +61,7 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
                 first.element,
                 f"material '{name}' is not defined{times}"
                 + (suggest_name(name, defined) or "; add a <color>"),
-                at=first.element.locate_attribute("name"),
+                at=first.locate_attribute("name"),
                 data={"material": name, "suggestion": find_nearest(name, defined)},
             )
 
@@ -147,7 +147,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 material.element,
                 f"material '{material.name}' is defined twice at the top level "
                 f"(first in line {other.place.line}{_describe_file(other, material)}); remove one",
-                at=material.element.locate_attribute("name"),
+                at=material.locate_attribute("name"),
                 effects=(
                     "urdfdom, gz, gazebo-classic, pinocchio (top level)",
                     "drake",
@@ -171,7 +171,7 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"color of material '{material_.name}' differs from that in line "
                 f"{other.place.line}{_describe_file(other, material_)}; write a unique name",
-                at=material_.element.locate_attribute("name"),
+                at=material_.locate_attribute("name"),
                 severity=WARNING,
                 effects=(f"urdfdom ({case})", "drake", f"pybullet ({case})"),
             )

@@ -117,6 +117,16 @@ def wrong_root() -> tuple[Problem, ...]:
     return ()
 
 
+@rule(ERROR, formats=("sdf", "mjcf"))
+def unreadable_model() -> tuple[Problem, ...]:
+    """An SDF or MJCF file cannot be read as a robot.
+
+    Examples are two links of the same name, a joint without its child, or a model that MuJoCo does
+    not compile. Nothing else in the file is checked.
+    """
+    return ()
+
+
 def describe_root(root: Element) -> str:
     """Describe a root that is not ``<robot>``, and the probable format of the file."""
     belongs = _ROOT_REMEDIES.get(root.tag, 'a robot description starts with <robot name="…">')

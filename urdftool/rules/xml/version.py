@@ -57,7 +57,7 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
     yield Problem(
         robot,
         f"URDF version '{version}' {what}; {remedy}",
-        at=robot.element.locate_attribute("version"),
+        at=robot.locate_attribute("version"),
         data={"uses_newer": uses_newer},
     )
 

@@ -416,7 +416,7 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' has type '{joint.type}'; write {joint.type.lower()}",
-                at=joint.element.locate_attribute("type"),
+                at=joint.locate_attribute("type"),
             )
 
 

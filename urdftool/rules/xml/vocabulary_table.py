@@ -168,8 +168,10 @@ def _is_of_sdf(element: Element) -> bool:
     return element.tag == "specular" and "rgb" not in element.attributes
 
 
-def is_for_another_reader(root: Element) -> bool:
+def is_for_another_reader(root: Element | None) -> bool:
     """Tell whether a robot has elements of Drake or MuJoCo, which other readers ignore."""
+    if root is None:
+        return False
     if "xmlns:drake" in root.attributes or root.find_child("mujoco") is not None:
         return True
     shapes = DIALECTS["geometry"]
@@ -225,8 +227,10 @@ def find_misspelled_attributes(element: Element) -> dict[str, str]:
     return {name: word for name in strange if (word := suggest_word(name, free))}
 
 
-def find_misspelled_children(element: Element) -> dict[str, str]:
-    """Find misspelled tags in an element, with the correct names."""
+def find_misspelled_children(element: Element | None) -> dict[str, str]:
+    """Find misspelled tags in an element of URDF, with the correct names; none without one."""
+    if element is None:
+        return {}
     known = VOCABULARY[element.tag].children
     strange = {child.tag for child in element.children if child.tag not in known}
     strange -= DIALECTS.get(element.tag, frozenset())

@@ -1,0 +1,55 @@
+"""Read a robot from a file of any format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from ..formats.detect import read_other_format
+from ..model.elements import Robot
+from ..model.load import make_robot
+from ..source.description import GltfUp, read_description
+from ..source.document import STDIN, read_file
+from ..source.packages import Packages
+
+
+def load(
+    path: str | Path,
+    *,
+    args: Mapping[str, str] | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    package_paths: Iterable[str | Path] = (),
+    gltf_up: GltfUp = "y",
+) -> Robot:
+    """Read a robot from a file: URDF, xacro, SDF or MJCF, by its root element.
+
+    The robot may be invalid in any way that leaves its XML well-formed; :func:`urdftool.check`
+    reports its defects. SDF and MJCF are stricter: a joint must name links that exist, and MuJoCo
+    must compile the model. ``robot.unread`` lists what the robot does not hold of such a file.
+
+    Args:
+        path: A description, or ``-`` for standard input.
+        args: Values of xacro arguments.
+        packages: Folders of ROS packages by name; others are searched as on the command line.
+        package_paths: Folders that contain ROS packages.
+        gltf_up: Up axis of glTF meshes: ``"y"`` as in their standard, rotated to Z as in RViz;
+            ``"z"`` for files made for readers that keep the axes of the file.
+
+    Raises:
+        SourceError: The file cannot be read, parsed or expanded.
+        ModelError: It is not a robot description.
+        MissingDependency: It is MJCF, and MuJoCo is not installed.
+    """
+    paths = tuple(package_paths)
+    file = read_file(path)
+    finder = Packages(None if file.path == STDIN else file.path, named=packages or {}, paths=paths)
+    robot = read_other_format(file, finder)
+    if robot is None:
+        return make_robot(
+            read_description(
+                path, args, packages=packages, package_paths=paths, file=file, gltf_up=gltf_up
+            )
+        )
+    if robot.source is not None:
+        robot.source.gltf_up = gltf_up
+    return robot
