@@ -1,4 +1,4 @@
-"""The format of a file, by its root element or its first bytes, and reading a file by its format."""
+"""The format of a file, by its root element or first bytes, and reading a file by its format."""
 
 from __future__ import annotations
 
