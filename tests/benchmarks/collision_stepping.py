@@ -78,7 +78,7 @@ print("STEP " + json.dumps([seconds, data.ncon, load]))
 ROBOT = """<robot name="part">
   <link name="part">
     <inertial>
-      <origin xyz="{centre}"/><mass value="1"/>
+      <origin xyz="{center}"/><mass value="1"/>
       <inertia ixx="{xx}" ixy="0" ixz="0" iyy="{yy}" iyz="0" izz="{zz}"/>
     </inertial>
     <visual><geometry><mesh filename="{mesh}"/></geometry></visual>
@@ -93,10 +93,10 @@ def of_one_link(mesh: Path, folder: Path) -> Path:
     stl = folder / "part.stl"
     stl.write_bytes(encode_mesh([make_mesh_piece(surface.vertices, surface.faces)], ".stl"))
     x, y, z = np.ptp(surface.vertices, axis=0) ** 2 / 12
-    centre = " ".join(f"{v:.6g}" for v in surface.vertices.mean(axis=0))
+    center = " ".join(f"{v:.6g}" for v in surface.vertices.mean(axis=0))
     robot = folder / "part.urdf"
     robot.write_text(
-        ROBOT.format(centre=centre, xx=y + z, yy=x + z, zz=x + y, mesh="part.stl"), "utf-8"
+        ROBOT.format(center=center, xx=y + z, yy=x + z, zz=x + y, mesh="part.stl"), "utf-8"
     )
     return robot
 

@@ -38,10 +38,10 @@ def finer(vertices, faces):
     return np.concatenate([vertices, middle]), np.concatenate([np.stack(r, 1) for r in rows])
 
 
-def noisy(kind, size, *, noise=0.0, seed=0, rotation=None, centre=(0, 0, 0)):
+def noisy(kind, size, *, noise=0.0, seed=0, rotation=None, center=(0, 0, 0)):
     """A primitive as a fine mesh whose points are off by some part of its size."""
     rng = np.random.default_rng(seed)
-    piece = make_primitive(kind, size, np.eye(3) if rotation is None else rotation, centre)
+    piece = make_primitive(kind, size, np.eye(3) if rotation is None else rotation, center)
     vertices, faces = piece.vertices, piece.faces
     while len(faces) < 3000:
         vertices, faces = finer(vertices, faces)

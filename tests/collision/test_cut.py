@@ -116,8 +116,8 @@ def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monk
 def slotted():
     """A block of 0.2 × 0.1 × 0.1 with a slot, 0.02 wide and 0.08 deep; and its hull."""
     boxes = [
-        make_primitive("box", size, np.eye(3), centre)
-        for size, centre in (
+        make_primitive("box", size, np.eye(3), center)
+        for size, center in (
             ((0.2, 0.1, 0.02), (0, 0, 0.01)),
             ((0.09, 0.1, 0.08), (-0.055, 0, 0.06)),
             ((0.09, 0.1, 0.08), (0.055, 0, 0.06)),

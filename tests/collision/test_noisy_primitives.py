@@ -33,7 +33,7 @@ def test_a_primitive_comes_back(kind, shape, scale, noise):
     size = np.array(shape) * scale
     rng = np.random.default_rng(17)
     mesh = noisy(
-        kind, tuple(size), noise=noise, rotation=turned(rng), centre=4 * scale * rng.random(3)
+        kind, tuple(size), noise=noise, rotation=turned(rng), center=4 * scale * rng.random(3)
     )
     wanted = np.sort(size) if kind == "box" else size
     assert found_in(*mesh, kind) == pytest.approx(wanted, rel=0.01)

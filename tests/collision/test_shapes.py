@@ -26,7 +26,7 @@ from urdftool.geometry.topology import find_edges
 )
 def test_auto_finds_the_primitive_again(kind, noise):
     rotation = turned(np.random.default_rng(3))
-    mesh = noisy(kind, SIZES[kind], noise=noise, rotation=rotation, centre=(0.1, -0.2, 0.3))
+    mesh = noisy(kind, SIZES[kind], noise=noise, rotation=rotation, center=(0.1, -0.2, 0.3))
     choice = choose(prepare(*mesh), Settings(max_error=0.01))
     (piece,) = choice.pieces
     assert (choice.method, piece.kind) == ("primitive", kind)

@@ -354,9 +354,9 @@ def test_the_whole_at_a_pose(urdftool, write):
     pose = ("--pose", f"j={math.pi / 2}", "--pose", "s=3")
     found = lumps(urdftool, path, *pose)["whole"]["properties"]
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 3]], float)
-    centre = points.mean(axis=0)
-    assert found["com"] == pytest.approx(centre.tolist())
-    d = points - centre
+    center = points.mean(axis=0)
+    assert found["com"] == pytest.approx(center.tolist())
+    d = points - center
     tensor = sum(0.2 * np.eye(3) + 2 * (v @ v * np.eye(3) - np.outer(v, v)) for v in d)
     six = found["inertia"]
     assert six["ixx"] == pytest.approx(tensor[0, 0])

@@ -41,7 +41,7 @@ def estimate(name, **amount):
 
 
 def differences(got, wanted):
-    """Of the mass, the centre of mass by the radius of gyration, and the tensor; relative."""
+    """Of the mass, the center of mass by the radius of gyration, and the tensor; relative."""
     radius = np.sqrt(np.trace(wanted.inertia) / 2 / wanted.mass)
     return np.array(
         [

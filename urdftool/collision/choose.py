@@ -127,9 +127,9 @@ def _compute_expense(choice: Choice, wanted: float) -> float:
 
 def _is_flat(surface: Prepared) -> bool:
     """Tell whether all points are coplanar to within rounding."""
-    centred = surface.vertices - surface.vertices.mean(axis=0)
-    _, axes = np.linalg.eigh(centred.T @ centred)
-    return float(np.ptp(centred @ axes[:, 0])) <= 1e-6 * surface.size
+    centered = surface.vertices - surface.vertices.mean(axis=0)
+    _, axes = np.linalg.eigh(centered.T @ centered)
+    return float(np.ptp(centered @ axes[:, 0])) <= 1e-6 * surface.size
 
 
 def _make_plate(surface: Prepared, target: ReferenceSurface) -> Choice:

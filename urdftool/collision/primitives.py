@@ -88,10 +88,10 @@ def fit_primitives(points: Points, kinds: tuple[str, ...] = tuple(DISTANCES)) ->
     frames = list(_list_frames(unit))
     found = []
     for kind in kinds:
-        for rotation, centre, size in _list_fits(kind, unit, frames):
+        for rotation, center, size in _list_fits(kind, unit, frames):
             if min(size) > 1e-6:
                 found.append(
-                    _canonicalize(kind, rotation, centre * scale + middle, size * scale, scale)
+                    _canonicalize(kind, rotation, center * scale + middle, size * scale, scale)
                 )
     return found
 
@@ -105,13 +105,13 @@ def _list_fits(
         local = points @ frame
         low, high = local.min(axis=0), local.max(axis=0)
         size = _estimate_size(kind, high - low)
-        centre = frame @ ((low + high) / 2)
-        score = float(np.mean(distance((points - centre) @ frame, size) ** 2))
-        starts.append((score, len(starts), frame, centre, size))
+        center = frame @ ((low + high) / 2)
+        score = float(np.mean(distance((points - center) @ frame, size) ** 2))
+        starts.append((score, len(starts), frame, center, size))
     starts.sort(key=lambda start: start[:2])
     plain = [
-        _refine(distance, points, frame, centre, size, kind == "sphere")
-        for _, _, frame, centre, size in starts[: _STARTS if kind != "sphere" else 1]
+        _refine(distance, points, frame, center, size, kind == "sphere")
+        for _, _, frame, center, size in starts[: _STARTS if kind != "sphere" else 1]
     ]
     best = min(plain, key=lambda fit: fit[0])
     yield best[1:]
@@ -122,7 +122,7 @@ def _refine(
     distance: Callable[[Points, Points], Points],
     points: Points,
     frame: Points,
-    centre: Points,
+    center: Points,
     size: Points,
     round_: bool,
     power: float = 2.0,
@@ -142,7 +142,7 @@ def _refine(
         off = distance((points - middle) @ turned, lengths)
         return off if power == 2.0 else np.abs(off) ** (power / 2) * 10
 
-    start = np.concatenate([np.zeros(turns), centre, size])
+    start = np.concatenate([np.zeros(turns), center, size])
     found = least_squares(residuals, start, method="trf", x_scale=0.1, max_nfev=40)
     turned, middle, lengths = parts(found.x)
     return float(found.cost), turned, middle, lengths
@@ -161,8 +161,8 @@ def _estimate_size(kind: str, extent: Points) -> Points:
 def _list_frames(points: Points) -> Iterator[Points]:
     """Yield candidate axes: the mesh's, its principal axes, and those of its tightest box."""
     yield np.eye(3)
-    centred = points - points.mean(axis=0)
-    _, axes = np.linalg.eigh(centred.T @ centred)
+    centered = points - points.mean(axis=0)
+    _, axes = np.linalg.eigh(centered.T @ centered)
     yield _make_right_handed(axes)
     try:
         yield _compute_tight_frame(points)
@@ -216,7 +216,7 @@ def _make_right_handed(axes: Points) -> Points:
     return np.asarray(turned)
 
 
-def _canonicalize(kind: str, rotation: Points, centre: Points, size: Points, scale: float) -> Piece:
+def _canonicalize(kind: str, rotation: Points, center: Points, size: Points, scale: float) -> Piece:
     """Create the equivalent shape with the smallest rotation and rounded numbers."""
     if kind == "sphere":
         rotation = np.eye(3)
@@ -226,7 +226,7 @@ def _canonicalize(kind: str, rotation: Points, centre: Points, size: Points, sca
         rotation = _compute_minimal_rotation(rotation[:, 2])
     digits = max(0, _DIGITS - int(np.ceil(np.log10(scale)))) - 1
     lengths = tuple(float(np.round(length, digits)) for length in size)
-    return make_primitive(kind, lengths, rotation, np.round(centre, digits))
+    return make_primitive(kind, lengths, rotation, np.round(center, digits))
 
 
 def _find_canonical_box_axes(rotation: Points, size: Points) -> tuple[Points, Points]:

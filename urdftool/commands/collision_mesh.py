@@ -124,7 +124,7 @@ def _format_primitive(piece: Any) -> str:
     from ..collision.rewrite import format_geometry_tag
     from ..model.pose import rpy_from_rotation
 
-    xyz = " ".join(f"{value:.6g}" for value in piece.centre)
+    xyz = " ".join(f"{value:.6g}" for value in piece.center)
     x, y, z = piece.rotation.tolist()
     rpy = " ".join(f"{value + 0.0:.6g}" for value in rpy_from_rotation((x, y, z)))
     return f'<origin xyz="{xyz}" rpy="{rpy}"/> <geometry>{format_geometry_tag(piece)}</geometry>'

@@ -230,5 +230,5 @@ def _transform_to_link(
     if not (_MIN < size < _MAX and _MIN < unit.mass < _MAX and place < _FAR):
         raise ArithmeticError
     middle, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
-    centre, reach = rotation @ middle + xyz, np.abs(rotation) @ half
-    return unit.transform(pose), centre - reach, centre + reach
+    center, reach = rotation @ middle + xyz, np.abs(rotation) @ half
+    return unit.transform(pose), center - reach, center + reach

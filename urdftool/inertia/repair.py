@@ -98,7 +98,7 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
     ends = np.where(surplus[rim, None] > 0, edges.pairs[rim][:, ::-1], edges.pairs[rim])
     loops = _split_loops(np.repeat(ends, repeat, axis=0))
     caps: list[Faces] = []
-    centres: list[Points] = []
+    centers: list[Points] = []
     area = error = 0.0
     for loop in loops:
         ring = vertices[loop]
@@ -114,10 +114,10 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
         if len(loop) == 3:
             caps.append(loop[None, :])
             continue
-        centre = np.full(len(loop), len(vertices) + len(centres))
-        centres.append(middle)
-        caps.append(np.stack([loop, np.roll(loop, -1), centre], axis=1))
-    points = np.concatenate([vertices, np.array(centres).reshape(-1, 3)])
+        center = np.full(len(loop), len(vertices) + len(centers))
+        centers.append(middle)
+        caps.append(np.stack([loop, np.roll(loop, -1), center], axis=1))
+    points = np.concatenate([vertices, np.array(centers).reshape(-1, 3)])
     return Filling(points, np.concatenate([faces, *caps]), len(caps), area, error)
 
 

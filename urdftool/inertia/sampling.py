@@ -55,8 +55,8 @@ def compute_sampled_moments(
             return None
         volume = float(np.prod(high - low)) * len(inside) / half
         centroid = inside.mean(axis=0)
-        centred = inside - centroid
-        results.append(Moments(volume, centroid, volume / len(inside) * centred.T @ centred))
+        centered = inside - centroid
+        results.append(Moments(volume, centroid, volume / len(inside) * centered.T @ centered))
     return results[0], results[1]
 
 

@@ -47,12 +47,12 @@ class Boxes:
 
 def sort_into_boxes(corners: Array) -> Boxes:
     """Sort triangles [m], shape (m, 3, 3), into boxes of a grid, about a dozen in each."""
-    centres = corners.mean(axis=1)
+    centers = corners.mean(axis=1)
     low = corners.reshape(-1, 3).min(axis=0)
     extent = np.ptp(corners.reshape(-1, 3), axis=0)
     # a surface intersects about 3 n² of the n³ cells of a cube's grid
     side = max(float(extent.max()), 1e-300) / max(1.0, (16 * len(corners) ** 0.5 / 3) ** 0.5)
-    cells = np.floor((centres - low) / side).astype(np.int64)
+    cells = np.floor((centers - low) / side).astype(np.int64)
     shape = cells.max(axis=0) + 1
     key = (cells[:, 0] * shape[1] + cells[:, 1]) * shape[2] + cells[:, 2]
     order = np.argsort(key, kind="stable")
@@ -61,7 +61,7 @@ def sort_into_boxes(corners: Array) -> Boxes:
     vectors = np.cross(ordered[:, 1] - ordered[:, 0], ordered[:, 2] - ordered[:, 0]) / 2
     weights = np.linalg.norm(vectors, axis=1) + 1e-300
     total = np.add.reduceat(weights, starts)
-    middle = np.add.reduceat(weights[:, None] * centres[order], starts) / total[:, None]
+    middle = np.add.reduceat(weights[:, None] * centers[order], starts) / total[:, None]
     count = np.diff(np.r_[starts, len(corners)])
     reach = np.linalg.norm(ordered - np.repeat(middle, count, axis=0)[:, None], axis=2).max(axis=1)
     return Boxes(

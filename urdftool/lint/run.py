@@ -100,7 +100,7 @@ def find_cached_report(path: str | Path, options: Options) -> Report | None:
 
 
 _URDF_ENDINGS = (".urdf", ".xacro")
-"""Endings of files that readers of URDF open, whatever their content."""
+"""Endings of files that are read as URDF regardless of their content."""
 
 _Question = tuple[str | Path, Options, Configuration, Settings]
 

@@ -231,10 +231,10 @@ def _compute_largest_moments(mass: float, com: Vector, box: Bounds) -> Vector:
     """
     margin = BOX_MARGIN * math.dist(box.low, box.high)
     x, y, z = (
-        SPREAD * mass * (high + margin - centre) * (centre - low + margin)
-        if low - margin < centre < high + margin
+        SPREAD * mass * (high + margin - center) * (center - low + margin)
+        if low - margin < center < high + margin
         else -math.inf
-        for low, high, centre in zip(box.low, box.high, com, strict=True)
+        for low, high, center in zip(box.low, box.high, com, strict=True)
     )
     return x, y, z
 

@@ -34,7 +34,7 @@ class Bounds(NamedTuple):
         return d - a, e - b, f - c
 
     @property
-    def centre(self) -> Vector:
+    def center(self) -> Vector:
         """Return the center [m]."""
         (a, b, c), (d, e, f) = self
         return (a + d) / 2, (b + e) / 2, (c + f) / 2
@@ -47,7 +47,7 @@ class Bounds(NamedTuple):
 
     def rotate(self, rotation: Rotation) -> Bounds:
         """Return the bounding box of this box after a rotation about the origin."""
-        x, y, z = rotate(rotation, self.centre)
+        x, y, z = rotate(rotation, self.center)
         a, b, c = (
             sum(abs(part) * length for part, length in zip(row, self.size, strict=True)) / 2
             for row in rotation

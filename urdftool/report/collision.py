@@ -253,7 +253,8 @@ def _build_piece(result: Result, index: int, file: str) -> dict[str, Any]:
     return {
         "kind": piece.kind,
         "size": list(piece.size),
-        "centre": piece.center.tolist(),
+        "center": piece.center.tolist(),
+        "centre": piece.center.tolist(),  # the old name
         "rotation": piece.rotation.tolist(),
         "urdf": format_geometry_tag(piece),
     }

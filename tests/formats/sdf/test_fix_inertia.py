@@ -15,7 +15,7 @@ BAD = inertial(2.0, MOMENTS, xyz="1 2 3", rpy=TURN)
 
 
 def written(*inside, **choices):
-    """Mass, centre and tensor of the one link of an export, and what was said."""
+    """Mass, center and tensor of the one link of an export, and what was said."""
     made = export(link("a", "".join(inside)), **choices)
     node = tree(made).find("link/inertial")
     assert [float(n) for n in node.findtext("pose").split()][3:] == [0, 0, 0]
@@ -29,9 +29,9 @@ def written(*inside, **choices):
             [i["ixz"], i["iyz"], i["izz"]],
         ]
     )
-    centre = [float(n) for n in node.findtext("pose").split()][:3]
+    center = [float(n) for n in node.findtext("pose").split()][:3]
     said = [loss.message for loss in made.losses if loss.code == "lossy-inertia"]
-    return float(node.findtext("mass")), centre, tensor, said
+    return float(node.findtext("mass")), center, tensor, said
 
 
 def test_it_is_refused_and_the_option_named():
@@ -43,11 +43,11 @@ def test_it_is_refused_and_the_option_named():
 
 
 def test_lifted_it_is_the_nearest_that_a_body_has():
-    mass, centre, tensor, (said,) = written(BAD, fix_inertia="lift")
+    mass, center, tensor, (said,) = written(BAD, fix_inertia="lift")
     c, s = np.cos(0.4), np.sin(0.4)
     turn = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
     expected = turn @ np.diag([0.15, 0.25, 0.4]) @ turn.T
-    assert (mass, centre) == (2.0, [1.0, 2.0, 3.0])
+    assert (mass, center) == (2.0, [1.0, 2.0, 3.0])
     np.testing.assert_allclose(tensor, expected, atol=1e-6)
     assert "0.1, 0.2, 0.4 kg·m²): lifted to 0.15" in said
     low, middle, high = np.linalg.eigvalsh(tensor)

@@ -30,7 +30,7 @@ def model_of(name, **choices):
 
 
 def mass_of(model, name):
-    """Mass, centre and tensor along the axes of the link."""
+    """Mass, center and tensor along the axes of the link."""
     inertial = named(model, "link", name).find("inertial")
     pose = [float(w) for w in (inertial.findtext("pose") or "0 0 0 0 0 0").split()]
     i = {e.tag: float(e.text) for e in inertial.find("inertia")}

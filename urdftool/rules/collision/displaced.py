@@ -83,7 +83,7 @@ def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Prop
     boxes = [get_extents(robot).get_shape_box(shape) for shape in (found.visual, found.collision)]
     if boxes[0] is None or boxes[1] is None:
         return None
-    visual, collision = (math.dist(com, box.centre) for box in boxes if box is not None)
+    visual, collision = (math.dist(com, box.center) for box in boxes if box is not None)
     if 2 * visual < collision:
         change = copy_origin(found.collision, found.visual)
         return unsafe("copy the <origin> of the visual", change)

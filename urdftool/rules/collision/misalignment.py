@@ -113,7 +113,7 @@ def compare_places(robot: Robot, link: Link, part: float) -> Misalignment | None
     if visual_box is None or collision_box is None:
         return None
     distance, diagonal = (
-        math.dist(visual_box.centre, collision_box.centre),
+        math.dist(visual_box.center, collision_box.center),
         compute_norm(visual_box.size),
     )
     larger = all(a > 2 * b for a, b in zip(collision_box.size, visual_box.size, strict=True))
@@ -132,10 +132,10 @@ def compare_places(robot: Robot, link: Link, part: float) -> Misalignment | None
         _covers(box, collision_box) for box in _get_visuals_around(robot, reach, link)
     ):
         return None
-    odd, why = _find_misplaced(robot, link, visual_box.centre, collision_box.centre)
+    odd, why = _find_misplaced(robot, link, visual_box.center, collision_box.center)
     xyz = None
     if alike and odd and len(link.visuals) == len(link.collisions) == 1:
-        step = [b - a for a, b in zip(visual_box.centre, collision_box.centre, strict=True)]
+        step = [b - a for a, b in zip(visual_box.center, collision_box.center, strict=True)]
         right, wrong = make_pose(link.visuals[0].origin), make_pose(link.collisions[0].origin)
         if odd == "visual":
             right, wrong = wrong, right
@@ -206,7 +206,7 @@ def _covers(box: Bounds | None, other: Bounds) -> bool:
     slack = 0.1 * compute_norm(box.size)
     return all(
         low - slack <= middle <= high + slack
-        for low, middle, high in zip(box.low, other.centre, box.high, strict=True)
+        for low, middle, high in zip(box.low, other.center, box.high, strict=True)
     )
 
 

@@ -143,7 +143,7 @@ def inertial_not_at_com_suspect(
             continue
         noise = 1e-3 * math.dist(*box)
         digits = 1 - math.floor(math.log10(noise))
-        center = [0.0 if abs(value) < noise else round(value, digits) for value in box.centre]
+        center = [0.0 if abs(value) < noise else round(value, digits) for value in box.center]
         shown = " ".join(f"{value:g}" for value in center)
         remedy, of_inertia = _describe_remedy(link, inertial, box)
         yield Problem(
@@ -165,7 +165,7 @@ def _describe_remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, 
     remedy = "write its center of mass as the <origin> of its <inertial>"
     if inertial.inertia is None or is_zero(inertial.inertia.six, link.mass):
         return remedy, ""
-    right = compute_tensor_about_center(link, inertial, box.centre, box)
+    right = compute_tensor_about_center(link, inertial, box.center, box)
     if right is None:
         return f"{remedy}, and the inertia about that point", "unknown"
     if right == inertial.inertia.six:
@@ -186,12 +186,12 @@ def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | No
         return None
     if depends_on_arguments(link.element):
         return None
-    right = compute_tensor_about_center(link, inertial, box.centre, box)
+    right = compute_tensor_about_center(link, inertial, box.center, box)
     if right is None:
         return None
     if right != inertial.inertia.six:
-        return write_tensor(link, right, center=box.centre)
-    center = format_numbers(box.centre, 6)
+        return write_tensor(link, right, center=box.center)
+    center = format_numbers(box.center, 6)
     if inertial.origin is None:
         change = prepend_child(inertial.element, f'<origin xyz="{center}"/>')
     else:
@@ -213,4 +213,4 @@ def _is_off_center(link: Link, box: Bounds, far: float) -> bool:
     solid = compute_solid_center(link)
     if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
         return False  # the part to one side is thin
-    return math.hypot(*box.centre) > far * math.dist(lower, upper)
+    return math.hypot(*box.center) > far * math.dist(lower, upper)

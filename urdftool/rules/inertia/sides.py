@@ -285,7 +285,7 @@ def _find_side_by_shapes(
         box = get_extents(robot).get_link_box(link)
         if box is None:
             return None
-        side = rotate(found.poses[link.name].rotation, box.centre)[axis]
+        side = rotate(found.poses[link.name].rotation, box.center)[axis]
         if abs(side) < clear * max(box.size):
             return None
         sides_of.append(side)

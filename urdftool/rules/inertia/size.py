@@ -183,7 +183,7 @@ def inertia_exceeds_geometry(
         shapes = name_shapes(attached)
         found = judge(box, com=pose.translation, shapes=shapes)
         if found is not None:
-            fits = judge(box, com=box.centre) is None
+            fits = judge(box, com=box.center) is None
             is_own = _has_own_size(robot, link, found.certain)
             remedy = describe_remedy(link, inertial, six) if is_own else ""
             kind = get_remedy_kind(link, inertial, six) if is_own else ""

@@ -179,7 +179,7 @@ def _measure_distance(place: Vector, way: Vector, box: Bounds, enough: float) ->
 
     The distance is a convex function along the line, so a golden-section search finds the minimum.
     """
-    middle = box.centre
+    middle = box.center
     at = sum((m - p) * w for m, p, w in zip(middle, place, way, strict=True))
     radius = math.dist(box.low, box.high) / 2
     nearest = math.dist(middle, tuple(p + at * w for p, w in zip(place, way, strict=True)))
