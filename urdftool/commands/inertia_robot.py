@@ -240,8 +240,8 @@ def _lump(
     lumped = lump(model, found, pose)
     text = report.as_json(lumped, model) if style == "json" else report.format_table(lumped)
     write_result(text, output, inputs=[file.path for file in model.source.files])
-    for line in lumped.notes:
-        console.print_note(line)
+    for note in lumped.notes:
+        console.print_note(note.message)
     return int(any(item.status == "wrong" for item in found))
 
 

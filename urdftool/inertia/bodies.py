@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..diagnostic import Diagnostic
+from ..diagnostic import Diagnostic, make_remark
 from ..errors import MeshError
 from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
@@ -23,7 +23,7 @@ from ..source.description import GltfUp
 from ..storage import DiskCache, cache_key
 from .inertia_error import InertiaError
 
-_REVISION = 1  # of the mass properties of the same mesh
+_REVISION = 2  # of the mass properties of the same mesh
 _PLAIN = ("method", "reliable", "error", "hull_measure", "bodies", "triangles", "surface")
 
 
@@ -47,7 +47,7 @@ class MeshBody:
     """Volume [m³] of the convex hull; None if the result is exact."""
     bodies: int
     triangles: int
-    notes: tuple[str, ...]
+    notes: tuple[Diagnostic, ...]
     surface: bool = False
     suspicion: Diagnostic | None = None
     """Why the size suggests a wrong unit; None if it does not."""
@@ -55,7 +55,8 @@ class MeshBody:
     @property
     def note_texts(self) -> tuple[str, ...]:
         """Return the notes and the message of the suspicion."""
-        return self.notes if self.suspicion is None else (*self.notes, self.suspicion.message)
+        found = self.notes if self.suspicion is None else (*self.notes, self.suspicion)
+        return tuple(note.message for note in found)
 
     @property
     def measure(self) -> float:
@@ -150,7 +151,7 @@ def _pack(body: MeshBody) -> bytes:
         "unit": [body.unit.mass, list(body.unit.com), list(body.unit.tensor)],
         "box": [body.lower.tolist(), body.upper.tolist()],
         **{name: getattr(body, name) for name in _PLAIN},
-        "notes": list(body.notes),
+        "notes": [[note.code, note.message, dict(note.data)] for note in body.notes],
     }
     return json.dumps(table).encode()
 
@@ -161,9 +162,8 @@ def _unpack(data: bytes, path: Path) -> MeshBody:
     lower, upper = (np.array(corner) for corner in table["box"])
     plain = {name: table[name] for name in _PLAIN}
     unit = SpatialInertia(mass, tuple(com), tuple(tensor))
-    return MeshBody(
-        path=path, unit=unit, lower=lower, upper=upper, notes=tuple(table["notes"]), **plain
-    )
+    notes = tuple(make_remark(code, message, **more) for code, message, more in table["notes"])
+    return MeshBody(path=path, unit=unit, lower=lower, upper=upper, notes=notes, **plain)
 
 
 def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:
@@ -184,12 +184,13 @@ def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = 
     used = mesh.vertices[find_used_vertices(mesh.faces, len(mesh.vertices))]
     box = used.min(axis=0), used.max(axis=0)
     count = len(mesh.faces)
+    remarks = tuple(make_remark(note.code, note.message) for note in mesh.notes)
     if surface:
         from .polyhedron import compute_shell_moments
 
         shell = compute_shell_moments(mesh.vertices, mesh.faces).with_density(1.0)
         return MeshBody(
-            path, shell, *box, "surface", True, 0.0, None, 1, count, mesh.note_texts, surface=True
+            path, shell, *box, "surface", True, 0.0, None, 1, count, remarks, surface=True
         )
     from .estimate import estimate_mass_properties
 
@@ -209,7 +210,7 @@ def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = 
         found.hull_volume,
         found.bodies,
         count,
-        (*mesh.note_texts, *found.notes),
+        (*remarks, *found.notes),
     )
 
 

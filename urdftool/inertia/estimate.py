@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from ..diagnostic import Diagnostic, make_remark
 from ..errors import MeshError
 from ..geometry.mesh import Array, Faces, Points
 from ..geometry.topology import Edges, find_collapsed, find_edges, label_bodies, weld
@@ -68,8 +69,8 @@ class Estimate:
     """Volume [m³] of the convex hull, for comparison; None for an exact result."""
     bodies: int
     """Number of separate surfaces of the mesh."""
-    notes: tuple[str, ...]
-    """Complete sentences on defects and repairs."""
+    notes: tuple[Diagnostic, ...]
+    """Remarks on defects and repairs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +81,7 @@ class _Solid:
     method: str
     error: float
     reliable: bool
-    notes: tuple[str, ...]
+    notes: tuple[Diagnostic, ...]
 
 
 def estimate_mass_properties(
@@ -171,12 +172,15 @@ def _integrate_exact(
         return None
     notes = []
     if sheets.any():
-        notes.append(f"Sheets without volume, ignored: {np.count_nonzero(sheets)}.")
+        count = int(np.count_nonzero(sheets))
+        message = f"Sheets without volume, ignored: {count}."
+        notes.append(make_remark("sheets-ignored", message, count=count))
     solid = np.flatnonzero(~sheets)
     if len(solid) == 1:
         moments = compute_solid_moments(points, faces[labels == solid[0]])
         if moments.measure < 0:
-            notes.append("The mesh is inside out; its faces were reversed.")
+            message = "The mesh is inside out; its faces were reversed."
+            notes.append(make_remark("inside-out", message))
             moments = replace(moments, measure=-moments.measure, second=-moments.second)
         return _Solid(moments, "exact", 0.0, True, tuple(notes))
     order = np.argsort(labels, kind="stable")
@@ -210,33 +214,39 @@ def _compute_measures(
     return volume, area
 
 
-def _collect_nesting_notes(nesting: Nesting) -> list[str]:
+def _collect_nesting_notes(nesting: Nesting) -> list[Diagnostic]:
     notes = []
     if nesting.turned:
-        notes.append(f"Bodies that are inside out, reversed: {nesting.turned}.")
+        message = f"Bodies that are inside out, reversed: {nesting.turned}."
+        notes.append(make_remark("bodies-inside-out", message, count=nesting.turned))
     if nesting.cavities:
-        notes.append(f"Bodies that are cavities, subtracted: {nesting.cavities}.")
+        message = f"Bodies that are cavities, subtracted: {nesting.cavities}."
+        notes.append(make_remark("cavities", message, count=nesting.cavities))
     if nesting.swallowed:
-        notes.append(f"Bodies inside another solid, ignored: {nesting.swallowed}.")
+        message = f"Bodies inside another solid, ignored: {nesting.swallowed}."
+        notes.append(make_remark("nested-bodies", message, count=nesting.swallowed))
     return notes
 
 
-def _remove_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
+def _remove_overlap(corners: Array, summed: Moments, notes: list[Diagnostic]) -> _Solid:
     """Sample the union of overlapping bodies, or return their sum if it hardly differs."""
     halves = compute_sampled_moments(corners)
     if halves is None:
-        return _Solid(summed, "exact", 1.0, False, (*notes, "Bodies overlap by an unknown amount."))
+        remark = make_remark("bodies-overlap", "Bodies overlap by an unknown amount.")
+        return _Solid(summed, "exact", 1.0, False, (*notes, remark))
     union, noise = _average(*halves)
     share = summed.measure / union.measure - 1
     if abs(share) <= ACCEPTED_OVERLAP:
-        notes.append(
+        message = (
             f"Bodies overlap; the {abs(share):.1%} of the volume that they share is counted twice."
         )
+        notes.append(make_remark("bodies-overlap", message, share=share, counted=2))
         return _Solid(summed, "exact", max(abs(share), noise), True, tuple(notes))
-    notes.append(
+    message = (
         f"Bodies overlap; shared volume is counted once, which subtracts {share:.1%} "
         "off the sum of their volumes."
     )
+    notes.append(make_remark("bodies-overlap", message, share=share, counted=1))
     return _Solid(union, "winding-number", noise, noise <= ACCEPTED_ERROR, tuple(notes))
 
 
@@ -260,20 +270,25 @@ def _average(first: Moments, second: Moments) -> tuple[Moments, float]:
 
 def _estimate_open(points: Points, faces: Faces) -> _Solid:
     """Estimate a mesh that is not closed: by repair, samples or its convex hull."""
-    notes: list[str] = []
+    notes: list[Diagnostic] = []
     unique = drop_duplicates(faces)
     if len(unique) < len(faces):
-        notes.append(f"Duplicate faces, ignored: {len(faces) - len(unique)}.")
+        count = len(faces) - len(unique)
+        message = f"Duplicate faces, ignored: {count}."
+        notes.append(make_remark("duplicate-faces", message, count=count))
     wound, turned = orient(points, unique)
     if turned:
-        notes.append(f"Faces reversed to agree with their neighbors: {turned}.")
+        message = f"Faces reversed to agree with their neighbors: {turned}."
+        notes.append(make_remark("faces-reversed", message, count=int(turned)))
     filling = fill_holes(points, wound)
     filled = _integrate_exact(filling.vertices, filling.faces, find_edges(filling.faces))
     opening = (
         filling.area / _compute_measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
     )
     if filling.holes:
-        notes.append(f"Holes closed: {filling.holes}, {opening:.1%} of the surface.")
+        message = f"Holes closed: {filling.holes}, {opening:.1%} of the surface."
+        data = {"count": filling.holes, "share": float(opening)}
+        notes.append(make_remark("holes-closed", message, **data))
     if filled is not None:
         error = max(filled.error, filling.volume_error / filled.moments.measure)
         if error <= ACCEPTED_ERROR:
@@ -290,7 +305,7 @@ def _sample_solid(
     filled: _Solid | None,
     filling: Filling,
     opening: float,
-    notes: list[str],
+    notes: list[Diagnostic],
 ) -> _Solid | None:
     halves = compute_sampled_moments(corners, caps=caps)
     if halves is None:
@@ -299,7 +314,8 @@ def _sample_solid(
     error = noise
     if filled is not None:
         difference = _average(filled.moments, moments)[1]
-        notes.append(f"Flat caps and winding numbers differ by {difference:.1%}.")
+        message = f"Flat caps and winding numbers differ by {difference:.1%}."
+        notes.append(make_remark("methods-differ", message, difference=difference))
         missed = filling.volume_error / filled.moments.measure
         if max(difference, missed) <= AGREEMENT and opening <= LARGE_OPENING:
             # caps have no sampling noise, and sampling does not depend on caps
@@ -308,11 +324,13 @@ def _sample_solid(
     else:
         error = max(noise, filling.volume_error / moments.measure)
     if opening > LARGE_OPENING:
-        notes.append("Much of the surface is missing; the closed mesh is a rough estimate.")
+        message = "Much of the surface is missing; the closed mesh is a rough estimate."
+        notes.append(make_remark("large-opening", message, share=float(opening)))
     reliable = error <= ACCEPTED_ERROR and opening <= LARGE_OPENING
     return _Solid(moments, "winding-number", error, reliable, tuple(notes))
 
 
-def _estimate_by_hull(points: Points, notes: list[str]) -> _Solid:
-    notes.append("The surface encloses no volume; its convex hull is used.")
+def _estimate_by_hull(points: Points, notes: list[Diagnostic]) -> _Solid:
+    message = "The surface encloses no volume; its convex hull is used."
+    notes.append(make_remark("no-volume", message))
     return _Solid(compute_hull_moments(points), "convex-hull", 1.0, False, tuple(notes))

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
-from ..diagnostic import Severity
+from ..diagnostic import Diagnostic, Severity
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..geometry.convex_points import read_convex_points
@@ -138,7 +138,7 @@ def _add_finding(item: LinkReview, finding: Finding) -> None:
     kind = FAULTS.get(finding.code)
     harmless = finding.data.get("is_harmless", False) or not finding.data.get("is_large", True)
     if kind is None or harmless:
-        item.notes.append(finding.message)
+        item.notes.append(finding)
         return
     if kind == "triangle" and item.written is not None and not is_positive(item.written.tensor):
         kind = "positivity"
@@ -179,12 +179,14 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     whole = boxes[0]
     for box in boxes:
         if box is None or whole is None:
-            item.notes.append("not compared with its geometry: one of its shapes cannot be read")
+            message = "not compared with its geometry: one of its shapes cannot be read"
+            item.notes.append(Diagnostic("not-compared", Severity.INFO, message, link.place))
             return
         if not whole.meets(box):
-            item.notes.append(
+            message = (
                 "not compared with its geometry: its visual and collision geometry do not overlap"
             )
+            item.notes.append(Diagnostic("not-compared", Severity.INFO, message, link.place))
             return
         whole = whole.join(box)
     if whole is None or not any(whole.size):
@@ -205,7 +207,10 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     for subject, misfit in find_misfits(whole, has_mesh, attached):
         message = f"the {subject} {misfit.sentence}"
         if not misfit.certain:
-            item.notes.append(f"{message}; the mesh may not contain the heavy parts")
+            message += "; the mesh may not contain the heavy parts"
+            item.notes.append(
+                Diagnostic("box", Severity.INFO, message, inertial.place, data={"subject": subject})
+            )
         else:
             item.faults.append(Fault("box", Severity.ERROR, message, inertial.place))
 

@@ -55,7 +55,7 @@ class LinkReview:
     comparison: Comparison | None = None
     faults: list[Fault] = field(default_factory=list)
     proposal: Proposal | None = None
-    notes: list[str] = field(default_factory=list)
+    notes: list[Diagnostic] = field(default_factory=list)
 
     @property
     def volume(self) -> float | None:

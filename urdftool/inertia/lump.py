@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ..diagnostic import Diagnostic, Severity
 from ..lint.validate import validate
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..model.elements import Robot
+from ..model.elements import Link, Robot
 from ..model.kinematics import add_mimic_positions, check_positions, get_limits, link_poses
 from .inertia_error import InertiaError
 from .link_review import LinkReview
@@ -49,7 +50,7 @@ class Lumped:
     root: str
     whole: SpatialInertia | None
     positions: dict[str, float]
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[Diagnostic, ...] = field(default=())
 
 
 def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -> Lumped:
@@ -76,14 +77,15 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
             weights.setdefault(item.link.name, item.written)
         elif item.implied is not None:
             weights.setdefault(item.link.name, item.implied)
-            notes.append(f"link '{item.link.name}' counts with the mass properties of its geometry")
+            message = f"link '{item.link.name}' counts with the mass properties of its geometry"
+            notes.append(_make_note("implied-inertia", message, item.link))
         elif item.body is not None or item.link.inertial is not None:
             if item.written is None or item.written.mass < 0:
-                notes.append(f"link '{item.link.name}' is left out: its mass is unknown")
+                message = f"link '{item.link.name}' is left out: its mass is unknown"
+                notes.append(_make_note("unknown-mass", message, item.link))
         if item.status == "wrong" and item.written is not None:
-            notes.append(
-                f"link '{item.link.name}' counts as written, which is physically inconsistent"
-            )
+            message = f"link '{item.link.name}' counts as written, which is physically inconsistent"
+            notes.append(_make_note("inconsistent-inertia", message, item.link))
     poses = link_poses(robot, positions)
     lumps = []
     for top, members in robot.tree.body_links.items():
@@ -98,14 +100,22 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
     all_bodies = [body.transform(poses[name]) for name, body in weights.items() if name in poses]
     whole = combine(all_bodies) if all_bodies else None
     for link in robot.tree.detached:
-        notes.append(f"link '{link.name}' is not connected to the root and is left out")
+        message = f"link '{link.name}' is not connected to the root and is left out"
+        notes.append(_make_note("detached-link", message, link))
     return Lumped(tuple(lumps), root, whole, positions, tuple(notes))
 
 
-def _list_beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[str]:
+def _make_note(code: str, message: str, link: Link) -> Diagnostic:
+    return Diagnostic(code, Severity.INFO, message, link.place, data={"link": link.name})
+
+
+def _list_beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[Diagnostic]:
     notes = []
     for name, value in positions.items():
         low, high = get_limits(robot.joint[name])
         if low < high and not low <= value <= high:
-            notes.append(f"joint '{name}' at {value:g} is beyond its limits, {low:g} to {high:g}")
+            message = f"joint '{name}' at {value:g} is beyond its limits, {low:g} to {high:g}"
+            data = {"joint": name, "position": value, "lower": low, "upper": high}
+            place = robot.joint[name].place
+            notes.append(Diagnostic("beyond-limits", Severity.INFO, message, place, data=data))
     return notes

@@ -55,13 +55,14 @@ class Piece:
     method: str = "exact"
     reliable: bool = True
     error: float = 0.0
-    notes: tuple[str, ...] = ()
+    notes: tuple[Diagnostic, ...] = ()
     suspicion: Diagnostic | None = None
 
     @property
     def note_texts(self) -> tuple[str, ...]:
         """Return the notes and the message of the suspicion."""
-        return self.notes if self.suspicion is None else (*self.notes, self.suspicion.message)
+        found = self.notes if self.suspicion is None else (*self.notes, self.suspicion)
+        return tuple(note.message for note in found)
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ def as_json(lumped: Lumped, robot: Robot) -> str:
             for body in lumped.lumps
         ],
         "whole": {"frame": lumped.root, "properties": _build_dict(lumped.whole)},
-        "notes": list(lumped.notes),
+        "notes": [note.message for note in lumped.notes],
     }
     return format_json(found, 1) + "\n"
 

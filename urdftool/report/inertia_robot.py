@@ -121,7 +121,7 @@ def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> It
                 f"{_format_short(item.implied)}"
             )
         for note in item.notes:
-            yield f"{item.link.place}: link '{name}': {note}"
+            yield f"{item.link.place}: link '{name}': {note.message}"
         if item.body is not None:
             kind = item.body.source
             for lack in item.body.lacks:
@@ -258,5 +258,5 @@ def _link(item: LinkReview) -> dict[str, Any]:
             {"reason": lack.reason, **place_dict(lack.shape.place)}
             for lack in (body.lacks if body is not None else ())
         ],
-        "notes": list(item.notes),
+        "notes": [note.message for note in item.notes],
     }
