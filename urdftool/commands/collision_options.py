@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from .cache_options import CACHE_OPTIONS, choose_cache_folder
+from .options import make_format_option
 
 if TYPE_CHECKING:
     from ..collision.settings import Settings
@@ -115,14 +116,7 @@ _OPTIONS = (
     click.option(
         "--picture", metavar="FILE.png", help="Write a picture of the geometry before and after."
     ),
-    click.option(
-        "--format",
-        "style",
-        type=click.Choice(["table", "json"]),
-        default="table",
-        show_default=True,
-        help="Output format.",
-    ),
+    make_format_option("table", "json"),
     click.option("--overwrite", is_flag=True, help="Overwrite mesh files not written by urdftool."),
 )
 

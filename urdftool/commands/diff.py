@@ -11,7 +11,13 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import ASSIGN, add_package_options, make_output_option, split_arguments
+from .options import (
+    ASSIGN,
+    add_package_options,
+    make_format_option,
+    make_output_option,
+    split_arguments,
+)
 
 if TYPE_CHECKING:
     from ..compare.revision import Checkout
@@ -32,14 +38,7 @@ _GROUPS = {"Comparison": "tolerance", "Output": "style output"}
     metavar="T",
     help="Tolerance of numbers, relative; of origins, absolute [m and rad].  [default: 1e-9]",
 )
-@click.option(
-    "--format",
-    "style",
-    type=click.Choice(["text", "json", "markdown"]),
-    default="text",
-    show_default=True,
-    help="Output format.",
-)
+@make_format_option("text", "json", "markdown")
 @add_package_options
 @click.pass_obj
 def command(

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import click
 
 from ..formats.common.inertia_repair import REPAIRS
+from .options import make_format_option
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -42,14 +43,7 @@ def make_export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
             "--force", is_flag=True, help="Export despite errors, if a usable robot remains."
         ),
         click.option("--verify", "verified", is_flag=True, help=verify),
-        click.option(
-            "--format",
-            "style",
-            type=click.Choice(("text", "json")),
-            default="text",
-            show_default=True,
-            help="Output format of the report.",
-        ),
+        make_format_option("text", "json", help_text="Output format of the report."),
     ]
 
     def decorate(function: F) -> F:

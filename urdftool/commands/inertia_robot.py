@@ -9,7 +9,13 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import add_gltf_option, add_jobs_option, add_package_options, add_robot_argument
+from .options import (
+    add_gltf_option,
+    add_jobs_option,
+    add_package_options,
+    add_robot_argument,
+    make_format_option,
+)
 from .progress import Progress
 from .read_other import read_any
 
@@ -96,14 +102,7 @@ _GROUPS = {
     metavar="JOINT=VALUE",
     help="With --lump: position of a joint [rad or m]. Repeatable.",
 )
-@click.option(
-    "--format",
-    "style",
-    type=click.Choice(["table", "json"]),
-    default="table",
-    show_default=True,
-    help="Output format.",
-)
+@make_format_option("table", "json")
 @add_jobs_option
 @add_gltf_option
 @add_package_options

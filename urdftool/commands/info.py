@@ -8,21 +8,20 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import add_gltf_option, add_package_options, add_robot_argument, make_output_option
+from .options import (
+    add_gltf_option,
+    add_package_options,
+    add_robot_argument,
+    make_format_option,
+    make_output_option,
+)
 from .progress import Progress
 
 
 @click.command("info", cls=GroupedCommand, groups={"Output": "style output"})
 @add_robot_argument
 @make_output_option("Output file.  [default: standard output]")
-@click.option(
-    "--format",
-    "style",
-    type=click.Choice(["table", "json"]),
-    default="table",
-    show_default=True,
-    help="Output format.",
-)
+@make_format_option("table", "json")
 @add_gltf_option
 @add_package_options
 @click.pass_obj

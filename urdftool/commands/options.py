@@ -169,6 +169,18 @@ def make_output_option(help_text: str) -> Callable[[F], F]:
     return click.option("-o", "--output", metavar="FILE", help=help_text)
 
 
+def make_format_option(*formats: str, help_text: str = "Output format.") -> Callable[[F], F]:
+    """Make the option ``--format``, passed as ``style``; the first format is the default."""
+    return click.option(
+        "--format",
+        "style",
+        type=click.Choice(formats),
+        default=formats[0],
+        show_default=True,
+        help=help_text,
+    )
+
+
 def parse_name_numbers(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
 
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..model.elements import Robot
-from ..source.location import Place
+from ..source.document import STDIN, read_file
+from ..source.location import Place, SourceFile
+from ..source.packages import Packages
+from ..workspace import Workspace
 
 _SHOWN = 3
 
@@ -70,3 +75,34 @@ def _count(names: Iterable[str]) -> str:
     named = [f"'{name}'" for name in every if name]
     shown = ", ".join(named[:_SHOWN]) + (", …" if len(named) > _SHOWN else "")
     return f"{len(every)} ({shown})" if shown else str(len(every))
+
+
+class Opened(NamedTuple):
+    """File of a description, finder of the files that it names, and access to files."""
+
+    file: SourceFile
+    packages: Packages
+    workspace: Workspace
+
+
+def open_description(
+    path: str | Path,
+    file: SourceFile | None,
+    packages: Packages | None,
+    workspace: Workspace | None,
+) -> Opened:
+    """Read the file of a description, unless it has been read, and create what is None.
+
+    Args:
+        path: The file, or ``-`` for standard input.
+        file: The file, if it has been read.
+        packages: Finder of packages.
+        workspace: Access to files.
+
+    Raises:
+        SourceError: The file cannot be read.
+    """
+    workspace = workspace or Workspace()
+    file = file or read_file(path, workspace)
+    packages = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
+    return Opened(file, packages, workspace)

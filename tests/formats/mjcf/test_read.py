@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES, ROOT
+from tests.reading import line_of, make_reading_fixtures
 from urdftool.errors import ModelError, SourceError, UrdftoolError
 from urdftool.formats.mjcf.read import read
 from urdftool.model.bounds import compute_bounds_at
@@ -23,19 +24,7 @@ WHEELS = Path(os.environ.get("URDFTOOL_MJCF", ROOT / ".venv-mjcf"))
 TOLERANCE = 1e-9
 
 
-@pytest.fixture(scope="module")
-def mechanism():
-    return read(MECHANISM)
-
-
-@pytest.fixture(scope="module")
-def robot(mechanism):
-    return mechanism.robot
-
-
-def line_of(text, file=MECHANISM):
-    lines = file.read_text("utf-8").splitlines()
-    return next(number for number, line in enumerate(lines, 1) if text in line)
+mechanism, robot = make_reading_fixtures(read, MECHANISM)
 
 
 def model(tmp_path, body, rest="", name="m.xml"):
@@ -216,7 +205,7 @@ def test_what_the_model_lacks_is_reported_once_each(mechanism):
         "unread-tendon": ("warning", 1),
     }
     tendon = next(loss for loss in mechanism.losses if loss.code == "unread-tendon")
-    assert (tendon.name, tendon.place.line) == ("cable", line_of('name="cable"'))
+    assert (tendon.name, tendon.place.line) == ("cable", line_of('name="cable"', MECHANISM))
 
 
 def test_several_bodies_hang_on_the_world(tmp_path):

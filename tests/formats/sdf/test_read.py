@@ -6,6 +6,7 @@ import math
 import pytest
 
 from tests.conftest import FIXTURES
+from tests.reading import line_of, make_reading_fixtures
 from urdftool.errors import ModelError, SourceError
 from urdftool.formats.sdf.read import read
 from urdftool.model.elements import Ellipsoid, Plane, UnknownShape
@@ -17,19 +18,7 @@ MECHANISM = READERS / "mechanism.sdf"
 HAND = READERS / "hand" / "hand.sdf"
 
 
-@pytest.fixture(scope="module")
-def mechanism():
-    return read(MECHANISM)
-
-
-@pytest.fixture(scope="module")
-def robot(mechanism):
-    return mechanism.robot
-
-
-def line_of(text, file=MECHANISM):
-    lines = file.read_text("utf-8").splitlines()
-    return next(number for number, line in enumerate(lines, 1) if text in line)
+mechanism, robot = make_reading_fixtures(read, MECHANISM)
 
 
 def sdf(tmp_path, body, version="1.9", name="m"):

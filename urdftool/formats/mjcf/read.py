@@ -18,11 +18,11 @@ from ...isolated import IsolatedProcess, ProcessDied, ProcessTimeout
 from ...model.elements import Robot
 from ...model.provenance import Written
 from ...source.description import Description
-from ...source.document import STDIN, Document, read_file
+from ...source.document import STDIN, Document
 from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import Losses, Reading
+from ..reading import Losses, Reading, open_description
 from .read_compile import TIME_LIMIT, Compiled
 from .read_context import Context
 from .read_extras import add_extras
@@ -54,15 +54,13 @@ def read(
     """
     if not is_installed("mujoco"):
         raise make_missing_error("mujoco", "an MJCF file")
-    workspace = workspace or Workspace()
-    file = file or read_file(path, workspace)
+    file, finder, workspace = open_description(path, file, packages, workspace)
     expanded = expand(file, workspace)
     compiled = _compile(expanded)
     losses = Losses()
     context = Context(expanded, compiled, losses)
     written = Written(expanded.root.place)
     robot = Robot(written, expanded.root.get("model") or compiled.name, format="mjcf")
-    finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
     document = Document(file, expanded.root, [])
     robot.source = Description(str(path), document, expanded.files, finder)
     add_tree(context, robot)

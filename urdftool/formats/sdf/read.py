@@ -12,11 +12,11 @@ from ...model.pose import IDENTITY, get_origin_at
 from ...model.provenance import Written
 from ...model.world import WORLD
 from ...source.description import Description
-from ...source.document import STDIN, Document, read_file
+from ...source.document import Document
 from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import Losses, Reading
+from ..reading import Losses, Reading, open_description
 from .read_joints import (
     add_closure,
     add_frames,
@@ -52,9 +52,7 @@ def read(
         SourceError: A file cannot be read, or includes itself.
         ModelError: The file has no model or two worlds, or a name or value in it is invalid.
     """
-    workspace = workspace or Workspace()
-    file = file or read_file(path, workspace)
-    finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
+    file, finder, workspace = open_description(path, file, packages, workspace)
     losses = Losses()
     models = Models(finder, workspace, losses)
     root = models.parse_root(file)

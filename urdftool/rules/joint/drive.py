@@ -167,15 +167,7 @@ def implausible_velocity(
             found.append(
                 _ImplausibleLimit(joint, limit, limit.velocity, _is_endless(limit.velocity), what)
             )
-    for one, more in _deduplicate(found, together):
-        yield Problem(
-            one.joint,
-            f"velocity limit of joint '{one.joint.name}'{more} is {one.what}; "
-            "write the maximum of the drive",
-            at=one.limit.locate_attribute("velocity"),
-            alike=(one.is_slide, one.is_endless, bool(more)),
-            data={"velocity": one.value},
-        )
+    yield from _report_limits(found, together, "velocity")
 
 
 @rule(
@@ -208,14 +200,20 @@ def implausible_effort(
         for joint, limit in _iterate_driven(robot)
         if limit.effort is not None and limit.effort > largest and not is_passive(joint, actuated)
     ]
+    yield from _report_limits(found, together, "effort")
+
+
+def _report_limits(
+    found: list[_ImplausibleLimit], together: float, attribute: str
+) -> Iterator[Problem]:
     for one, more in _deduplicate(found, together):
         yield Problem(
             one.joint,
-            f"effort limit of joint '{one.joint.name}'{more} is {one.what}; "
+            f"{attribute} limit of joint '{one.joint.name}'{more} is {one.what}; "
             "write the maximum of the drive",
-            at=one.limit.locate_attribute("effort"),
+            at=one.limit.locate_attribute(attribute),
             alike=(one.is_slide, one.is_endless, bool(more)),
-            data={"effort": one.value},
+            data={attribute: one.value},
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
@@ -98,11 +98,16 @@ def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
 @duplicate_link_name.full
 def report_every_second_link(robot: Robot) -> Iterator[Problem]:
     """Report each link after the first of its name, also if the name is blank or empty."""
-    for link in robot.links:
-        first = robot.link[link.name]
-        if first is not link:
-            problem = _report_second(link, first)
-            problem.data = {"has_name": bool(link.name)}
+    yield from _report_every_second(robot.links, robot.link)
+
+
+def _report_every_second(
+    parts: Sequence[Link] | Sequence[Joint], first: Mapping[str, Link] | Mapping[str, Joint]
+) -> Iterator[Problem]:
+    for part in parts:
+        if first[part.name] is not part:
+            problem = _report_second(part, first[part.name])
+            problem.data = {"has_name": bool(part.name)}
             yield problem
 
 
@@ -139,12 +144,7 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
 @duplicate_joint_name.full
 def report_every_second_joint(robot: Robot) -> Iterator[Problem]:
     """Report each joint after the first of its name, also if the name is blank or empty."""
-    for joint in robot.joints:
-        first = robot.joint[joint.name]
-        if first is not joint:
-            problem = _report_second(joint, first)
-            problem.data = {"has_name": bool(joint.name)}
-            yield problem
+    yield from _report_every_second(robot.joints, robot.joint)
 
 
 @duplicate_joint_name.fix(UNSAFE)
