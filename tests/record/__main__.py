@@ -78,6 +78,9 @@ def main() -> int:
     if given.step == "compare":
         return compare(given.old, given.new, given.only, given.lines)
     wanted = [command for command in commands() if given.only in command.name]
+    names = [command.name for command in wanted]
+    if twice := {name for name in names if names.count(name) > 1}:
+        parser.error(f"commands of one name: {', '.join(sorted(twice))}")
     run = partial(record, folder=given.folder.resolve(), program=given.program.resolve())
     with ThreadPoolExecutor(given.jobs) as pool:
         for line in pool.map(run, wanted):

@@ -26,7 +26,7 @@ class Command(NamedTuple):
     """One command line.
 
     Attributes:
-        name: Name of its folder in the record.
+        name: Name of its folder in the record, which no other command has.
         arguments: Without the program. Files it writes have relative paths.
     """
 
@@ -74,8 +74,8 @@ def commands() -> Iterator[Command]:
         robot = [str(path)]
         yield Command(f"expand-{name}", ["expand", *robot, "-o", "out.urdf"])
         yield Command(f"source-map-{name}", ["expand", *robot, "--source-map", "map.json"])
-        yield Command(f"info-{name}", ["info", *robot])
-        yield Command(f"graph-{name}", ["graph", *robot, "-o", "robot.gv"])
+        yield Command(f"info-text-{name}", ["info", *robot])
+        yield Command(f"graph-text-{name}", ["graph", *robot, "-o", "robot.gv"])
         yield Command(f"inertia-text-{name}", ["inertia", "robot", *robot])
         yield Command(
             f"fill-{name}", ["inertia", "robot", *robot, "--all", "--write", "-o", "out.urdf"]
