@@ -54,7 +54,8 @@ class Settings:
         threshold: CoACD's concavity threshold for ``coacd``: a distance relative to half the
             longest side.
         time_limit: Processor time limit [s] of all CoACD runs on a mesh.
-        quality: One of ``QUALITIES``: how finely to measure, and how long to search.
+        quality: One of ``QUALITIES``: how finely to measure, and how long to search. It does not
+            set ``max_error``; :meth:`from_quality` does.
     """
 
     method: str = "auto"
@@ -65,6 +66,16 @@ class Settings:
     threshold: float = 0.06
     time_limit: float = 120.0
     quality: str = "balanced"
+
+    @classmethod
+    def from_quality(cls, quality: str, **changes: Any) -> Settings:
+        """Return the settings of one of ``QUALITIES``, with its limits, and some replaced.
+
+        Args:
+            quality: ``"fast"``, ``"balanced"`` or ``"tight"``.
+            changes: Fields to replace.
+        """
+        return cls().replace_some({"quality": quality, **changes})
 
     @property
     def effort(self) -> Effort:
@@ -77,7 +88,7 @@ class Settings:
         return self.max_hulls or self.effort.max_hulls
 
     def replace_some(self, table: Mapping[str, Any]) -> Settings:
-        """Return a copy with some settings replaced; a quality brings its limit of the error."""
+        """Return a copy with some fields replaced; a quality also sets its limit of the error."""
         quality = table.get("quality")
         limit = {} if quality is None else {"max_error": QUALITIES[quality].max_error}
         return replace(self, **{**limit, **table})
