@@ -26,6 +26,7 @@ from .notes import FLAT_MESH, HULL_INSTEAD, HULL_OF_ENGINES, MORE_PIECES, make_n
 from .piece import PRIMITIVES, Piece, make_mesh_piece
 from .primitives import fit_primitives, measure_primitive_distance
 from .settings import Settings
+from .spheres import cover_with_spheres
 from .surface import Prepared, label_flat_sides
 
 PLATE = 0.002
@@ -282,8 +283,6 @@ def _try_spheres(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield a cover by few spheres, of which none protrudes by more than the error."""
-    from .spheres import cover_with_spheres
-
     pieces = cover_with_spheres(target, settings.max_error, settings.max_hulls)
     yield Choice("spheres", pieces, measure(target, pieces))
 

@@ -1,4 +1,4 @@
-"""Cover of a mesh by few spheres, and the files of motion planners that hold them.
+"""Cover of a mesh by few spheres.
 
 A sphere around a point inside the closing reaches to the nearest exterior surface and farther by
 the excess, so none protrudes by more than that. Spheres are chosen by greedy set cover, until every
@@ -7,18 +7,13 @@ dense sample of the exterior is inside one of them by more than the spacing of t
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Points
-from ..model.pose import make_pose
-from .compute import Result, Task
 from .distance import spread
-from .links import LinkPlan
 from .measure import ReferenceSurface
 from .piece import Piece, make_primitive
 
@@ -133,54 +128,3 @@ def _measure_gap(target: ReferenceSurface) -> float:
     if not len(points):
         return 0.0
     return float(target.nearest.tree.query(points)[0].max())
-
-
-def collect_planner_spheres(
-    plans: Sequence[LinkPlan], results: Mapping[Task, Result]
-) -> dict[str, list[tuple[tuple[float, ...], float]]]:
-    """Return center [m], in the frame of the link, and radius [m] of each sphere, by link."""
-    found: dict[str, list[tuple[tuple[float, ...], float]]] = {}
-    for item in plans:
-        for use in item.uses:
-            if use.task is None:
-                continue
-            pose = make_pose(use.shape.origin)
-            rotation, shift = np.array(pose.rotation), np.array(pose.translation)
-            for piece in results[use.task].pieces:
-                if piece.kind == "sphere":
-                    center = rotation @ piece.center + shift
-                    rounded = tuple(round(float(value), 6) + 0.0 for value in center)
-                    spheres = found.setdefault(item.link.name, [])
-                    spheres.append((rounded, _round_up(piece.size[0])))
-    return found
-
-
-def _round_up(radius: float) -> float:
-    return float(np.ceil(radius * 1e6 + 1) / 1e6)  # covers the rounding of the center, too
-
-
-def format_curobo_yaml(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
-    """Format spheres as ``collision_spheres`` of a robot configuration of cuRobo."""
-    lines = ["# collision geometry by urdftool", "collision_spheres:"]
-    for link, some in spheres.items():
-        lines.append(f"  {json.dumps(link)}:")
-        for center, radius in some:
-            xyz = ", ".join(f"{value:.6f}" for value in center)
-            lines.append(f"    - center: [{xyz}]")
-            lines.append(f"      radius: {radius:.6f}")
-    return "\n".join(lines) + "\n"
-
-
-def format_pyroki_json(spheres: Mapping[str, Sequence[tuple[tuple[float, ...], float]]]) -> str:
-    """Format spheres as pyroki's ``RobotCollision.from_sphere_decomposition`` expects them.
-
-    The result is JSON, which is YAML, too.
-    """
-    table: dict[str, Any] = {
-        link: {
-            "centers": [list(center) for center, _ in some],
-            "radii": [radius for _, radius in some],
-        }
-        for link, some in spheres.items()
-    }
-    return json.dumps(table, indent=1) + "\n"
