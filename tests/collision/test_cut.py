@@ -8,11 +8,10 @@ from tests.conftest import FIXTURES
 from urdftool.collision import cut, decompose
 from urdftool.collision.choose import choose
 from urdftool.collision.convex import compute_hull, compute_planes
-from urdftool.collision.cut import Cutter
+from urdftool.collision.cut import Cutter, Joiner
 from urdftool.collision.decompose import make_solid
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import ReferenceSurface
-from urdftool.collision.merge import Joiner
 from urdftool.collision.piece import make_mesh_piece, make_primitive
 from urdftool.collision.remesh import Layer, Outside, compute_remesh, intersect
 from urdftool.collision.settings import Settings
