@@ -164,8 +164,7 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     """
     top = _find_root(robot)
     made = _collect_lumps(robot, settings, top)
-    is_fixed = robot.base is not None and not robot.base.is_free
-    fixed_base = settings.fixed_base or is_fixed or _is_world(robot.link[top])
+    fixed_base = settings.fixed_base or has_fixed_base(robot, robot.link[top])
     positions, clamped = start_positions(robot, settings.pose)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
     poses = link_poses(robot, positions)
@@ -182,6 +181,11 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
         size,
         clamped,
     )
+
+
+def has_fixed_base(robot: Robot, root: Link) -> bool:
+    """Tell whether the file has a fixed base: the root is welded to the world, or is the world."""
+    return (robot.base is not None and not robot.base.is_free) or _is_world(root)
 
 
 def _is_world(link: Link) -> bool:

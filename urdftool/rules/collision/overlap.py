@@ -1,4 +1,4 @@
-"""Find links that overlap: with joints at rest, and when a joint moves."""
+"""Find links that interpenetrate: with joints at rest, and when a joint moves."""
 
 from __future__ import annotations
 

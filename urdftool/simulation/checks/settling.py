@@ -20,11 +20,8 @@ from .tipping import check_tipping
 def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Report a robot that diverged, fell, does not come to rest, tipped over or slid."""
     recording, bodies = run.recording, run.bodies
-    size = max(bodies.size, 1e-3)
     top = robot.link[bodies.bodies[0].name]
-    heavy = max(bodies.mass * run.settings.gravity * size, 1e-9)
-    diverged = recording.ended == "lost" or state.gain > run.thresholds.energy_gain * heavy + 1e-3
-    if diverged and not state.fell:
+    if has_diverged(run, state) and not state.fell:
         name = _format_fastest_link(run)
         gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "without bound"
         yield Fault(
@@ -72,6 +69,19 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
     if bodies.fixed_base:
         return
     yield from check_tipping(robot, run, state)
+
+
+def has_diverged(run: Run, state: FinalState) -> bool:
+    """Tell whether the simulation diverged: a value was not finite, or the energy increased.
+
+    Args:
+        run: The run.
+        state: Its final state.
+    """
+    size = max(run.bodies.size, 1e-3)
+    lifting = max(run.bodies.mass * run.settings.gravity * size, 1e-9)  # J, by its own size
+    bound = run.thresholds.energy_gain * lifting + 1e-3
+    return run.recording.ended == "lost" or state.gain > bound
 
 
 def _time_of_most_energy(recording: Recording) -> float:

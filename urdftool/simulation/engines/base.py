@@ -80,8 +80,8 @@ class World(Protocol):
     def sample(self, time: float) -> Sample:
         """Measure one value for each column of the recording at a time [s]."""
 
-    def is_broken(self) -> bool:
-        """Tell whether the engine reports that its state is not finite."""
+    def has_diverged(self) -> bool:
+        """Tell whether the engine reports that the simulation diverged: a value is not finite."""
 
     def list_contacts(self) -> list[Contact]:
         """List the contacts with the plane."""

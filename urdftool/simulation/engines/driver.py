@@ -94,7 +94,7 @@ def settle(
             done += 1
         sample = world.sample(done * settings.timestep)
         samples.append(sample)
-        if world.is_broken() or not _is_sane(sample, bodies):
+        if world.has_diverged() or _has_diverged(sample, bodies):
             ended = "lost"
             break
         late.append([touch for touch in world.list_contacts() if touch.force > 0])
@@ -127,10 +127,11 @@ def settle(
     )
 
 
-def _is_sane(sample: Sample, bodies: RigidBodyModel) -> bool:
+def _has_diverged(sample: Sample, bodies: RigidBodyModel) -> bool:
+    """Tell whether the simulation diverged: a value is not finite, or the robot is far away."""
     poses = sample["poses"]
     far = RUNAWAY * max(1.0, bodies.size)
-    return bool(
+    return not (
         np.isfinite(poses).all()
         and math.isfinite(sample["kinetic"])
         and np.abs(poses[:, :2]).max() < far

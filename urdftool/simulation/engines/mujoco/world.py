@@ -198,8 +198,8 @@ class MuJoCoWorld:
         """List the contacts with the plane."""
         return self.touches.list_contacts()
 
-    def is_broken(self) -> bool:
-        """Tell whether the engine warned of numbers that are not finite."""
+    def has_diverged(self) -> bool:
+        """Tell whether MuJoCo warned of values that are not finite: the simulation diverged."""
         bad = self.mj.mjtWarning
         numbers = (bad.mjWARN_BADQPOS, bad.mjWARN_BADQVEL, bad.mjWARN_BADQACC)
         return any(self.data.warning[int(number)].number for number in numbers)

@@ -162,7 +162,7 @@ class PyBulletWorld:
         """Find the interpenetration of each pair of bodies, whether or not contacts are enabled."""
         return self.touches.find_overlaps(ground=ground)
 
-    def is_broken(self) -> bool:
+    def has_diverged(self) -> bool:
         """Return False: PyBullet does not report divergence, and the driver checks the values."""
         return False
 
