@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from urdftool.api.lint import check
 from urdftool.configuration import Configuration
 from urdftool.lint.baseline import Baseline, read_baseline, to_text
 from urdftool.lint.fingerprint import compute_fingerprint
-from urdftool.lint.run import check
 from urdftool.lint.settings import Settings, check_selectors, read_settings
 from urdftool.rules import FAMILY_OF, get_rule
 from urdftool.rules.old_names import (
