@@ -8,7 +8,7 @@ from .language.check import find_remarks
 PARTS = sorted(
     path
     for path in (ROOT / "urdftool").iterdir()
-    if path.is_dir() and path.name != "__pycache__" or path.suffix == ".py"
+    if (path.is_dir() and path.name != "__pycache__") or path.suffix == ".py"
 )
 
 
