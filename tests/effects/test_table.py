@@ -38,6 +38,7 @@ NOT_RUN = {
     *("rviz", "moveit", "robot_state_publisher", "tf2", "image_geometry", "ros2_control"),
     *("controller_manager", "gz_ros2_control", "gazebo_ros_control", "gazebo_ros"),
     *("joint_trajectory_controller", "ros2 run … -p robot_description:=…", "colcon"),
+    *("newton", "isaac"),
 }
 
 

@@ -41,7 +41,8 @@ _GROUPS = {
     "--target",
     multiple=True,
     metavar="TARGET",
-    help="Target program: ros1, ros2, gazebo-classic, gz, mujoco, pybullet or moveit. Repeatable.  "
+    help="Target program: ros1, ros2, gazebo-classic, gz, mujoco, pybullet, moveit, newton or "
+    "isaac. Repeatable.  "
     "[default: detected from the file]",
 )
 @click.option(

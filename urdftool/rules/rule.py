@@ -65,7 +65,10 @@ from ..source.location import Place
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 
-TARGETS = ("ros1", "ros2", "gazebo-classic", "gz", "mujoco", "pybullet", "moveit")
+TARGETS = (
+    *("ros1", "ros2", "gazebo-classic", "gz", "mujoco", "pybullet", "moveit"),
+    *("newton", "isaac"),
+)
 
 GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")

@@ -335,6 +335,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "mujoco-missing-compiler",
             "isaac-empty-root",
         ),
+        "usd_importers": (
+            "usd-computed-mass",
+            "newton-raised-inertia",
+            "isaac-drops-dynamics",
+            "usd-name",
+        ),
     },
     "moveit": {
         "semantic": (
