@@ -24,6 +24,7 @@ _HOMES = {
     "expand": "api.expand",
     "export_mjcf": "api.export",
     "export_sdf": "api.export",
+    "export_usd": "api.export_usd",
     "fix": "api.fix",
     "load": "api.load",
     "simplify_collisions": "api.collisions",
@@ -41,6 +42,7 @@ __all__ = [
     "expand",
     "export_mjcf",
     "export_sdf",
+    "export_usd",
     "fix",
     "load",
     "simplify_collisions",
@@ -51,6 +53,7 @@ if TYPE_CHECKING:
     from .api.collisions import simplify_collisions
     from .api.expand import expand
     from .api.export import export_mjcf, export_sdf
+    from .api.export_usd import export_usd
     from .api.fix import fix
     from .api.lint import check
     from .api.load import load

@@ -293,3 +293,15 @@ def test_pairs_of_an_srdf_are_filtered_by_body(stage, write):
     targets = result.GetPrimAtPath("/r/a").GetRelationship("physics:filteredPairs").GetTargets()
     assert [str(path) for path in targets] == ["/r/b"]
     assert value(result.GetPrimAtPath("/r"), "newton:selfCollisionEnabled") is True
+
+
+def test_the_api_writes_and_compares(write, tmp_path):
+    import urdftool
+    from urdftool.formats.check import is_faithful
+
+    tensor = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    path = write("r.urdf", robot(link("a"), joint("f", "a", "b"), link("b", 0, inertia=tensor)))
+    written = urdftool.export_usd(urdftool.load(path), tmp_path / "r.usdc")
+    assert (tmp_path / "r.usdc").read_bytes().startswith(b"PXR-USDC")
+    assert is_faithful(written.checks)
+    assert ("lossy-inertia-without-mass", "b") in codes(written)

@@ -82,6 +82,15 @@ def make_inertias(
         else:
             body = _give_mass(bodies, link, written)
         found[link.name] = _accept(link, body, written)
+    for link in bodies.frames:
+        if any(link_inertia(link).tensor):
+            written.report_loss(
+                "inertia-without-mass",
+                f"inertia of link '{link.name}', which has no mass, is dropped: it is a frame",
+                link.place,
+                kind="link",
+                name=link.name,
+            )
     return found, wrong
 
 

@@ -90,6 +90,15 @@ class ShapeWriter:
         with self.links.builder.edit_layer(GEOMETRY):
             scale = geometry.size if isinstance(geometry, Box) else None
             set_pose(prim, make_pose(shape.origin), scale)
+        if isinstance(geometry, Ellipsoid):
+            self.written.report_loss(
+                "ellipsoid",
+                f"an ellipsoid of link '{link.name}' is written as a mesh",
+                shape.place,
+                kind="link",
+                name=link.name,
+                severity=Severity.INFO,
+            )
         if shape.name:
             prim.SetCustomDataByKey("urdf:shape", shape.name)
         if isinstance(shape, Visual):

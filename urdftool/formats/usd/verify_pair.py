@@ -28,7 +28,7 @@ INERTIA_LOSSES = (
     "lossy-inertia-without-mass",
     "inertia-triangle-inequality",
 )
-TREE_LOSSES = ("lossy-joint-type", "lossy-floating-joint", "lossy-world-frame")
+TREE_LOSSES = ("lossy-joint-type", "lossy-floating-joint")
 
 
 @dataclass(frozen=True)
