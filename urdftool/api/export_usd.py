@@ -67,6 +67,10 @@ def export_usd(
         force,
         Path(output).name if output is not None and usd.has_suffix(output) else "",
     )
+    if output is not None and options.file and not overwrite:
+        from ..formats.usd.files import check_replaced
+
+        check_replaced(Path(output))
     written = usd.write(robot, options)
     written.checks = finish_export(
         usd, robot, options, written, output, verify=verify, overwrite=overwrite

@@ -131,6 +131,10 @@ def command(
     options = Options(file=Path(place).name if usd.has_suffix(place) else "", **choices)
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
+    if options.file and not overwrite:
+        from ..formats.usd.files import check_replaced
+
+        check_replaced(Path(place))
     code = run_export(
         console,
         usd,

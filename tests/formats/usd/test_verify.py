@@ -1,5 +1,7 @@
 """The comparison of a stage with its source, and that it finds a changed stage."""
 
+from pathlib import Path
+
 import pytest
 
 from tests.formats.usd.stages import BOX, export, joint, link, robot
@@ -103,3 +105,18 @@ def test_newton_reads_the_same(write):
     written.files["r.usda"] = written.files["r.usda"].replace(b"maxForce = 33.5", b"maxForce = 30")
     rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
     assert rows["Newton: joint values"].differing == ["effort of joint 'j'"]
+
+
+@pytest.mark.parametrize("name", ["arm.usdc", "arm.usdz"])
+def test_a_binary_file_of_the_user_is_kept(write, name):
+    import urdftool
+    from urdftool.errors import OutputError
+
+    model = urdftool.load(write("arm.urdf", ARM))
+    place = Path(write(name, b"mine"))
+    with pytest.raises(OutputError):
+        urdftool.export_usd(model, place)
+    assert place.read_bytes() == b"mine"
+    urdftool.export_usd(model, place, overwrite=True)
+    urdftool.export_usd(model, place)
+    assert place.read_bytes() != b"mine"

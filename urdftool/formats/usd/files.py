@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from pxr import Sdf, UsdUtils
+from pxr import Sdf, Tf, UsdUtils
 
 from ...errors import OutputError
 from ..common.directory import mark_usda
@@ -16,6 +16,25 @@ from .stage import StageBuilder
 Content = bytes | Path
 
 FOLDER = "payloads"
+
+
+def check_replaced(path: Path) -> None:
+    """Check that a binary file that an export replaces was written by urdftool.
+
+    Raises:
+        OutputError: It was not.
+    """
+    if not path.is_file() or path.suffix.lower() not in (".usdc", ".usdz", ".usd"):
+        return
+    try:
+        layer = Sdf.Layer.OpenAsAnonymous(str(path))
+        creator = str(layer.customLayerData.get("creator", "")) if layer else ""
+    except Tf.ErrorException:
+        creator = ""
+    if not creator.startswith("urdftool "):
+        raise OutputError(
+            "was not written by urdftool; keep it, or overwrite it with --overwrite", path=path
+        )
 
 
 def make_single_file(
@@ -54,6 +73,7 @@ def make_layered_files(
     base.TransferContent(builder.base)
     base.subLayerPaths = [f"./{kind}.usdc" for kind in own]
     layer = Sdf.Layer.CreateAnonymous("interface.usda")
+    layer.customLayerData = builder.base.customLayerData
     for key in ("metersPerUnit", "kilogramsPerUnit", "upAxis", "timeCodesPerSecond"):
         layer.pseudoRoot.SetInfo(key, builder.base.pseudoRoot.GetInfo(key))
     prim = Sdf.CreatePrimInLayer(layer, builder.root)

@@ -7,12 +7,17 @@ from typing import Any
 
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics
 
+from ... import __version__
 from ...model.pose import IDENTITY, Pose, Rotation, quaternion_from_rotation
 
 GEOMETRY, MATERIALS, PHYSICS, PHYSX, ISAAC = "geometry", "materials", "physics", "physx", "isaac"
 
 LAYERS = (ISAAC, PHYSX, PHYSICS, MATERIALS, GEOMETRY)
 """Layers of a stage with payload, the strongest first; each below the layer of the hierarchy."""
+
+
+CREATOR = f"urdftool {__version__}"
+"""Creator of a layer; a binary layer has no comment that names it."""
 
 
 class StageBuilder:
@@ -40,6 +45,7 @@ class StageBuilder:
             self.base.subLayerPaths = [layer.identifier for layer in own.values()]
         self.stage = Usd.Stage.Open(self.base)
         set_units(self.stage)
+        self.base.customLayerData = {"creator": CREATOR}
         self.root = Sdf.Path(f"/{name}")
         prim = UsdGeom.Xform.Define(self.stage, self.root).GetPrim()
         self.stage.SetDefaultPrim(prim)
