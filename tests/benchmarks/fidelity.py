@@ -152,7 +152,9 @@ def main(words: list[str]) -> int:
                 arguments.keep.write_text(json.dumps(kept), "utf-8")
     text = fidelity_page.page({name: kept[name] for name, _ in robots})
     if arguments.write:
-        fidelity_page.PAGE.write_text(text, "utf-8")
+        page = fidelity_page.PAGE.read_text("utf-8")
+        _, mark, part = page.partition("\n<!-- usd begins -->")  # of tests.benchmarks.usd
+        fidelity_page.PAGE.write_text(text + mark + part, "utf-8")
     else:
         print(text)
     return 0

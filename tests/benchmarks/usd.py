@@ -381,7 +381,8 @@ def format_part(kept: dict[str, dict[str, Any]]) -> str:
         for tool in tools:
             values = [one[key] for one in by_tool[tool] if key in one]
             number = statistics.median(values) if values else 0.0
-            cells.append(f"{number:.1f} s" if key == "seconds" else f"{number / 1e3:.0f} kB")
+            size = f"{number / 1e3:.0f} kB" if number >= 1e3 else "–"  # it writes elsewhere, too
+            cells.append(f"{number:.1f} s" if key == "seconds" else size)
         lines.append(f"| {label} | " + " | ".join(cells) + " |")
     announced = [name for name, found in results.items()
                  if found["urdftool"].get("wrong") and found["urdftool"].get("losses")]  # fmt: skip
