@@ -1,4 +1,4 @@
-"""Conversions to USD as Newton imports them, beside those of other converters.
+"""Conversions to USD as Newton imports them, next to those of other converters.
 
     python -m tests.benchmarks.usd [--write] [--only NAME] [--keep FILE] [--bullet]
 
@@ -60,7 +60,7 @@ class Converter(NamedTuple):
     command: Callable[[Path, Path], list[str]]
 
 
-def ours(urdf: Path, folder: Path) -> list[str]:
+def build_our_command(urdf: Path, folder: Path) -> list[str]:
     """Return our command."""
     packages = example_folder()
     more = ["--package-path", str(packages.parent)] if packages else []
@@ -69,9 +69,9 @@ def ours(urdf: Path, folder: Path) -> list[str]:
             "--format", "json", *more]  # fmt: skip
 
 
-def converters() -> Iterator[Converter]:
+def list_converters() -> Iterator[Converter]:
     """Yield the converters that are installed."""
-    yield Converter("urdftool", ours)
+    yield Converter("urdftool", build_our_command)
     places = {name: os.environ.get(name) for name in
               ("URDFTOOL_USD_CONVERTER", "URDFTOOL_URDF2ANY", "URDFTOOL_SKROBOT")}  # fmt: skip
     if place := places["URDFTOOL_USD_CONVERTER"]:
@@ -136,14 +136,14 @@ def measure(path: Path) -> dict[str, dict[str, Any]]:
     except (UrdftoolError, AssertionError):
         return {}
     results = {}
-    for converter in converters():
+    for converter in list_converters():
         with TemporaryDirectory(prefix="usd-") as folder:
             results[converter.name] = _measure_one(converter, robot, path, Path(folder))
     return results
 
 
 def _measure_one(converter: Converter, robot: Robot, path: Path, folder: Path) -> dict[str, Any]:
-    urdf = path if converter.command is ours else resolved(path, folder / "in")
+    urdf = path if converter.command is build_our_command else resolved(path, folder / "in")
     out = folder / "out"
     out.mkdir()
     start = time.perf_counter()
@@ -158,7 +158,7 @@ def _measure_one(converter: Converter, robot: Robot, path: Path, folder: Path) -
         last = (done.stderr or done.stdout).strip().splitlines()[-1:]
         return {"why": f"no stage: {last[0][:160] if last else ''}"}
     losses = []
-    if converter.command is ours:
+    if converter.command is build_our_command:
         report = json.loads(done.stdout)
         losses = [f["rule"] for f in report.get("findings", []) if f["severity"] != "info"]
     wrong = compare(robot, stages[0])
@@ -236,7 +236,7 @@ def _compare_all(
         ours_, theirs = mechanics.compute_frames(values), {}
         for path, row in poses.items():
             if path in links:
-                theirs[links[path]] = _matrix(row)
+                theirs[links[path]] = _make_matrix(row)
         _compare_poses(robot, ours_, theirs, note)
     _compare_joints(robot, answer["joints"], joints, note)
     expected = sum(c.geometry is not None for link in robot.links for c in link.collisions)
@@ -253,14 +253,16 @@ def _compare_bodies(
     frames = Mechanics(robot).compute_frames({})
     source: dict[str, list[tuple[float, Any, Any]]] = {}
     for link in robot.links:
-        source.setdefault(group[link.name], []).append(_inertial(link, frames[link.name]))
+        source.setdefault(group[link.name], []).append(_get_inertial(link, frames[link.name]))
     made: dict[str, list[tuple[float, Any, Any]]] = {}
     poses = answer["poses"][0]
     known = [path for path in poses if path in links]
-    shift = frames[links[known[0]]] @ np.linalg.inv(_matrix(poses[known[0]])) if known else None
+    shift = (
+        frames[links[known[0]]] @ np.linalg.inv(_make_matrix(poses[known[0]])) if known else None
+    )
     for path, body in answer["bodies"].items():
         if path in links and shift is not None:
-            at = shift @ _matrix(poses[path])
+            at = shift @ _make_matrix(poses[path])
             turn = at[:3, :3]
             center = at[:3, 3] + turn @ np.array(body["com"])
             tensor = turn @ np.array(body["inertia"]) @ turn.T
@@ -277,7 +279,7 @@ def _compare_bodies(
             note("inertia", float(np.abs(here[2] - there[2]).max()) / largest)
 
 
-def _inertial(link: Link, frame: Any) -> tuple[float, Any, Any]:
+def _get_inertial(link: Link, frame: Any) -> tuple[float, Any, Any]:
     part = link.inertial
     if part is None or not part.mass:
         return 0.0, np.zeros(3), np.zeros((3, 3))
@@ -327,27 +329,27 @@ def _compare_joints(
             continue
         lower, upper = get_limits(joint)
         bounds = ((lower, found["limit_lower"]), (upper, found["limit_upper"]))
-        note("limits", max(_differ(one, two) for one, two in bounds))
+        note("limits", max(_measure_difference(one, two) for one, two in bounds))
         limit, dynamics = joint.limit, joint.dynamics
         effort = np.inf if limit is None or limit.effort is None else abs(limit.effort)
-        note("effort", _differ(effort, found["effort_limit"]))
+        note("effort", _measure_difference(effort, found["effort_limit"]))
         velocity = 1e6 if limit is None or not limit.velocity else abs(limit.velocity)
-        note("velocity", _differ(velocity, found["velocity_limit"]))
+        note("velocity", _measure_difference(velocity, found["velocity_limit"]))
         friction = (dynamics.friction if dynamics else 0.0) or 0.0
         damping = (dynamics.damping if dynamics else 0.0) or 0.0
         both = ((friction, found["friction"]), (damping, found["damping"]))
-        note("friction, damping", max(_differ(one, two) for one, two in both))
+        note("friction, damping", max(_measure_difference(one, two) for one, two in both))
         follows = joint.mimic is not None and joint.mimic.joint in robot.joint
         note("mimic", float(follows != (found["mimic"] is not None)))
 
 
-def _differ(one: float, two: float) -> float:
+def _measure_difference(one: float, two: float) -> float:
     if abs(one) >= 1e6 and abs(two) >= 1e6:
         return 0.0  # Newton has no limit there
     return abs(one - two) / max(1.0, abs(one))
 
 
-def _matrix(row: list[float]) -> Any:
+def _make_matrix(row: list[float]) -> Any:
     x, y, z, w = np.array(row[3:]) / np.linalg.norm(row[3:])
     found = np.eye(4)
     found[:3, 3] = row[:3]
