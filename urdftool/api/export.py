@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 from ..formats.written import Written
 from ..model.elements import Robot
+from ..model.world import weld_base
 from ..source.description import GltfUp
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def export_sdf(
         fix_inertia,
         config,
     )
-    sdf = format_named("sdf")
+    sdf, robot = format_named("sdf"), weld_base(robot)
     written = sdf.write(robot, options)
     written.losses += check_plugins(robot, target)
     written.checks = finish_export(
@@ -157,7 +158,7 @@ def export_mjcf(
     from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
 
-    mjcf = format_named("mjcf")
+    mjcf, robot = format_named("mjcf"), weld_base(robot)
     name = Path(output).name if output is not None else ""
     options = Options(
         actuators=actuators,

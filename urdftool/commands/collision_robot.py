@@ -85,7 +85,11 @@ def process_one(
 
 
 def _write_spheres(console: Console, path: str, job: Job, results: dict[Task, Result]) -> None:
-    from ..collision.planner_files import collect_planner_spheres, format_curobo_yaml, format_pyroki_json
+    from ..collision.planner_files import (
+        collect_planner_spheres,
+        format_curobo_yaml,
+        format_pyroki_json,
+    )
     from ..model.files import list_sources
     from ..output import write_file
 

@@ -11,8 +11,9 @@ import click
 from ..console import Console
 from .export_options import add_fix_inertia_option, make_export_options
 from .grouped_help import GroupedCommand
-from .load_strict import load_strict, report_gltf_axes
+from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument, parse_name_numbers
+from .read_other import read_any
 
 
 def _parse_pose(
@@ -152,17 +153,17 @@ def command(
     from ..api.export import cut_meshes, measure_overlap
     from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
-    from ..model.load import make_robot
+    from ..model.world import weld_base
     from .export_report import run_export
 
     mjcf, place = format_named("mjcf"), output or "-"
-    description = load_strict(console, robot, package, package_path)
-    model = make_robot(description)
+    model = weld_base(read_any(console, robot, package, package_path, quiet=True))
     report_gltf_axes(console, model)
+    axes = "y" if model.source is None else model.source.gltf_up
     options = Options(
         mesh_dir="" if mesh_dir == "." else mesh_dir,
         file=Path(place).name if mjcf.has_suffix(place) else "",
-        cutter=partial(cut_meshes, gltf_up=description.gltf_up) if decompose else None,
+        cutter=partial(cut_meshes, gltf_up=axes) if decompose else None,
         state=pose[0],
         pose=pose[1],
         overlap=measure_overlap,

@@ -11,8 +11,9 @@ import click
 from ..console import Console
 from .export_options import add_fix_inertia_option, make_export_options
 from .grouped_help import GroupedCommand
-from .load_strict import load_strict, report_gltf_axes
+from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
+from .read_other import read_any
 
 if TYPE_CHECKING:
     from ..formats.sdf.options import Options
@@ -105,12 +106,12 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..api.export import check_plugins
     from ..formats.registry import format_named
-    from ..model.load import make_robot
+    from ..model.world import weld_base
     from .export_report import run_export
 
     place = output or "-"
     options = _make_options(place, choices)
-    model = make_robot(load_strict(console, robot, package, package_path))
+    model = weld_base(read_any(console, robot, package, package_path, quiet=True))
     report_gltf_axes(console, model)
     return run_export(
         console,

@@ -23,6 +23,7 @@ def read_any(
     package_paths: Iterable[str],
     *,
     edit: str = "",
+    quiet: bool = False,
 ) -> Robot:
     """Read a robot of any format; malformed XML is an error.
 
@@ -33,6 +34,7 @@ def read_any(
         package_paths: Folders that are searched for packages.
         edit: What the command writes into the source, which must then be URDF or xacro; empty if
             it only reads.
+        quiet: Whether the caller prints ``robot.unread``.
 
     Raises:
         UrdftoolError: The robot cannot be read, or not be edited.
@@ -51,7 +53,7 @@ def read_any(
         message = f"{edit} requires a URDF or xacro file; this is {found.title}"
         raise ModelError(message, path=path)
     finder = get_finder(console, file, packages, package_paths)
-    return read_other(console, found, file, arguments, finder)
+    return read_other(console, found, file, arguments, finder, quiet=quiet)
 
 
 def read_other(
@@ -62,6 +64,7 @@ def read_other(
     packages: Packages,
     *,
     shown: Callable[[str], str] = str,
+    quiet: bool = False,
 ) -> Robot:
     """Read a robot, and print what the model does not hold of its source.
 
@@ -72,6 +75,7 @@ def read_other(
         arguments: xacro arguments, of which the format has none.
         packages: Finder of files.
         shown: Formats a path.
+        quiet: Whether the caller prints ``robot.unread``.
 
     Raises:
         UrdftoolError: The file cannot be read.
@@ -79,7 +83,7 @@ def read_other(
     from ..formats.common.loss_report import format_lines
 
     reading = found.read(file.path, file=file, packages=packages, workspace=packages.workspace)
-    for line in format_lines(reading.losses):
+    for line in () if quiet else format_lines(reading.losses):
         console.print_note(shown(line))
     robot = reading.robot
     if robot.source is not None:

@@ -15,6 +15,9 @@ from ..source.location import Place, SourceFile
 from ..source.packages import Packages
 from ..workspace import Workspace
 
+LARGEST = 1e30
+"""Largest number of a mass, size or pose; products of larger ones overflow."""
+
 _SHOWN = 3
 
 

@@ -29,8 +29,13 @@ def make_robot(description: Description) -> Robot:
 
 
 def read_again(robot: Robot) -> Robot:
-    """Return the robot as its description defines it, without later modifications."""
-    return robot if robot.source is None else make_robot(robot.source)
+    """Return the robot as its description defines it, without later modifications.
+
+    A robot in another format than URDF is returned as it is.
+    """
+    if robot.source is None or robot.format != "urdf":
+        return robot
+    return make_robot(robot.source)
 
 
 def load(

@@ -29,3 +29,27 @@ def add_world(robot: Robot) -> tuple[Robot, Joint | None]:
             links = [*robot.links, Link(joint.parent_element, WORLD)]
             return replace(robot, links=links), joint
     return robot, None
+
+
+def weld_base(robot: Robot) -> Robot:
+    """Return the robot with a link ``world`` and a fixed joint, if its source fixes its base.
+
+    URDF, and the writers of other formats, express a fixed base by such a link.
+
+    Args:
+        robot: Any robot; it is not modified.
+    """
+    base = robot.base
+    if base is None or base.is_free or WORLD in robot.link or len(robot.tree.roots) != 1:
+        return robot
+    root = robot.tree.roots[0].name
+    name = f"{root}_fixed"
+    while name in robot.joint:
+        name += "_"
+    joint = Joint(base.provenance, name, "fixed", WORLD, root, origin=base.origin)
+    return replace(
+        robot,
+        links=[Link(base.provenance, WORLD), *robot.links],
+        joints=[joint, *robot.joints],
+        base=None,
+    )

@@ -28,18 +28,21 @@ class _Kind(NamedTuple):
 
 
 def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[str] = ()) -> None:
-    """Report each part that the writers do not express; a robot read from URDF has none.
+    """Report what the reader left out, and each part that the writers do not express.
+
+    A robot read from URDF has neither.
 
     Args:
         robot: The source.
         written: The export, which receives the losses.
         expressed: Codes after ``lossy-`` of the kinds that the writer expresses.
     """
+    written.losses += robot.unread
     for code, what, parts, severity in _list_kinds(robot):
         if code in expressed:
             continue
         for part, name in parts:
-            message = f"{what} '{name}' is dropped" if name else f"a {what} is dropped"
+            message = f"{what} '{name}' is dropped" if name else f"an unnamed {what} is dropped"
             written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)
 
 

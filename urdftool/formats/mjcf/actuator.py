@@ -130,7 +130,7 @@ def _report_assumed_gains(robot: Robot, assumed: Mapping[str, Gain], written: Wr
     written.report_loss(
         "gains",
         f"{text}; --actuator-config sets others",
-        robot.element.place,
+        robot.place,
         severity=Severity.INFO,
     )
 

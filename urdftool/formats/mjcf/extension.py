@@ -17,7 +17,7 @@ from ..written import Written
 
 def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: Written) -> None:
     """Copy ``<compiler>``, ``<option>`` and other known elements to the sections, by name."""
-    for extension in robot.element.list_children("mujoco"):
+    for extension in () if robot.xml is None else robot.xml.list_children("mujoco"):
         for child in extension.children:
             if child.tag == "compiler":
                 _add_compiler(child, sections, written)

@@ -84,7 +84,7 @@ def fuse_links(
             "fused",
             f"{len(owner)} links that are fixed to another are merged into it; their frames are "
             "sites of their names",
-            structure.robot.element.place,
+            structure.robot.place,
             severity=Severity.INFO,
         )
     for link, top in owner.items():

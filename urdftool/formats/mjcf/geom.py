@@ -74,6 +74,8 @@ def get_shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
 
 def _get_drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
     """Return type and half sizes [m] of Drake's extra shapes; None for others."""
+    if shape.xml is None:
+        return None
     read = {
         name: number(shape.element.get(name)) or 0.0 for name in ("a", "b", "c", "radius", "length")
     }

@@ -182,8 +182,10 @@ def _list_candidates(states: Mapping[str, Mapping[str, float]]) -> Iterator[str]
 
 
 def get_robot_origin(robot: Robot) -> Origin | None:
-    """Return the ``<origin>`` of ``<robot>``, which some readers use as its pose in the world."""
-    element = robot.element.find_child("origin")
+    """Return the pose of the root in the world; ``<origin>`` of ``<robot>`` in URDF."""
+    if robot.base is not None:
+        return robot.base.origin
+    element = robot.find_child_xml("origin")
     if element is None:
         return None
     zero: Vector = (0.0, 0.0, 0.0)

@@ -196,7 +196,7 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
     written.report_loss(
         "overlap",
         f"{count} at home{does}: {'; '.join(parts)}",
-        structure.robot.element.place,
+        structure.robot.place,
         hint="; ".join(hints),
     )
 

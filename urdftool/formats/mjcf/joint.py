@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from lxml import etree
@@ -78,7 +79,7 @@ def _build_single(joint: Joint, kind: str, written: Written) -> etree._Element:
         element.set("type", "slide")
     element.set("axis", format_numbers_text(get_axis(joint)))
     limits = get_bounds(joint)
-    if limits is not None and limits[0] < limits[1]:
+    if limits is not None and limits[0] < limits[1] and all(map(math.isfinite, limits)):
         element.set("range", format_numbers_text(limits))
     effort = get_effort(joint)
     if effort is not None:

@@ -129,7 +129,7 @@ def _report_unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -
     if collides and any((file, role) == (path, False) for file, role, _ in uses):
         return  # reported for the visual
     place = _make_mesh(shape).locate_attribute("filename")
-    link = shape.element.parent
+    link = shape.xml.parent if shape.xml is not None else None
     name = (link.get("name") or "") if link is not None else ""
     yield make_defect("corrupt-mesh", f"mesh {path}: {message}", place, "link", name)
 
@@ -138,7 +138,7 @@ def _cut(
     cutter: Cutter, uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
 ) -> None:
     """Replace collision meshes that are not convex by their convex decomposition."""
-    places = {path: _make_mesh(shape).element for path, collides, shape in uses if collides}
+    places = {path: _make_mesh(shape) for path, collides, shape in uses if collides}
     wanted = [
         path
         for path in places

@@ -22,7 +22,7 @@ from ...source.document import STDIN, Document
 from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import Losses, Reading, open_description
+from ..reading import LARGEST, Losses, Reading, open_description
 from .read_compile import TIME_LIMIT, Compiled
 from .read_context import Context
 from .read_extras import add_extras
@@ -63,6 +63,7 @@ def read(
     robot = Robot(written, expanded.root.get("model") or compiled.name, format="mjcf")
     document = Document(file, expanded.root, [])
     robot.source = Description(str(path), document, expanded.files, finder)
+    _check_magnitudes(context)
     add_tree(context, robot)
     add_shapes(context, robot)
     add_extras(context, robot)
@@ -71,6 +72,29 @@ def read(
     found = losses.make_findings()
     robot.unread = found
     return Reading(robot, found)
+
+
+_MEASURED = {
+    "body": ("pos", "ipos", "mass", "inertia"),
+    "joint": ("pos",),
+    "geom": ("pos", "size"),
+}
+
+
+def _check_magnitudes(context: Context) -> None:
+    """Check that masses, sizes and positions are not too large to compute with.
+
+    Raises:
+        ModelError: One is.
+    """
+    for kind, names in _MEASURED.items():
+        for row in context.list_rows(kind):
+            for name in names:
+                values = row[name] if isinstance(row[name], list) else [row[name]]
+                if not all(abs(value) <= LARGEST for value in values):
+                    text = f"{name} of {kind} '{row['name']}' is above {LARGEST:g}"
+                    at = context.get_place(row).place
+                    raise ModelError(f"{text}; write a plausible number", at=at)
 
 
 def _compile(expanded: Expanded) -> Compiled:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...diagnostic import Severity
 from ...model.elements import (
     Box,
@@ -50,7 +52,7 @@ def add_shapes(context: Context, robot: Robot) -> None:
         if visible:
             link.visuals.append(Visual(written, name, origin, geometry, material))
         if collides:
-            link.collisions.append(Collision(written, name, origin, geometry))
+            link.collisions.append(Collision(written, name, origin, replace(geometry)))
             _report_contact(context, row, written)
         if not visible and not collides:
             text = "geoms that are neither seen nor touched count in the mass only"

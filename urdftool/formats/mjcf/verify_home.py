@@ -12,7 +12,7 @@ from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array, turn
+from ..mechanics import Array, get_origin_matrix, turn
 from .compiled import Compiled
 from .verify_source import Source, is_locked
 
@@ -111,7 +111,11 @@ def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, ch
 
 def _get_origin(source: Source) -> tuple[Array, Array]:
     """Return position and rotation of the whole robot in the description."""
-    origin = source.robot.element.find_child("origin")
+    base = source.robot.base
+    if base is not None:
+        matrix = get_origin_matrix(base.origin)
+        return matrix[:3, 3], matrix[:3, :3]
+    origin = source.robot.find_child_xml("origin")
     place = (parse_numbers(origin.get("xyz"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
     angles = (parse_numbers(origin.get("rpy"), 3) if origin is not None else None) or (
         0.0,

@@ -146,7 +146,8 @@ def _get_required_option(source: Source) -> str:
     if source.is_free or any(joint.type == "floating" for joint in source.robot.joints):
         values["cone"] = "elliptic"
     flags: dict[str, str] = {}
-    for extension in source.robot.element.list_children("mujoco"):
+    root = source.robot.xml
+    for extension in () if root is None else root.list_children("mujoco"):
         for option in extension.list_children("option"):
             values.update(option.attributes)
             for flag in option.list_children("flag"):

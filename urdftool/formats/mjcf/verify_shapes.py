@@ -13,6 +13,7 @@ from ...model.elements import (
     Capsule,
     Collision,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Link,
     Mesh,
@@ -224,6 +225,9 @@ def _compute_half(geometry: Geometry, turn: Array) -> Array | None:
         return None
     if isinstance(geometry, Sphere):
         return np.full(3, geometry.radius) if geometry.radius > 0 else None
+    if isinstance(geometry, Ellipsoid):
+        half: Array = np.sqrt((turn**2) @ np.square(geometry.radii))
+        return half if min(geometry.radii) > 0 else None
     if isinstance(geometry, Cylinder | Capsule):
         return _round_half(
             isinstance(geometry, Capsule), geometry.radius, geometry.length / 2, turn

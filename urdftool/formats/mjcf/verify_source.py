@@ -145,6 +145,8 @@ class Source:
         """Tell whether the root is free: by the options, or by the description."""
         if self.root == "world" or self.options.base != "auto":
             return self.root != "world" and self.options.base == "free"
+        if self.robot.base is not None:
+            return self.robot.base.is_free
         for element in self.list_whole("static"):
             if (element.get("value") or element.text).strip().lower() in ("true", "1", "yes"):
                 return False

@@ -58,7 +58,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     robot, world = report_taken_world(robot)
     model = get_model_name(robot)
     written = Written(options.file or f"{model}.xml")
-    report_unexpressed(robot, written)
+    report_unexpressed(robot, written, expressed=("base",))
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),
@@ -168,6 +168,8 @@ def _decide(structure: Structure, base: Base, virtual_joint: str | None) -> tupl
         return False, "the root link is the world"
     if base != "auto":
         return base == "free", f"--base {base}"
+    if robot.base is not None:
+        return robot.base.is_free, "the base of the source"
     if any(is_true(block.get_value("static")) for block in robot.extensions.get(None, ())):
         return False, "<gazebo> says static"
     if virtual_joint is not None:
@@ -186,7 +188,7 @@ def offer_srdf(robot: Robot, written: Written) -> None:
             "srdf-not-used",
             f"robot '{robot.name}' has an SRDF, which is not used: --srdf {names} takes over its "
             "disabled collisions, group states and virtual joint",
-            robot.element.place,
+            robot.place,
             severity=Severity.INFO,
         )
 

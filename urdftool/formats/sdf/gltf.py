@@ -37,6 +37,6 @@ def undo_axis_conversion(t: Translation, link: Link, shape: S) -> S:
     x, y, z = mesh.scale
     return replace(
         shape,
-        origin=Origin(shape.element, pose.translation, rpy_from_rotation(pose.rotation)),
+        origin=Origin(shape.provenance, pose.translation, rpy_from_rotation(pose.rotation)),
         geometry=replace(mesh, scale=(x, z, y)),
     )

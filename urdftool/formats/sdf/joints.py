@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
 from ...model.pose import compute_cross, compute_norm
@@ -108,8 +110,9 @@ def _add_bounds(node: Node, t: Translation, part: Joint) -> None:
         text = f"lower limit of joint '{part.name}' is above its upper limit; they are swapped"
         t.report_loss("limit", text, limit, part)
         lower, upper = upper, lower
-    add(node, "lower", number_text(lower))
-    add(node, "upper", number_text(upper))
+    for tag, bound in (("lower", lower), ("upper", upper)):
+        if math.isfinite(bound):
+            add(node, tag, number_text(bound))
 
 
 def _set_most(node: Node, t: Translation, part: Joint) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere, Visual
 from ...model.pose import Pose, make_pose, rpy_from_rotation
-from ...source.document import Element
 from .extensions import link_extensions, list_values, merge_elements
 from .frames import place
 from .gltf import undo_axis_conversion
@@ -67,25 +66,20 @@ def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str)
 
 def _collect_pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
     pose = make_pose(part.origin)
-    element = part.element
+    element = part.provenance
 
     def placed(z: float) -> Origin:
         moved = pose @ Pose(translation=(0.0, 0.0, z))
         return Origin(element, moved.translation, rpy_from_rotation(moved.rotation))
 
-    tube = Cylinder(_build_tagged(capsule, "cylinder"), capsule.radius, capsule.length)
-    ball = Sphere(_build_tagged(capsule, "sphere"), capsule.radius)
+    tube = Cylinder(capsule.provenance, capsule.radius, capsule.length)
+    ball = Sphere(capsule.provenance, capsule.radius)
     half = capsule.length / 2
     return [
         ("", Collision(element, None, part.origin, tube)),
         ("_top", Collision(element, None, placed(half), ball)),
         ("_bottom", Collision(element, None, placed(-half), ball)),
     ]
-
-
-def _build_tagged(capsule: Capsule, tag: str) -> Element:
-    e = capsule.element
-    return Element(tag, {}, e.parent, e.file, e.start, e.calls)
 
 
 def add_visual(node: Node, t: Translation, link: Link, part: Visual, name: str) -> None:
@@ -106,9 +100,7 @@ def add_visual(node: Node, t: Translation, link: Link, part: Visual, name: str) 
             shape,
             link,
         )
-        e = shape.element
-        tube = Element("cylinder", {}, e.parent, e.file, e.start, e.calls)
-        shape = Cylinder(tube, shape.radius, shape.length + 2 * shape.radius)
+        shape = Cylinder(shape.provenance, shape.radius, shape.length + 2 * shape.radius)
     assert shape is not None
     add_geometry(made, t, shape)
     add_material(made, t, link, part)

@@ -69,7 +69,9 @@ def _set_whole(node: Node, t: Translation) -> None:
                 for old in node.findall("static"):
                     node.remove(old)
                 add(node, "static", "true" if is_true(text) else "false")
-    origin = t.robot.element.find_child("origin")
+    if t.robot.base is not None and t.robot.base.origin is not None:
+        set_origin(node, t.robot.base.origin, exact=t.options.is_at_least("1.9"))
+    origin = t.robot.find_child_xml("origin")
     if origin is not None:
         xyz, rpy = (parse_numbers(origin.get(name), 3) or ZERO for name in ("xyz", "rpy"))
         set_origin(node, Origin(origin, xyz, rpy))  # type: ignore[arg-type]

@@ -8,8 +8,12 @@ from ...errors import ModelError
 from ...model.elements import Vector
 from ...model.pose import IDENTITY, Pose, rotation_from_quaternion, rotation_from_rpy
 from ...source.document import Element
+from ..reading import LARGEST
 
 Version = tuple[int, int]
+
+_MAY_BE_INFINITE = ("lower", "upper", "effort", "velocity")
+"""Elements in which a large number means no limit."""
 
 
 def read_text(element: Element, tag: str, default: str = "") -> str:
@@ -22,7 +26,8 @@ def read_numbers(element: Element, count: int) -> tuple[float, ...]:
     """Return the numbers in the text of an element.
 
     Raises:
-        ModelError: There are not ``count`` of them, or one is not a number.
+        ModelError: There are not ``count`` of them, one is not a number, or it is too large and
+            not a limit.
     """
     words = element.text.split()
     try:
@@ -34,6 +39,9 @@ def read_numbers(element: Element, count: int) -> tuple[float, ...]:
         raise ModelError(
             f"<{element.tag}> is '{' '.join(words)}'; {wanted} required", at=element.place
         )
+    if element.tag not in _MAY_BE_INFINITE and any(abs(value) > LARGEST for value in values):
+        text = f"<{element.tag}> is '{' '.join(words)}', above {LARGEST:g}"
+        raise ModelError(f"{text}; write a plausible number", at=element.place)
     return values
 
 

@@ -56,7 +56,7 @@ def is_writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
             what = f"has a <{get_shape_name(geometry)}> without extent"
         t.report_loss(
             "shape",
-            f"a {shape.element.tag} of link '{link.name}' {what}; it is not exported",
+            f"a {shape.tag} of link '{link.name}' {what}; it is not exported",
             geometry or shape,
             link,
         )
@@ -66,7 +66,7 @@ def is_writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
             "mesh",
             f"mesh '{geometry.filename}' of link '{link.name}' is "
             f"{'not a mesh' if geometry.filename in t.meshes.refused else 'missing'}; the "
-            f"{shape.element.tag} is not exported",
+            f"{shape.tag} is not exported",
             geometry,
             link,
         )
@@ -103,7 +103,7 @@ def add_geometry(node: Node, t: Translation, shape: Geometry) -> None:
         if shape.scale != (1.0, 1.0, 1.0):
             add(mesh, "scale", format_numbers_text(shape.scale))
         return
-    _PRIMITIVES[type(shape)](add(holder, shape.element.tag), shape)
+    _PRIMITIVES[type(shape)](add(holder, get_shape_name(shape)), shape)
 
 
 def _add_box(node: Node, box: Box) -> None:

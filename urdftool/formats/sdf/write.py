@@ -12,6 +12,7 @@ from ...finding import Finding
 from ...lint.validate import validate
 from ...mechanics.spatial_inertia import link_inertia
 from ...model.elements import Link, Mesh, Robot
+from ...model.world import WORLD
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -22,7 +23,7 @@ from ..common.force_fallbacks import (
 from ..common.missing_files import create_missing_mesh
 from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL as STRUCTURAL
-from ..defects import make_defect, refuse
+from ..defects import Refused, make_defect, refuse
 from ..written import Written
 from .joint_settings import choose_joint_settings
 from .mesh_files import MeshFiles, find_meshes
@@ -50,6 +51,9 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         ConfigError: The actuator file is invalid.
     """
     options = options or Options()
+    if robot.links and all(link.name == WORLD for link in robot.links):
+        text = "the robot has no link besides the world, and a model of SDF needs one"
+        raise Refused([make_defect("no-links", text, robot.place, "robot", robot.name)])
     left = drop_invalid_parts(robot)
     found = [*report_tree_defects(robot, left, options.force), *validate(robot, "export:sdf")]
     if options.force:
@@ -64,7 +68,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
-    report_unexpressed(robot, written)
+    report_unexpressed(robot, written, expressed=("base",))
     settings = choose_joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)
     root = _build_root(options)

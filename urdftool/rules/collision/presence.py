@@ -88,7 +88,7 @@ def report_robot_without_collision(robot: Robot) -> Iterator[Problem]:
     shapes = [shape.geometry for link in robot.links for shape in link.collisions]
     if not any(shape is not None and has_extent(shape) for shape in shapes):
         yield Problem(
-            robot.element,
+            robot,
             "no link has a <collision>, so the robot cannot make contact with the ground; add a "
             "<collision> to each link",
         )

@@ -84,7 +84,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
             renamed = f"_{renamed}" if renamed[0].isdigit() else renamed
             yield Problem(
                 part,
-                f"name of {part.element.tag} '{part.name}' is not an identifier; write '{renamed}'",
+                f"name of {part.tag} '{part.name}' is not an identifier; write '{renamed}'",
                 at=part.locate_attribute("name"),
                 data={"write": renamed},
             )
@@ -113,7 +113,7 @@ def name_style(robot: Robot) -> Iterator[Problem]:
         if part.name and not _SNAKE.fullmatch(part.name) and not is_unexpanded(part.name):
             yield Problem(
                 part,
-                f"name of {part.element.tag} '{part.name}' is not in lower case with underscores",
+                f"name of {part.tag} '{part.name}' is not in lower case with underscores",
                 at=part.locate_attribute("name"),
             )
 
@@ -148,7 +148,7 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
             seen.add(part.name)
             yield Problem(
                 part,
-                f"name of {part.element.tag} '{part.name}' has non-ASCII characters",
+                f"name of {part.tag} '{part.name}' has non-ASCII characters",
                 at=part.locate_attribute("name"),
             )
 
@@ -192,7 +192,7 @@ def confusable_names(robot: Robot) -> Iterator[Problem]:
         for name, part in parts.items():
             first = seen.setdefault(fold(name), name)
             if first != name:
-                tag = part.element.tag
+                tag = part.tag
                 yield Problem(
                     part,
                     f"{tag} '{name}' is easily confused with {tag} '{first}'; rename one",

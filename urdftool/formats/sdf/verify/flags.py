@@ -19,6 +19,7 @@ from .said import (
     get_text,
     list_elements_of_whole,
 )
+from .source import get_pose
 from .surfaces import list_own_links
 
 if TYPE_CHECKING:
@@ -64,7 +65,9 @@ def compare_base(pair: Pair) -> Check:
 def _place(pair: Pair) -> Array:
     """Return the pose of the model: from a block, else from the robot's origin."""
     pose = np.eye(4)
-    origin = pair.robot.element.find_child("origin")
+    if pair.robot.base is not None and pair.robot.base.origin is not None:
+        return get_pose(pair.robot.base.origin)
+    origin = pair.robot.find_child_xml("origin")
     if origin is not None:
         xyz, rpy = (
             parse_numbers(origin.get(name), 3) or (0.0, 0.0, 0.0) for name in ("xyz", "rpy")
