@@ -19,6 +19,7 @@ EXTRA_OF = {
     "distributed": "dask",
     "pxr": "usd",
     "newton": "usd-verify",
+    "robot_descriptions": "robots",
 }
 """Extra that installs each optional library, by import name."""
 

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from tests.conftest import FIXTURES
+from tests.formats.defective import joint, link, sdf
 from urdftool.formats.detect import format_of
 from urdftool.source.location import SourceFile
 
@@ -138,3 +139,24 @@ def test_inertia_that_no_body_can_have_is_found_with_its_line(urdftool, write):
     assert [fault["kind"] for fault in links["thin"]["faults"]] == ["triangle"]
     assert links["thin"]["faults"][0]["line"] == 3
     assert links["negative"]["faults"][0]["kind"] == "mass"
+
+
+@pytest.mark.library("pybullet")
+@pytest.mark.parametrize("kind", ["ball", "screw"])
+def test_simulate_names_the_joint_that_no_engine_simulates(urdftool, write, kind):
+    path = write("m.sdf", sdf(link("a") + link("b") + joint("a", "b", kind=kind)))
+    result = urdftool("simulate", path, "--engine", "pybullet")
+    assert result.code == 2
+    assert result.err.startswith(f"{path}:9:1: joint 'j' is {kind}, which no engine here simulates")
+
+
+@pytest.mark.library("pybullet")
+def test_simulate_says_that_a_loop_stays_open(urdftool, write):
+    three = link("a") + link("b") + link("c") + joint("a", "b") + joint("b", "c", name="k")
+    text = sdf(three + joint("a", "c", name="loop"))
+    path = write("m.sdf", text)
+    result = urdftool("simulate", path, "--engine", "pybullet", "--duration", "0.1")
+    assert result.code in (0, 1)
+    (warning,) = [line for line in result.err.splitlines() if "stays open" in line]
+    line = text[: text.index('<joint name="loop"')].count("\n") + 1
+    assert warning.startswith(f"{path}:{line}:1: warning: closed loop 'loop' between links")

@@ -44,13 +44,34 @@ def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
 
 def add_robot_argument(function: F) -> F:
     """Add ``IN [name:=value …]``, whose value is the path and the xacro arguments by name."""
-    return click.argument(
+    function = click.argument(
         "robot",
         nargs=-1,
         type=str,
         metavar="IN [name:=value ...]",
         callback=_parse_robot,
     )(function)
+    return add_name_option(function)
+
+
+def add_name_option(function: F) -> F:
+    """Add ``-r NAME``, whose robot takes the place of the path; see :func:`parse_robot`."""
+    return click.option(
+        "-r",
+        "named",
+        metavar="NAME",
+        is_eager=True,
+        expose_value=False,
+        callback=_store_name,
+        help="Robot of the Python package robot_descriptions or mujoco-menagerie, instead of IN.",
+    )(function)
+
+
+_NAME = "urdftool.named_robot"
+
+
+def _store_name(ctx: click.Context, parameter: click.Parameter, name: str | None) -> None:
+    ctx.meta[_NAME] = name
 
 
 def _parse_robot(
@@ -66,6 +87,11 @@ def parse_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[s
         UsageError: There is no path, or more than one.
     """
     paths, arguments = split_arguments(words)
+    name = ctx.meta.get(_NAME)
+    if name is not None:
+        from ..source.named_robots import find_named_robot
+
+        paths.append(find_named_robot(name))
     if not paths:
         raise click.UsageError(
             "missing argument IN: a .urdf or .xacro file, or '-' for standard input", ctx

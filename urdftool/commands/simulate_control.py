@@ -44,3 +44,17 @@ def apply_controllers(
     for note in controls.notes:
         console.print_note(note)
     return replace(settings, controls=controls.joints)
+
+
+def report_open_loops(console: Console, robot: Robot) -> None:
+    """Print the connections that close loops, which the engines are not given.
+
+    Args:
+        console: Output for warnings.
+        robot: Robot; one that was read from URDF has none.
+    """
+    for closure in robot.closures:
+        console.print_note(
+            f"{closure.place}: warning: closed loop '{closure.name}' between links "
+            f"'{closure.parent}' and '{closure.child}' stays open: the simulation uses the tree"
+        )

@@ -9,7 +9,7 @@ import click
 
 from ..simulation.engines.registry import BOTH, REGISTRY
 from .cache_options import CACHE_OPTIONS
-from .options import parse_robot, split_arguments
+from .options import add_name_option, parse_robot, split_arguments
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -59,9 +59,10 @@ _OPTIONS = (
 
 def add_robots_argument(function: F) -> F:
     """Add ``IN [name:=value …]``: one path, or with ``--fleet`` several, and xacro arguments."""
-    return click.argument(
+    function = click.argument(
         "robot", nargs=-1, type=str, metavar="IN [name:=value ...]", callback=_parse_robots
     )(function)
+    return add_name_option(function)
 
 
 def _parse_robots(

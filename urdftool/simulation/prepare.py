@@ -30,7 +30,8 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
         ModelError: A defect prevents the simulation, or the settings name an unknown joint or link.
         UrdftoolError: A mesh is not found or cannot be read.
     """
-    refuse([*report_defects(robot), *_report_unsupported_joints(robot)], force=True, fatal=_FATAL)
+    # joints of SDF and MJCF come first: a rule of URDF does not know their types
+    refuse([*_report_unsupported_joints(robot), *report_defects(robot)], force=True, fatal=_FATAL)
     check_settings(robot, settings)
     return make_rigid_bodies(robot, settings)
 
@@ -55,7 +56,7 @@ def _report_unsupported_joints(robot: Robot) -> Iterator[Finding]:
     """
     root = robot.tree.root
     for joint in robot.joints:
-        if joint.type not in ("planar", "floating", *BALL_TYPES):
+        if joint.type not in ("planar", "floating", "screw", *BALL_TYPES):
             continue
         if (
             joint.type == "floating"
