@@ -147,7 +147,7 @@ def test_simulate_names_the_joint_that_no_engine_simulates(urdftool, write, kind
     path = write("m.sdf", sdf(link("a") + link("b") + joint("a", "b", kind=kind)))
     result = urdftool("simulate", path, "--engine", "pybullet")
     assert result.code == 2
-    assert result.err.startswith(f"{path}:9:1: joint 'j' is {kind}, which no engine here simulates")
+    assert result.err.startswith(f"{path}:9:1: joint 'j' is {kind}, which is not simulated")
 
 
 @pytest.mark.library("pybullet")

@@ -128,8 +128,9 @@ def command(
 ) -> int:
     """Check robot descriptions for errors, and report each finding at its line.
 
-    PATH is a .urdf or .xacro file, a folder with .urdf and .urdf.xacro files, or '-' (standard
-    input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with commas.
+    PATH is a file (URDF, xacro, SDF or MJCF), a folder with .urdf and .urdf.xacro files, or '-'
+    (standard input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with
+    commas.
 
     \b
         urdftool lint arm.urdf.xacro prefix:=left_

@@ -94,7 +94,8 @@ def parse_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[s
         paths.append(find_named_robot(name))
     if not paths:
         raise click.UsageError(
-            "missing argument IN: a .urdf or .xacro file, or '-' for standard input", ctx
+            "missing argument IN: a robot (URDF, xacro, SDF or MJCF), or '-' for standard input",
+            ctx,
         )
     if len(paths) > 1:
         raise click.UsageError(

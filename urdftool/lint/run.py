@@ -37,7 +37,7 @@ from .not_checked import convert_error, refuse_other_files, refuse_other_roots, 
 from .outcome import Options, Report
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
-from .targets import infer_targets
+from .targets import TARGET_OF, infer_targets
 from .variants import as_one, get_variants, label
 
 
@@ -157,6 +157,12 @@ def _check_variant(
                 return report
             if other is not None:
                 assert other.source is not None
+                if other.format not in TARGET_OF:
+                    raise SourceError(
+                        f"is {other.format.upper()}, which lint does not check; it checks URDF, "
+                        "xacro, SDF and MJCF",
+                        path=file.path,
+                    )
                 report.unread = other.unread
                 _check_description(other.source, other, settings, report, [], options)
                 return report

@@ -73,7 +73,7 @@ TARGETS = (
 GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")
 
-ANY_FORMAT = ("urdf", "sdf", "mjcf")
+ANY_FORMAT = ("urdf", "sdf", "mjcf", "usd")
 URDF_AND_SDF = ("urdf", "sdf")
 
 Check = Callable[..., Iterable["Problem"]]

@@ -60,7 +60,7 @@ def read(
     stage = open_stage(file, losses)
     context = Context(stage, file, losses, articulation)
     written = Written(context.get_place(context.top))
-    robot = Robot(written, context.robot_name)
+    robot = Robot(written, context.robot_name, format="usd")
     finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
     root = Element("robot", {"name": robot.name}, None, file, 0)
     robot.source = Description(str(path), Document(file, root, []), [file], finder)
