@@ -53,7 +53,18 @@ BELOW = {
     "info": ("model", "geometry", *BASE),
     "compare": ("mechanics", "model", "source", *BASE),
     "api": (
-        *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
+        *(
+            "bundle",
+            "geometry",
+            "formats",
+            "simulation",
+            "collision",
+            "inertia",
+            "lint",
+            "rules",
+            "model",
+            "source",
+        ),
         *("finding", "output", *BASE),
     ),
 }
@@ -72,6 +83,7 @@ PLACES = {
     "xacro": (),  # source/xacro_hooks.py loads a copy
     "lxml": ("formats/",),
     "trimesh": ("geometry/",),
+    "yourdfpy": ("bundle/yourdfpy_reader.py",),
     "scipy": ("geometry/", "inertia/", "collision/"),
     "manifold3d": ("geometry/hull.py", "simulation/solids.py"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
@@ -79,6 +91,7 @@ PLACES = {
     "numpy": (
         *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "formats/"),
         *("collision/", "simulation/", "bundle/mesh_formats.py"),
+        "bundle/yourdfpy_reader.py",
     ),
     "coacd": ("collision/coacd_child.py",),
     "distributed": ("collision/cluster.py",),
@@ -86,7 +99,7 @@ PLACES = {
     "newton": ("formats/usd/newton_child.py",),
     "mujoco": ("formats/mjcf/", "simulation/engines/mujoco/"),
     "PIL": (
-        *("drawing/", "formats/mjcf/texture.py"),
+        *("drawing/", "formats/mjcf/texture.py", "geometry/scene.py"),
         "formats/mjcf/verify_looks.py",
     ),
     "pybullet": ("simulation/engines/pybullet/",),

@@ -10,6 +10,7 @@ EXTRA_OF = {
     "scipy": "mesh",
     "manifold3d": "mesh",
     "coacd": "mesh",
+    "yourdfpy": "mesh",
     "pygraphviz": "draw",
     "PIL": "draw",
     "matplotlib": "draw",

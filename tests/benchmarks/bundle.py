@@ -128,12 +128,12 @@ def main(words: list[str]) -> int:
     """Bundle the robots, load them with each reader, and print a table."""
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.bundle", description=__doc__)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("options", nargs="*", help="options of bundle, after --")
+    parser.add_argument("--options", default="", help='options of bundle: "--for mujoco"')
     parser.add_argument("--reader", action="append", choices=("check_urdf", *COMMANDS))
     arguments = parser.parse_args(words)
     folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    rows = measure(folder, arguments.options)
+    rows = measure(folder, arguments.options.split())
     written = [row for row in rows if "bundle" in row and has_links(str(row["bundle"]))]
     sources = [str(row["source"]) for row in written]
     bundles = [str(row["bundle"]) for row in written]

@@ -23,16 +23,6 @@ def mtl(image="paint.png"):
     return f"newmtl paint\nKd 1 0 0\nmap_Kd -s 1 1 1 {image}\n".encode()
 
 
-def dae(image):
-    """A COLLADA file that names an image; the second init_from is the name of a surface."""
-    return (
-        '<?xml version="1.0"?>\n<COLLADA version="1.4.1">'
-        f'<library_images><image id="i"><init_from>{image}</init_from></image></library_images>'
-        '<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>'
-        "</COLLADA>\n"
-    ).encode()
-
-
 def gltf_document(buffer, image, size=12):
     """The JSON of a glTF file with a buffer and an image."""
     return json.dumps(
@@ -87,3 +77,16 @@ COLORED_DAE = """<?xml version="1.0"?>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
 """
 """A tetrahedron of 1, 2 and 3 m in centimeters, with a color."""
+
+
+def dae(image):
+    """The tetrahedron, with an image; the second init_from is the name of a surface."""
+    images = (
+        f'<library_images><image id="i"><init_from>{image}</init_from></image></library_images>'
+    )
+    surface = (
+        '<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>'
+        "<technique"
+    )
+    text = COLORED_DAE.replace("<library_effects>", images + "<library_effects>")
+    return text.replace("<technique", surface, 1).encode()

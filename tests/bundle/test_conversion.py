@@ -11,8 +11,6 @@ from urdftool.bundle.presets import PRESETS
 from urdftool.commands.bundle import PRESET_NAMES
 from urdftool.geometry.load import load_mesh
 
-pytestmark = pytest.mark.library("collada")
-
 TEXTURED = b"""mtllib a.mtl
 o one
 v 0 0 0
@@ -58,7 +56,7 @@ def test_units_and_colors_of_collada(urdftool, write, tmp_path, target):
     if target == "stl":
         assert "[lossy-mesh]" in result.err
     else:
-        assert result.err.count("\n") == 2  # the summary and the check
+        assert "lossy-mesh" not in result.err
         assert mesh.parts[0].rgba == pytest.approx((0.2, 0.4, 0.6, 1), abs=1e-5)
 
 
@@ -119,7 +117,7 @@ def test_the_command_names_every_preset():
 
 
 def test_a_mesh_that_cannot_be_read_is_kept(urdftool, write, tmp_path):
-    mesh = write("a.dae", files.dae("x.png"))
+    mesh = write("a.dae", "<COLLADA/>")
     result = urdftool(
         "bundle", write("r.urdf", files.robot((mesh, mesh))), "-o", "o", "--meshes", "obj"
     )

@@ -7,15 +7,16 @@ import stat
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from urllib.parse import unquote
 
 from ..errors import SourceError, UrdftoolError
+from ..model.elements import Robot
 from ..source.document import parse, read_file
 from ..source.packages import find_own_package
 from .collect import is_outside
+from .defect import Defect
 from .manifest import MANIFEST, compute_digest, parse_manifest, read_digests
 from .output import is_zip
 from .references import find_references, has_references, list_readings
@@ -29,41 +30,32 @@ _NAMES_A_FILE = {
 }
 
 
-@dataclass(frozen=True)
-class Defect:
-    """Defect of a bundle.
-
-    Attributes:
-        code: Kind of the defect, such as ``missing-file``.
-        path: File in the bundle.
-        message: Sentence about the file.
-    """
-
-    code: str
-    path: str
-    message: str
-
-    def __str__(self) -> str:
-        """Return ``FILE: message [code]``."""
-        return f"{self.path}: {self.message} [{self.code}]"
-
-
 def is_bundle(path: str | Path) -> bool:
     """Tell whether a path is a folder with a ``bundle.json``, or a zip file."""
     return (Path(path) / MANIFEST).is_file() or (is_zip(path) and os.path.isfile(path))
 
 
-def check_bundle(path: str | Path) -> list[Defect]:
+def check_bundle(path: str | Path, source: Robot | None = None) -> list[Defect]:
     """Find the defects of a bundle.
 
     Args:
         path: A folder or a zip file.
+        source: The robot that was bundled, to compare with as yourdfpy reads both; None compares
+            nothing.
 
     Raises:
         SourceError: It is not a bundle, or the zip file cannot be read.
+        MissingDependency: yourdfpy is not installed.
     """
     with open_bundle(path) as folder:
-        return list(_find_defects(folder))
+        found = list(_find_defects(folder))
+        document = parse_manifest((folder / MANIFEST).read_bytes())
+        if source is not None and document is not None:
+            from .yourdfpy_reader import compare_with_source
+
+            inner = document["description"]
+            found += compare_with_source(source, folder / inner, inner)
+        return found
 
 
 @contextmanager

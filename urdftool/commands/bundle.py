@@ -14,6 +14,7 @@ from .read_other import read_any
 
 if TYPE_CHECKING:
     from ..bundle.make import Bundle, BundleOptions
+    from ..model.elements import Robot
 
 PRESET_NAMES = ("mujoco", "pybullet", "drake", "isaac", "genesis", "web", "foxglove")
 
@@ -105,7 +106,7 @@ def command(
     _report_notes(console, bundle)
     write_bundle(output, bundle, overwrite=overwrite)
     _report(console, bundle, output)
-    return _check(console, output) if check else 0
+    return _check(console, output, model) if check else 0
 
 
 def _make_options(output: str, choices: dict[str, Any]) -> BundleOptions:
@@ -152,12 +153,17 @@ def _report(console: Console, bundle: Bundle, output: str) -> None:
     console.print_note(f"{output}: {bundle.description}, {count}, {total / 1e6:.1f} MB")
 
 
-def _check(console: Console, path: str) -> int:
-    """Verify a bundle and print its defects; return the exit code."""
+def _check(console: Console, path: str, source: Robot | None = None) -> int:
+    """Verify a bundle, compare it with its source, and print its defects; return the exit code."""
     from ..bundle.check import check_bundle
+    from ..extras import install_command, is_installed
     from ..report.counted import format_count
 
-    defects = check_bundle(path)
+    if source is not None and not is_installed("yourdfpy"):
+        why = f"yourdfpy is not installed: {install_command('mesh')}"
+        console.print_note(f"{path}: not compared with the source; {why}")
+        source = None
+    defects = check_bundle(path, source)
     for line in defects:
         click.echo(line)
     if not defects:
