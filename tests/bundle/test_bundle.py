@@ -170,7 +170,8 @@ def test_missing_textures_are_reported_and_left_out(urdftool, write, tmp_path):
     assert result.code == 0
     assert "[missing-texture]" in result.err
     assert "[missing-companion]" in result.err
-    assert "gone.png" not in (tmp_path / "out" / "arm.urdf").read_text()
+    text = (tmp_path / "out" / "arm.urdf").read_text()
+    assert '<material name="m"><color rgba="1 1 1 1"/></material>' in text
     assert "<init_from>skin.png<" in (tmp_path / "out" / "meshes" / "a.dae").read_text()
     checked = urdftool("bundle", "out", "--check")
     assert checked.out == "meshes/a.dae: 'skin.png' does not exist in the bundle " + (

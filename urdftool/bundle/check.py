@@ -13,7 +13,7 @@ from urllib.parse import unquote
 
 from ..errors import SourceError, UrdftoolError
 from ..model.elements import Robot
-from ..source.document import parse, read_file
+from ..source.document import Element, parse, read_file
 from ..source.packages import find_own_package
 from .collect import is_outside
 from .defect import Defect
@@ -153,10 +153,9 @@ def _check_description(folder: Path, inner: str, path: Path) -> Iterator[Defect]
     except UrdftoolError as error:
         yield Defect("malformed-xml", inner, error.message)
         return
-    base = path.parent
+    folders = _find_asset_folders(root) if path.suffix.lower() == ".xml" else {}
     for element in root.walk():
-        if element.tag == "compiler" and path.suffix == ".xml":
-            base = base / element.attributes.get("meshdir", "")
+        base = path.parent / folders.get(element.tag, "")
         names = _NAMES_A_FILE.get(element.tag, ())
         for name, value in element.attributes.items():
             if name in names or is_outside(value):
@@ -164,6 +163,17 @@ def _check_description(folder: Path, inner: str, path: Path) -> Iterator[Defect]
         text = element.text.strip()
         if is_outside(text) or (element.tag == "uri" and "://" not in text and "/" in text):
             yield from _check_reference(folder, inner, base, text)
+
+
+def _find_asset_folders(root: Element) -> dict[str, str]:
+    """Return the folders of meshes and textures of an MJCF, by the tag of the reference."""
+    found: dict[str, str] = {}
+    for compiler in root.list_children("compiler"):
+        both = compiler.get("assetdir") or ""
+        meshes = compiler.get("meshdir") or both
+        textures = compiler.get("texturedir") or both
+        found |= {"mesh": meshes, "hfield": meshes, "texture": textures}
+    return found
 
 
 def _check_reference(

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from .. import __version__
 from ..errors import ModelError
 from ..model.elements import Robot
+from ..source.description import Description
 from ..source.document import Element
 from ..source.edit import Edit, Source, apply, parse_source, remove_element, set_attribute
 from ..source.escape import escape
@@ -29,10 +30,20 @@ def make_urdf(robot: Robot, name: str) -> SourceFile:
     """
     if robot.source is None or robot.xml is None:
         raise ModelError("the robot was not read from URDF or xacro")
-    if robot.source.expansion is not None:
-        text = write_xml(robot.source.expansion.tree, [])
+    return expand_description(robot.source, name)
+
+
+def expand_description(description: Description, name: str) -> SourceFile:
+    """Return a description as plain XML in UTF-8; xacro is expanded.
+
+    Args:
+        description: The description.
+        name: Path of the file, for messages.
+    """
+    if description.expansion is not None:
+        text = write_xml(description.expansion.tree, [])
         return SourceFile(name, text.encode())
-    file = robot.source.document.file
+    file = description.document.file
     if file.encoding.replace("-", "").lower() in ("utf8", "ascii", "usascii"):
         return SourceFile(name, file.data.removeprefix(b"\xef\xbb\xbf"))
     data = file.data.decode(file.encoding).encode()
@@ -60,7 +71,7 @@ def rewrite(
         if any(id(above) in removed for above in _list_ancestors(element)):
             continue
         if id(element) in removed:
-            edits.append(remove_element(source, element))
+            edits.append(_remove(source, element))
             continue
         for name, value in element.attributes.items():
             if value.strip() in uris and _may_be_file(element, name):
@@ -108,6 +119,17 @@ def _find_missing_parts(root: Element, missing: set[str]) -> Iterator[Element]:
                 if above.tag in ("visual", "collision"):
                     yield above
                     break
+
+
+def _remove(source: Source, element: Element) -> Edit:
+    """Return the edit that removes an element; the only content of a material becomes white.
+
+    Drake rejects a material that has neither a color nor a texture.
+    """
+    material = element.parent
+    if element.tag != "texture" or material is None or material.find_child("color") is not None:
+        return remove_element(source, element)
+    return Edit(element.start, element.end, b'<color rgba="1 1 1 1"/>')
 
 
 def _set_text(source: Source, element: Element, text: str) -> Edit:

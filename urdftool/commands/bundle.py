@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 PRESET_NAMES = ("mujoco", "pybullet", "drake", "isaac", "genesis", "web", "foxglove")
 
 _GROUPS = {
-    "Output": "output preset uri package_name meshes overwrite",
+    "Output": "output formats srdf preset uri package_name meshes overwrite",
     "Verification": "check force",
 }
 
@@ -27,6 +27,15 @@ _GROUPS = {
 @click.command("bundle", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
 @click.option("-o", "--output", metavar="OUT", help="Output folder, or .zip file.")
+@click.option(
+    "--format",
+    "formats",
+    multiple=True,
+    type=click.Choice(("urdf", "sdf", "mjcf")),
+    metavar="FORMAT",
+    help="Add the robot as sdf or mjcf to the URDF. Repeatable.",
+)
+@click.option("--srdf", type=Path, metavar="FILE", help="Add a MoveIt SRDF; xacro is expanded.")
 @click.option(
     "--uri",
     type=click.Choice(("relative", "package", "file")),
@@ -74,6 +83,8 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
     overwrite: bool,
+    formats: tuple[str, ...],
+    srdf: Path | None,
     **choices: Any,
 ) -> int:
     """Write the robot IN with all meshes, textures and licenses into one folder or zip file.
@@ -86,6 +97,7 @@ def command(
         urdftool bundle arm.urdf -o arm.zip
         urdftool bundle arm/ --check
     """  # noqa: D301 -- click reads the escape
+    from ..bundle.add_formats import add_formats, add_srdf
     from ..bundle.check import is_bundle
     from ..bundle.make import make_bundle
     from ..bundle.output import write_bundle
@@ -99,6 +111,9 @@ def command(
     model = read_any(console, robot, package, package_path, edit="bundle")
     try:
         bundle = make_bundle(model, options)
+        if srdf is not None:
+            add_srdf(bundle, model, srdf)
+        add_formats(bundle, formats, force=options.force, srdf=srdf)
     except Refused as refused:
         from .export_report import report_refused
 
