@@ -12,13 +12,18 @@ import argparse
 import json
 import os
 import shutil
+import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import cast
 
+import urdftool
 from urdftool import cli
+from urdftool.bundle.yourdfpy_reader import compare_with_source
+from urdftool.model.elements import Link
 
 from . import peers
 from .robots import CORPUS, bullet_robots, example_robots, manifest, options_of
@@ -124,12 +129,66 @@ def read(folder: Path, reader: str, paths: Sequence[str]) -> dict[str, dict[str,
     return found
 
 
+def load_source(row: dict[str, object]) -> urdftool.Robot:
+    """Load the source of a row with its xacro arguments and options."""
+    words = [str(word) for word in cast("list[str]", row["words"])]
+    paths = [words[i + 1] for i, word in enumerate(words) if word == "--package-path"]
+    pairs = [word.partition(":=") for word in words if ":=" in word]
+    arguments = {name: value for name, _, value in pairs}
+    return urdftool.load(str(row["source"]), args=arguments, package_paths=paths)
+
+
+def compare_all(rows: Sequence[dict[str, object]]) -> list[str]:
+    """Compare each bundle with its source: masses by the model, the rest by yourdfpy."""
+    found = []
+    for row in rows:
+        source, path = load_source(row), Path(str(row["bundle"]))
+        bundle = urdftool.load(path)
+        if [list_masses(one) for one in source.links] != [list_masses(one) for one in bundle.links]:
+            found.append(f"{row['source']}: masses differ")
+        found += [f"{row['source']}: {one}" for one in compare_with_source(source, path, path.name)]
+    return found
+
+
+def list_masses(link: Link) -> list[object]:
+    """Return the mass properties of a link."""
+    inertial = link.inertial
+    if inertial is None:
+        return []
+    origin = inertial.origin
+    pose = None if origin is None else (origin.xyz, origin.rpy)
+    return [link.name, inertial.mass, pose, inertial.inertia and inertial.inertia.six]
+
+
+def time_all(rows: Sequence[dict[str, object]], folder: Path) -> list[float]:
+    """Return the time of bundle relative to ``cp -r`` of its files plus expand, for each row."""
+    command = [sys.executable, "-m", "urdftool", "-q"]
+    ratios = []
+    for number, row in enumerate(rows):
+        words = [str(row["source"]), *cast("list[str]", row["words"])]
+        times = []
+        for run in range(3):
+            target = folder / "timed" / f"{number}_{run}"
+            target.parent.mkdir(parents=True, exist_ok=True)
+            start = time.perf_counter()
+            subprocess.run([*command, "bundle", *words, "-o", str(target)], check=False)
+            middle = time.perf_counter()
+            subprocess.run(["cp", "-r", str(target), f"{target}_copy"], check=False)
+            subprocess.run([*command, "expand", *words, "-o", f"{target}.urdf"], check=False)
+            times.append((middle - start, time.perf_counter() - middle))
+        bundled, copied = (statistics.median(column) for column in zip(*times, strict=True))
+        ratios.append(bundled / copied)
+    return ratios
+
+
 def main(words: list[str]) -> int:
     """Bundle the robots, load them with each reader, and print a table."""
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.bundle", description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--options", default="", help='options of bundle: "--for mujoco"')
     parser.add_argument("--reader", action="append", choices=("check_urdf", *COMMANDS))
+    parser.add_argument("--compare", action="store_true", help="compare bundles with sources")
+    parser.add_argument("--time", action="store_true", help="time bundle, cp -r and expand")
     arguments = parser.parse_args(words)
     folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
@@ -138,6 +197,14 @@ def main(words: list[str]) -> int:
     sources = [str(row["source"]) for row in written]
     bundles = [str(row["bundle"]) for row in written]
     print(f"{len(rows)} descriptions, {len(written)} bundles")
+    if arguments.compare:
+        found = compare_all(written)
+        print(f"{len(written)} compared", *found, sep="\n")
+        return 0
+    if arguments.time:
+        ratios = time_all(written[:: max(1, len(written) // 25)], folder)
+        print(f"time of bundle: median {statistics.median(ratios):.2f}, most {max(ratios):.2f}")
+        return 0
     for reader in arguments.reader or ("check_urdf", *COMMANDS):
         answers = read(folder, reader, [*sources, *bundles])
         before = sum(bool(answers.get(path, {}).get("ok")) for path in sources)

@@ -149,6 +149,15 @@ def test_uris_in_gazebo_blocks(urdftool, project, write, tmp_path):
     assert "pid.yaml' points out of the bundle [points-out]" in checked.out
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1", "utf-16"])
+def test_the_description_is_xml_that_every_reader_takes(urdftool, write, tmp_path, encoding):
+    named = {"latin-1": ' encoding="ISO-8859-1"', "utf-16": ' encoding="UTF-16"'}.get(encoding, "")
+    text = f'<?xml version="0.0"{named}?>\n<!-- ä --><robot name="r"><link name="a"/></robot>'
+    assert urdftool("bundle", write("r.urdf", text.encode(encoding)), "-o", "out").code == 0
+    data = (tmp_path / "out" / "r.urdf").read_bytes()
+    assert data.startswith('<?xml version="1.0"?>\n<!-- ä -->'.encode())
+
+
 def test_missing_meshes_are_refused(urdftool, write, tmp_path):
     write("a.stl", files.stl())
     path = write("r.urdf", files.robot(("a.stl", "gone.stl"), ("gone.dae", "a.stl")))

@@ -15,6 +15,7 @@ from ..source.escape import escape
 from ..source.expansion import write_xml
 from ..source.location import SourceFile
 
+_VERSION = re.compile(rb"""\A(<\?xml\s+version\s*=\s*)("[^"]*"|'[^']*')""")
 _ENCODING = re.compile(rb"""(<\?xml[^>]*?)\s+encoding\s*=\s*("[^"]*"|'[^']*')""")
 
 
@@ -45,9 +46,15 @@ def expand_description(description: Description, name: str) -> SourceFile:
         return SourceFile(name, text.encode())
     file = description.document.file
     if file.encoding.replace("-", "").lower() in ("utf8", "ascii", "usascii"):
-        return SourceFile(name, file.data.removeprefix(b"\xef\xbb\xbf"))
-    data = file.data.decode(file.encoding).encode()
-    return SourceFile(name, _ENCODING.sub(rb"\1", data, count=1))
+        data = file.data.removeprefix(b"\xef\xbb\xbf")
+    else:
+        data = _ENCODING.sub(rb"\1", file.data.decode(file.encoding).encode(), count=1)
+    return SourceFile(name, replace_version(data))
+
+
+def replace_version(data: bytes) -> bytes:
+    """Return an XML file whose declaration has version 1.0; browsers reject others, such as 0.0."""
+    return _VERSION.sub(rb'\1"1.0"', data, count=1)
 
 
 def rewrite(
