@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ..diagnostic import Severity
 from ..errors import ConfigError
@@ -18,11 +18,13 @@ from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
 from .layout import make_portable
 from .manifest import MANIFEST, Manifest, compute_digest
-from .mesh_formats import MeshFormat
 from .origin import find_licenses, find_repositories, list_declared_licenses, name_source
 from .presets import PRESETS
 from .ros_package import make_package_files
 from .store import Content, Conversion, Stored, store_assets
+
+if TYPE_CHECKING:
+    from .mesh_formats import MeshFormat
 
 Uri = Literal["relative", "package", "file"]
 

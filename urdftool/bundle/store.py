@@ -6,26 +6,18 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import MeshError
-from ..geometry.load import load_mesh
-from ..geometry.mesh import Mesh
 from ..source.description import GltfUp
 from .collect import Asset, AssetKind, Collection
 from .layout import Layout
 from .manifest import compute_digest
-from .mesh_formats import (
-    MaterialNames,
-    MeshFormat,
-    describe_losses,
-    encode_glb,
-    encode_mtl,
-    encode_obj,
-    encode_stl,
-    get_image_suffix,
-    read_image,
-)
 from .references import rewrite_references
+
+if TYPE_CHECKING:
+    from ..geometry.mesh import Mesh
+    from .mesh_formats import MeshFormat
 
 Content = bytes | Path
 
@@ -92,6 +84,8 @@ class _Store:
             return self.stored.places[asset]
         conversion = self._conversion
         if asset.kind == "mesh" and conversion is not None and not conversion.accepts(asset.path):
+            from ..geometry.load import load_mesh  # imports numpy
+
             try:
                 mesh = load_mesh(asset.path, gltf_up=conversion.gltf_up)
             except MeshError as error:
@@ -109,6 +103,8 @@ class _Store:
 
     def _add_converted(self, asset: Asset, mesh: Mesh, conversion: Conversion) -> str:
         """Store a mesh in another format; return its path in the bundle."""
+        from .mesh_formats import describe_losses, encode_glb, encode_stl
+
         target = conversion.target
         if target == "obj":
             data = self._encode_obj(asset, mesh)
@@ -122,6 +118,14 @@ class _Store:
 
     def _encode_obj(self, asset: Asset, mesh: Mesh) -> bytes:
         """Store the images and materials of a mesh; return it as OBJ."""
+        from .mesh_formats import (
+            MaterialNames,
+            encode_mtl,
+            encode_obj,
+            get_image_suffix,
+            read_image,
+        )
+
         images = {}
         for number, part in enumerate(mesh.parts):
             image = read_image(part)

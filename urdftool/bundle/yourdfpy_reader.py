@@ -83,7 +83,7 @@ def compare_with_source(robot: Robot, description: Path, path: str) -> list[Defe
         return [Defect("unreadable", path, f"yourdfpy cannot read it: {error}")]
     found = list(_compare_names(robot, bundle))
     if not found:
-        found = [*_compare_frames(robot, bundle), *_compare_bounds(source, bundle)]
+        found = [*_compare_frames(robot, source, bundle), *_compare_bounds(source, bundle)]
     return [Defect("differs-from-source", path, message) for message in found]
 
 
@@ -96,7 +96,8 @@ def _compare_names(robot: Robot, bundle: Any) -> Iterator[str]:
         yield "has other joints than the source"
 
 
-def _compare_frames(robot: Robot, bundle: Any) -> Iterator[str]:
+def _compare_frames(robot: Robot, source: Any, bundle: Any) -> Iterator[str]:
+    """Yield the links whose pose is neither that of our model nor that of the source."""
     movable = find_movable_joints(robot)
     leaders = {name: joint for name, joint in movable.items() if joint.mimic is None}
     compared = _list_comparable_links(robot)
@@ -104,20 +105,28 @@ def _compare_frames(robot: Robot, bundle: Any) -> Iterator[str]:
     for positions in _sample_positions(leaders):
         with _without_messages():
             bundle.update_cfg(positions)
+            source.update_cfg(positions)
         poses = link_poses(robot, add_mimic_positions(robot, positions))
         for name in compared:
             if name not in poses:
                 continue
             matrix = np.asarray(bundle.get_transform(name))
-            size = max(1.0, float(np.abs(matrix[:3, 3]).max()))
-            off = max(
-                float(np.abs(matrix[:3, :3] - np.array(poses[name].rotation)).max()),
-                float(np.abs(matrix[:3, 3] - np.array(poses[name].translation)).max()) / size,
-            )
+            expected = np.eye(4)
+            expected[:3, :3], expected[:3, 3] = poses[name].rotation, poses[name].translation
+            off = _measure_difference(matrix, expected)
+            if not off <= _TOLERANCE:  # loops and repeated names are read differently
+                off = _measure_difference(matrix, np.asarray(source.get_transform(name)))
             worst[name] = max(worst.get(name, 0.0), off)
     for name, off in worst.items():
         if not off <= _TOLERANCE:
             yield f"the pose of link '{name}' differs from the source by {off:.3g}"
+
+
+def _measure_difference(matrix: Array, expected: Array) -> float:
+    """Return the largest difference of two poses; of positions beyond 1 m the relative one."""
+    size = max(1.0, float(np.abs(expected[:3, 3]).max()))
+    turned = np.abs(matrix[:3, :3] - expected[:3, :3]).max()
+    return float(max(turned, np.abs(matrix[:3, 3] - expected[:3, 3]).max() / size))
 
 
 def _list_comparable_links(robot: Robot) -> list[str]:
@@ -179,8 +188,7 @@ def _compare_bounds(source: Any, bundle: Any) -> Iterator[str]:
             if name not in old or name not in new:
                 yield f"the {kind} meshes of link '{name}' are not those of the source"
                 continue
-            size = max(1.0, float(np.abs(old[name]).max()))
-            if not float(np.abs(old[name] - new[name]).max()) <= _TOLERANCE * size:
+            if not np.allclose(old[name], new[name], _TOLERANCE, _TOLERANCE, equal_nan=True):
                 yield f"the bounds of the {kind} geometry of link '{name}' differ from the source"
 
 

@@ -97,7 +97,6 @@ def command(
         urdftool bundle arm.urdf -o arm.zip
         urdftool bundle arm/ --check
     """  # noqa: D301 -- click reads the escape
-    from ..bundle.add_formats import add_formats, add_srdf
     from ..bundle.check import is_bundle
     from ..bundle.make import make_bundle
     from ..bundle.output import write_bundle
@@ -111,9 +110,12 @@ def command(
     model = read_any(console, robot, package, package_path, edit="bundle")
     try:
         bundle = make_bundle(model, options)
-        if srdf is not None:
-            add_srdf(bundle, model, srdf)
-        add_formats(bundle, formats, force=options.force, srdf=srdf)
+        if formats or srdf is not None:
+            from ..bundle.add_formats import add_formats, add_srdf  # imports numpy
+
+            if srdf is not None:
+                add_srdf(bundle, model, srdf)
+            add_formats(bundle, formats, force=options.force, srdf=srdf)
     except Refused as refused:
         from .export_report import report_refused
 
