@@ -8,13 +8,14 @@ parsed (rules of the ``xml`` family report them). Parts do not change after read
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..source.document import Element
 from ..workspace import Memo
+from .conversions import RobotConversions
 from .mechanism import (
     Base,
     Camera,
@@ -41,8 +42,6 @@ from .shapes import Sphere as Sphere
 from .shapes import UnknownShape as UnknownShape
 
 if TYPE_CHECKING:
-    import trimesh
-
     from ..finding import Finding
     from ..source.description import Description
     from .tree import KinematicTree
@@ -354,7 +353,7 @@ class Ros2Control(Part):
 
 
 @dataclass
-class Robot(Part):
+class Robot(RobotConversions, Part):
     """Robot, possibly invalid: all links and joints as written, including duplicate names.
 
     Attributes:
@@ -465,37 +464,3 @@ class Robot(Part):
                 yield link, visual
             for collision in link.collisions:
                 yield link, collision
-
-    def to_scene(
-        self, positions: Mapping[str, float] | None = None, *, collision: bool = False
-    ) -> trimesh.Scene:
-        """Return a scene of trimesh, with a node named after each link.
-
-        Args:
-            positions: Joint positions by name [rad, m]; mimic joints follow. 0 by default.
-            collision: Whether the scene has the collision geometry in place of the visual one.
-
-        Raises:
-            UrdftoolError: A mesh cannot be found or read.
-        """
-        scene: trimesh.Scene = _call("to_scene", self, positions, collision=collision)
-        return scene
-
-    def to_yourdfpy(self, **options: Any) -> Any:
-        """Return a ``yourdfpy.URDF``, with xacro expanded and every mesh resolved.
-
-        Args:
-            options: Arguments of ``yourdfpy.URDF``, such as ``load_collision_meshes=True``.
-
-        Raises:
-            ModelError: The robot was read from another format.
-            MissingDependency: yourdfpy is not installed.
-        """
-        return _call("to_yourdfpy", self, **options)
-
-
-def _call(name: str, robot: Robot, *arguments: Any, **options: Any) -> Any:
-    """Call a function of the Python API, which is above the model and imported on demand."""
-    from importlib import import_module
-
-    return getattr(import_module("urdftool.api.scene"), name)(robot, *arguments, **options)
