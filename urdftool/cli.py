@@ -24,9 +24,8 @@ from .extras import find_missing_library, make_missing_error
 from .terminal import install, open_streams
 
 COMMANDS = (
-    *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
-    "bundle",
-    "export",
+    *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "verify", "view"),
+    *("simulate", "bundle", "export"),
 )
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"

@@ -20,7 +20,7 @@ READERS = [path for path in MODULES if path.stem == "read" or path.stem.startswi
 # What a proof may import of the exporter: it repeats an export to see that it is the same, reads
 # what was chosen and what was declared, and compiles a copy.
 OPEN = (
-    *("check", "mechanics", "written", "common.losses", "common.directory"),
+    *("check", "mechanics", "written", "common.losses", "common.directory", "verify", "detect"),
     *("common.actuator_config", "common.force_fallbacks"),
     *("sdf.options", "sdf.write", "sdf.colors", "sdf.verify"),
     *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),

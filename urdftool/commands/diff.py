@@ -11,13 +11,7 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import (
-    ASSIGN,
-    add_package_options,
-    make_format_option,
-    make_output_option,
-    split_arguments,
-)
+from .options import add_package_options, make_format_option, make_output_option, split_robots
 
 if TYPE_CHECKING:
     from ..compare.revision import Checkout
@@ -92,18 +86,11 @@ def command(
 
 def _split_sides(words: tuple[str, ...]) -> tuple[Side, Side]:
     """Split the words into both files, each with its xacro arguments."""
-    sides: list[list[str]] = []
-    for word in words:
-        if ASSIGN not in word:
-            sides.append([word])
-        elif sides:
-            sides[-1].append(word)
-        else:
-            raise click.UsageError(f"xacro argument '{word}' must follow a file")
+    sides = split_robots(words)
     if len(sides) != 2:
         raise click.UsageError(f"{len(sides)} files are given, but the command compares two robots")
-    a, b = (split_arguments(tuple(side))[1] for side in sides)
-    return (sides[0][0], a or b), (sides[1][0], b)
+    (one, a), (two, b) = sides
+    return (one, a or b), (two, b)
 
 
 def _read(

@@ -42,6 +42,23 @@ def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
     return paths, arguments
 
 
+def split_robots(words: tuple[str, ...]) -> list[tuple[str, dict[str, str]]]:
+    """Split words into robots: paths, each followed by its xacro arguments.
+
+    Raises:
+        UsageError: An argument precedes the first path, or has another form.
+    """
+    sides: list[list[str]] = []
+    for word in words:
+        if ASSIGN not in word:
+            sides.append([word])
+        elif sides:
+            sides[-1].append(word)
+        else:
+            raise click.UsageError(f"xacro argument '{word}' must follow a file")
+    return [(side[0], split_arguments(tuple(side))[1]) for side in sides]
+
+
 def add_robot_argument(function: F) -> F:
     """Add ``IN [name:=value …]``, whose value is the path and the xacro arguments by name."""
     function = click.argument(

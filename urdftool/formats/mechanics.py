@@ -83,7 +83,7 @@ class Mechanics:
             properties
             for link in self.robot.links
             if link.name in frames
-            if (properties := _get_mass_properties(link, frames[link.name])) is not None
+            if (properties := compute_mass_properties(link, frames[link.name])) is not None
         ]
         mass = math.fsum(body[0] for body in bodies)
         if mass == 0:
@@ -113,7 +113,7 @@ class Mechanics:
                 joint = next(j for j in self.robot.joints if j.child == name)
                 own = [joint] if joint.name in self._column else []
                 moving[name] = moving[joint.parent] + own
-            properties = _get_mass_properties(self.robot.link[name], frames[name])
+            properties = compute_mass_properties(self.robot.link[name], frames[name])
             if properties is None:
                 continue
             mass, com, tensor = properties
@@ -175,7 +175,7 @@ def _compute_motion(joint: Joint, position: float) -> Array:
     return pose
 
 
-def _get_mass_properties(link: Link, frame: Array) -> tuple[float, Array, Array] | None:
+def compute_mass_properties(link: Link, frame: Array) -> tuple[float, Array, Array] | None:
     """Return mass, center of mass and inertia tensor of a link in the root's frame."""
     inertial = link.inertial
     if inertial is None:

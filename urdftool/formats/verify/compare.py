@@ -1,0 +1,348 @@
+"""Comparison of two robots that were read from files of any format."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...model.elements import Joint, Robot
+from ..mechanics import Array
+from .bodies import Bodies, Body, compute_axis, find_locked_joints
+from .difference import Comparison, Difference
+from .dynamics import compare_dynamics
+from .frames import describe_motion, describe_pose, invert, measure_largest, measure_pose
+from .inertia import compare_inertia
+from .joints import JointMatch, compare_joint, compare_mimic, get_kind
+from .matching import list_below, match_children
+from .mesh_measure import MeshMeasures
+from .names import EMPTY, NameMap, match_names
+from .pair import Match, Pair, add_presence, locate
+from .rows import ROWS, Row
+from .shapes import compare_shapes
+
+
+@dataclass
+class _Walk:
+    """State of the comparison.
+
+    Attributes:
+        pair: Both robots.
+        comparison: The result.
+        compared: Joints of the first robot whose child was compared.
+        signs: Sign of the axis of each joint of the first robot.
+    """
+
+    pair: Pair
+    comparison: Comparison
+    compared: set[str] = field(default_factory=set)
+    signs: dict[str, float] = field(default_factory=dict)
+
+
+def compare_robots(
+    a: Robot,
+    b: Robot,
+    *,
+    rows: Sequence[Row] = ROWS,
+    names: NameMap = EMPTY,
+    meshes: MeshMeasures | None = None,
+) -> Comparison:
+    """Compare two robots as mechanisms: names of roots and merged links may differ.
+
+    Joints are matched by name, then by the structure of the tree. Both robots are compared body by
+    body from the root; a difference is recorded at its part, and not again below it.
+
+    Args:
+        a: The first robot.
+        b: The second.
+        rows: Properties to compare.
+        names: Known names of joints and links.
+        meshes: Meshes that have been measured before.
+
+    Raises:
+        ModelError: The links of a robot do not form a tree.
+    """
+    walk = _Walk(_make_pair(a, b, names, meshes or MeshMeasures()), Comparison(tuple(rows)))
+    pair, comparison = walk.pair, walk.comparison
+    one, two = pair.a.by_name[pair.a.root], pair.b.by_name[pair.b.root]
+    _compare_base(pair, comparison)
+    frame = _align_base(walk, one, two)
+    if measure_largest(frame) > 1e-6:
+        pose = "identity", describe_pose(frame)
+        _add_frame_convention(comparison, "base", pair, Match(one, two, frame), pose)
+    _compare_tree(walk, Match(one, two, frame))
+    for name, other in list(pair.joints.items()):
+        if name not in walk.compared:  # its parent has no counterpart
+            joints = pair.a.joints[name], pair.b.joints[other]
+            _compare_child(walk, *joints, np.eye(4), parent_is_known=False)
+    for name, other in pair.joints.items():
+        joints = pair.a.joints[name], pair.b.joints[other]
+        compare_mimic(pair, *joints, walk.signs, comparison)
+    compare_dynamics(pair, frame, walk.signs, comparison)
+    comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)
+    return comparison
+
+
+def _make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
+    """Return both robots as bodies; a locked joint that the other lacks counts as fixed."""
+    moving, moving2 = ({j.name for j in robot.joints if not j.is_fixed} for robot in (a, b))
+    one = Bodies(a, {n for n in find_locked_joints(a) if names.joints.get(n, n) not in moving2})
+    back = {new: old for old, new in names.joints.items()}
+    two = Bodies(b, {n for n in find_locked_joints(b) if back.get(n, n) not in moving})
+    joints = match_names(list(one.joints), list(two.joints), names.joints)
+    links = match_names(list(a.link), list(b.link), names.links)
+    return Pair(one, two, joints, links, meshes)
+
+
+def _compare_base(pair: Pair, comparison: Comparison) -> None:
+    known = pair.a.is_free, pair.b.is_free
+    if None in known:
+        comparison.note_not_comparable("base: not specified in every file")
+        return
+    roots = pair.a.robot.link[pair.a.root], pair.b.robot.link[pair.b.root]
+    words = ["free" if free else "fixed" for free in known]
+    comparison.add(
+        Difference(
+            "base",
+            "link",
+            (roots[0].name, roots[1].name),
+            "base",
+            (words[0], words[1]),
+            "",
+            0.0 if known[0] == known[1] else 1.0,
+            (locate(pair.a.robot.base, roots[0]), locate(pair.b.robot.base, roots[1])),
+        )
+    )
+
+
+def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
+    """Return the pose of the second root body in the first with the fewest differences."""
+    pair = walk.pair
+    candidates = [np.eye(4)]
+    for x, y in pair.match_members(one, two):
+        candidates.append(one.members[x] @ invert(two.members[y]))
+    for joint in one.joints:
+        other = _find_joint(pair, joint)
+        if other is not None and pair.b.body_of[other.parent] == two.name:
+            poses = pair.a.compute_joint_pose(joint), pair.b.compute_joint_pose(other)
+            candidates.append(poses[0] @ invert(poses[1]))
+    return _choose(walk, one, two, candidates)
+
+
+def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array:
+    """Return the pose with the fewest differences of two bodies; the first of several."""
+    different: list[Array] = []
+    for pose in candidates:
+        if all(measure_largest(invert(other) @ pose) > 1e-6 for other in different):
+            different.append(pose)
+    if len(different) == 1:
+        return different[0]
+    counts = [_count(walk, Match(one, two, pose)) for pose in different]
+    return different[counts.index(min(counts))]
+
+
+def _count(walk: _Walk, match: Match) -> int:
+    """Count the differences of two bodies and of the joints on them."""
+    pair = walk.pair
+    trial = Comparison(ROWS)
+    _compare_content(pair, match, trial)
+    for joint in match.one.joints:
+        other = _find_joint(pair, joint)
+        if other is not None and pair.b.body_of[other.parent] == match.two.name:
+            pose = pair.a.compute_joint_pose(joint)
+            offset = invert(pose) @ match.frame @ pair.b.compute_joint_pose(other)
+            trial.worst["frames"] = 0.0
+            if measure_largest(offset) > trial.tolerances["frames"]:
+                trial.add(_describe_origin(pair, joint, other, offset, match.frame))
+    return len({(d.row, d.title) for d in trial.differences})
+
+
+def _find_joint(pair: Pair, joint: Joint) -> Joint | None:
+    name = pair.joints.get(joint.name)
+    return None if name is None else pair.b.joints[name]
+
+
+def _compare_content(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Compare frames, inertia and shapes of two bodies."""
+    for x, y in pair.match_members(match.one, match.two):
+        if x != match.one.name or y != match.two.name:
+            _compare_frame(pair, match, x, y, comparison)
+    compare_inertia(pair, match, comparison)
+    compare_shapes(pair, match, comparison)
+
+
+def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Comparison) -> None:
+    """Compare the pose of a link that a fixed joint connects to the body."""
+    one, two = match.one.members[x], match.frame @ match.two.members[y]
+    offset = invert(one) @ two
+    links = pair.a.robot.link[x], pair.b.robot.link[y]
+    joints = pair.a.robot.tree.get_parent_joint(x), pair.b.robot.tree.get_parent_joint(y)
+    comparison.add(
+        Difference(
+            "frames",
+            "link",
+            (x, y),
+            f"pose in '{match.one.name}'",
+            (describe_pose(one), describe_pose(two)),
+            "m, rad",
+            measure_largest(offset),
+            (locate(joints[0], links[0]), locate(joints[1], links[1])),
+            describe_motion(offset),
+        )
+    )
+
+
+def _compare_tree(walk: _Walk, match: Match) -> None:
+    """Compare two bodies and everything below them."""
+    todo = [match]
+    while todo:
+        match = todo.pop()
+        pair = walk.pair
+        _compare_content(pair, match, walk.comparison)
+        pair.links.setdefault(match.one.name, match.two.name)
+        pairs = [(j, other) for j in match.one.joints if (other := _find_joint(pair, j))]
+        known = set(pair.joints.values())
+        left = [j for j in match.one.joints if j.name not in pair.joints]
+        right = [j for j in match.two.joints if j.name not in known]
+        for x, y in match_children(pair.a, pair.b, left, right, match.frame):
+            pair.joints[x.name] = y.name
+            pairs.append((x, y))
+        for side, joints in enumerate((left, right)):
+            for joint in joints:
+                if joint.name not in (pair.joints, set(pair.joints.values()))[side]:
+                    _add_unmatched(walk, side, joint, match)
+        for x, y in pairs:
+            same = pair.b.body_of[y.parent] == match.two.name
+            if not same:
+                _add_other_parent(walk, x, y)
+            todo += _compare_child(walk, x, y, match.frame, parent_is_known=same, walk_on=False)
+
+
+def _add_unmatched(walk: _Walk, side: int, joint: Joint, match: Match) -> None:
+    """Record a joint that only one robot has."""
+    pair = walk.pair
+    bodies = (pair.a, pair.b)[side]
+    count = len(list_below(bodies, joint)) - 1
+    text = f"{joint.type} joint" + (f" with {count} more below it" if count else "")
+    other = (pair.b.robot.link[match.two.name], pair.a.robot.link[match.one.name])[side]
+    add_presence(
+        walk.comparison, "tree", "joint", "existence", side, joint, joint.name, text, other=other
+    )
+
+
+def _add_other_parent(walk: _Walk, x: Joint, y: Joint) -> None:
+    places = locate(x, None), locate(y, None)
+    names, parents = (x.name, y.name), (x.parent, y.parent)
+    walk.comparison.add(
+        Difference("tree", "joint", names, "parent", parents, "", float("inf"), places)
+    )
+
+
+def _compare_child(
+    walk: _Walk,
+    x: Joint,
+    y: Joint,
+    frame: Array,
+    *,
+    parent_is_known: bool,
+    walk_on: bool = True,
+) -> list[Match]:
+    """Compare a joint and its position; return the bodies that it moves, to be compared next.
+
+    Args:
+        walk: State.
+        x: The joint in the first robot.
+        y: The joint in the second.
+        frame: Pose of the second parent body in the first, 4 × 4.
+        parent_is_known: Whether the parents correspond.
+        walk_on: Whether to compare the bodies below at once.
+    """
+    if x.name in walk.compared:
+        return []
+    walk.compared.add(x.name)
+    pair, comparison = walk.pair, walk.comparison
+    one, two = pair.a.get_child(x), pair.b.get_child(y)
+    child = np.eye(4)
+    if parent_is_known:
+        offset = invert(pair.a.compute_joint_pose(x)) @ frame @ pair.b.compute_joint_pose(y)
+        if measure_largest(offset) > min(1e-6, comparison.tolerances.get("frames", 1e-6)):
+            child = _choose_child_frame(walk, x, y, offset, frame)
+        difference = _describe_origin(pair, x, y, invert(child) @ offset, frame)
+        comparison.add(difference)
+    match = Match(one, two, child)
+    walk.signs[x.name] = compare_joint(pair, JointMatch(x, y, child[:3, :3]), comparison)
+    if walk_on:
+        _compare_tree(walk, match)
+        return []
+    return [match]
+
+
+def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array, frame: Array) -> Array:
+    """Return the pose of the second child body in the first.
+
+    It is the identity, with which the origin of the joint differs, unless the bodies then differ
+    in more properties than if their frames are at the same place in the world. The axes must be
+    on one line in that case.
+    """
+    pair = walk.pair
+    one, two = pair.a.get_child(x), pair.b.get_child(y)
+    if get_kind(x) != get_kind(y):
+        return np.eye(4)
+    moved = JointMatch(x, y, offset[:3, :3])
+    trial = Comparison(ROWS)
+    compare_joint(pair, moved, trial)
+    along = offset[:3, 3]
+    if get_kind(x) == "hinge":
+        direction = compute_axis(x)
+        along = along - direction * float(direction @ along)
+    off_line = float(np.linalg.norm(along)) if get_kind(x) != "prismatic" else 0.0
+    turned = any(d.row == "axes" and d.amount < 3 for d in trial.differences)
+    if turned or off_line > 1e-5:
+        return np.eye(4)
+    plain = _count(walk, Match(one, two, np.eye(4))) + 1
+    other = _count(walk, Match(one, two, offset))
+    if other >= plain or not pair.a.has_content(one) or not pair.b.has_content(two):
+        return np.eye(4)
+    match = Match(one, two, offset)
+    poses = "identity", describe_pose(offset)
+    _add_frame_convention(walk.comparison, "frames", pair, match, poses)
+    return offset
+
+
+def _describe_origin(pair: Pair, x: Joint, y: Joint, offset: Array, frame: Array) -> Difference:
+    """Return the difference of the origins of a joint."""
+    poses = pair.a.compute_joint_pose(x), frame @ pair.b.compute_joint_pose(y)
+    distance, angle = measure_pose(offset)
+    return Difference(
+        "frames",
+        "joint",
+        (x.name, y.name),
+        "origin",
+        (describe_pose(poses[0]), describe_pose(poses[1])),
+        "m, rad",
+        max(distance, angle),
+        (locate(x.origin, x), locate(y.origin, y)),
+        describe_motion(offset),
+    )
+
+
+def _add_frame_convention(
+    comparison: Comparison, row: str, pair: Pair, match: Match, poses: tuple[str, str]
+) -> None:
+    """Record a frame that is elsewhere in the body, while the body is the same."""
+    links = pair.a.robot.link[match.one.name], pair.b.robot.link[match.two.name]
+    comparison.add(
+        Difference(
+            row,
+            "link",
+            (links[0].name, links[1].name),
+            "link frame",
+            poses,
+            "m, rad",
+            float("inf"),
+            (locate(links[0], None), locate(links[1], None)),
+            f"{describe_motion(match.frame)}; the parts of the body agree",
+            is_convention=True,
+        )
+    )

@@ -1,0 +1,114 @@
+"""Differences of two robots, and their collection."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ...source.location import Place
+from ..check import Check
+from .rows import Row
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A property that differs.
+
+    Attributes:
+        row: Name of its row.
+        kind: ``link``, ``joint`` or ``robot``.
+        names: Name of the part in each robot; empty where it does not exist.
+        what: The property, such as ``upper limit``.
+        values: Value in each robot; None where there is none.
+        unit: Unit of the values; empty for none.
+        amount: Size of the difference, comparable with the tolerance of the row.
+        places: Location in each file.
+        note: Explanation, such as ``opposite direction``.
+        is_convention: Whether the robots are equal except for a convention, which causes no
+            difference in motion, contact or mass.
+    """
+
+    row: str
+    kind: str
+    names: tuple[str, str]
+    what: str
+    values: tuple[object, object]
+    unit: str
+    amount: float
+    places: tuple[Place, Place]
+    note: str = ""
+    is_convention: bool = False
+
+    @property
+    def name(self) -> str:
+        """Return the name in the first robot, or in the second if the first has no such part."""
+        return self.names[0] or self.names[1]
+
+    @property
+    def title(self) -> str:
+        """Return kind, name and property."""
+        return f"{self.kind} '{self.name}': {self.what}"
+
+
+@dataclass
+class Comparison:
+    """Result of the comparison of two robots.
+
+    Attributes:
+        rows: Compared properties.
+        differences: What differs.
+        not_comparable: Properties that a format of the two does not have.
+        links: Names of matched links in the second robot, by those in the first.
+        joints: Names of matched joints in the second robot, by those in the first.
+        worst: Largest difference of each row.
+        skipped: Rows that were not computed, with the reason.
+    """
+
+    rows: tuple[Row, ...]
+    differences: list[Difference] = field(default_factory=list)
+    not_comparable: list[str] = field(default_factory=list)
+    links: dict[str, str] = field(default_factory=dict)
+    joints: dict[str, str] = field(default_factory=dict)
+    worst: dict[str, float] = field(default_factory=dict)
+    skipped: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def tolerances(self) -> dict[str, float]:
+        """Return the tolerances of the compared rows."""
+        return {row.name: row.tolerance for row in self.rows}
+
+    def add(self, difference: Difference) -> None:
+        """Record a property of both robots; it counts only above the tolerance of its row."""
+        tolerance = self.tolerances.get(difference.row)
+        if tolerance is None:
+            return
+        amount = difference.amount
+        if not difference.is_convention:
+            before = self.worst.get(difference.row, 0.0)
+            self.worst[difference.row] = amount if amount != amount else max(before, amount)
+        if not amount <= tolerance:
+            self.differences.append(difference)
+
+    def note_not_comparable(self, what: str) -> None:
+        """Record a property that one of the formats does not have."""
+        if what not in self.not_comparable:
+            self.not_comparable.append(what)
+
+    @property
+    def is_equal(self) -> bool:
+        """Tell whether nothing but conventions differs."""
+        return all(difference.is_convention for difference in self.differences)
+
+    def make_checks(self) -> list[Check]:
+        """Return a row of the table for each property that was compared."""
+        checks = []
+        for row in self.rows:
+            if row.name in self.skipped:
+                continue
+            check = Check(row.name, row.what, row.tolerance, self.worst.get(row.name, 0.0))
+            for difference in self.differences:
+                if difference.row == row.name:
+                    place = check.announced if difference.is_convention else check.differing
+                    if difference.title not in place:
+                        place.append(difference.title)
+            checks.append(check)
+        return checks

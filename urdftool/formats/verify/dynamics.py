@@ -1,0 +1,94 @@
+"""Comparison of mass matrices and gravity forces, which follow from everything else."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...model.elements import Joint
+from ...model.kinematics import get_limits
+from ...model.provenance import NOWHERE
+from ..mechanics import SLIDING, TURNING, Array, Mechanics
+from .difference import Comparison, Difference
+from .pair import Pair
+from .rows import GLOBAL_ROWS
+
+_CONFIGURATIONS = 5
+_MOST_JOINTS = 120
+
+
+def compare_dynamics(
+    pair: Pair, frame: Array, signs: Mapping[str, float], comparison: Comparison
+) -> None:
+    """Compare joint-space mass matrices and gravity forces with a fixed base.
+
+    Args:
+        pair: Both robots.
+        frame: Pose of the root body of the second in that of the first, 4 × 4.
+        signs: Sign of the axis of each joint, by its name in the first robot.
+        comparison: Where differences are recorded.
+    """
+    if not set(GLOBAL_ROWS) & set(comparison.tolerances):
+        return
+    one, two = Mechanics(pair.a.robot), Mechanics(pair.b.robot)
+    names = [joint.name for joint in one.joints]
+    others = [pair.joints.get(name, "") for name in names]
+    why = ""
+    if sorted(others) != sorted(joint.name for joint in two.joints):
+        why = "the joints differ"
+    elif len(names) > _MOST_JOINTS:
+        why = f"there are more than {_MOST_JOINTS} joints"
+    elif not names:
+        why = "there are no joints with one position"
+    elif any(j.type not in TURNING + SLIDING for j in pair.a.joints.values()):
+        why = "some joints have several positions"
+    if why:
+        comparison.skipped |= dict.fromkeys(GLOBAL_ROWS, why)
+        return
+    columns = [[joint.name for joint in two.joints].index(name) for name in others]
+    sign = np.array([signs.get(name, 1.0) for name in names])
+    generator = random.Random(0)
+    upright = abs(frame[2, 2] - 1.0) < 1e-9
+    for number in range(_CONFIGURATIONS):
+        values = [_draw(joint, generator) if number else 0.0 for joint in one.joints]
+        here = dict(zip(names, values, strict=True))
+        there = dict(zip(others, (sign * np.array(values)).tolist(), strict=True))
+        _add_matrix(
+            comparison,
+            "mass matrix",
+            one.compute_mass_matrix(here),
+            two.compute_mass_matrix(there)[np.ix_(columns, columns)] * np.outer(sign, sign),
+        )
+        if upright:
+            _add_matrix(
+                comparison,
+                "gravity",
+                one.compute_gravity(here),
+                two.compute_gravity(there)[columns] * sign,
+            )
+    if not upright:
+        comparison.skipped["gravity"] = "the bases are inclined to each other"
+
+
+def _draw(joint: Joint, generator: random.Random) -> float:
+    lower, upper = (max(-3.0, min(3.0, value)) for value in get_limits(joint))
+    return generator.uniform(lower, upper) if lower < upper else lower
+
+
+def _add_matrix(comparison: Comparison, row: str, one: Array, two: Array) -> None:
+    size = max(float(np.abs(one).max()), float(np.abs(two).max()))
+    amount = float(np.abs(one - two).max()) / size if size > 1e-12 else 0.0
+    known = [difference for difference in comparison.differences if difference.row == row]
+    if known and known[0].amount >= amount:
+        return
+    for difference in known:
+        comparison.differences.remove(difference)
+    note = f"{100 * amount:.3g} % of the largest element" if math.isfinite(amount) else ""
+    if not any(d for d in comparison.differences if d.row != row and not d.is_convention):
+        note += "; no part differs above its tolerance"
+    comparison.add(
+        Difference(row, "robot", ("", ""), row, (None, None), "", amount, (NOWHERE, NOWHERE), note)
+    )

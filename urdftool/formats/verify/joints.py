@@ -1,0 +1,219 @@
+"""Comparison of joints: type, axis, limits, dynamics and mimic."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...model.elements import Joint, Limit
+from ...model.kinematics import get_limits
+from ...model.part import Part
+from ..mechanics import Array
+from .bodies import HINGES, compute_axis
+from .difference import Comparison, Difference
+from .frames import format_vector
+from .pair import Pair, locate
+
+UNLIMITED = 1e9
+"""Limit beyond which a joint counts as unlimited."""
+
+
+class JointMatch(NamedTuple):
+    """A joint of both robots.
+
+    Attributes:
+        one: The joint in the first robot.
+        two: The joint in the second.
+        turn: Rotation that maps the joint frame of ``two`` to that of ``one``, 3 × 3.
+    """
+
+    one: Joint
+    two: Joint
+    turn: Array
+
+
+def get_kind(joint: Joint) -> str:
+    """Return the motion of a joint: ``hinge``, or the type."""
+    return "hinge" if joint.type in HINGES else joint.type
+
+
+def compute_sign(match: JointMatch) -> float:
+    """Return -1 if the axes of a joint are opposite, else 1."""
+    return -1.0 if compute_axis(match.one) @ match.turn @ compute_axis(match.two) < 0 else 1.0
+
+
+def compare_joint(pair: Pair, match: JointMatch, comparison: Comparison) -> float:
+    """Compare everything of a joint but its origin; return the sign of its axis."""
+    one, two, _ = match
+    if get_kind(one) != get_kind(two):
+        _add(comparison, match, "tree", "type", (one.type, two.type), "", math.inf)
+        return 1.0
+    sign = 1.0
+    if one.has_axis:
+        sign = _compare_axis(match, comparison)
+        _compare_limits(pair, match, sign, comparison)
+    _compare_dynamics(pair, match, sign, comparison)
+    return sign
+
+
+def _add(
+    comparison: Comparison,
+    match: JointMatch,
+    row: str,
+    what: str,
+    values: tuple[object, object],
+    unit: str,
+    amount: float,
+    note: str = "",
+    parts: tuple[Part | None, Part | None] = (None, None),
+) -> None:
+    names = match.one.name, match.two.name
+    places = locate(parts[0], match.one), locate(parts[1], match.two)
+    comparison.add(Difference(row, "joint", names, what, values, unit, amount, places, note))
+
+
+def _compare_axis(match: JointMatch, comparison: Comparison) -> float:
+    """Compare the directions of the axes; return -1 if they are opposite."""
+    x, y = compute_axis(match.one), match.turn @ compute_axis(match.two)
+    sign = compute_sign(match)
+    angle = math.atan2(float(np.linalg.norm(np.cross(x, y))), abs(float(x @ y)))
+    values = format_vector(x), format_vector(y)
+    parts = match.one.axis, match.two.axis
+    if sign < 0:
+        note = "opposite direction: the sign of every position is reversed"
+        _add(comparison, match, "axes", "axis", values, "", math.pi, note, parts)
+    note = f"{math.degrees(angle):.4g}° apart"
+    _add(comparison, match, "axes", "axis", values, "", angle, note, parts)
+    return sign
+
+
+def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comparison) -> None:
+    one, two, _ = match
+    slides = one.type == "prismatic"
+    unit, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
+    low, high = map(_bound, get_limits(one))
+    low2, high2 = map(_bound, get_limits(two))
+    if sign < 0:
+        low2, high2 = -high2, -low2
+    parts = one.limit, two.limit
+    for what, x, y in (("lower limit", low, low2), ("upper limit", high, high2)):
+        note = "negated, since the axis is opposite" if sign < 0 else ""
+        values = _show(x), _show(y)
+        _add(comparison, match, "limits", what, values, unit, measure(x, y), note, parts)
+    for what, unit in (("effort", force), ("velocity", rate)):
+        limits = [_get_bound(limit, what) for limit in parts]
+        if "mjcf" in pair.formats and (what == "velocity" or _has_unknown_effort(pair, match)):
+            comparison.note_not_comparable(f"limit of {what}: not in every MJCF")
+            continue
+        x, y = limits
+        _add(
+            comparison,
+            match,
+            "limits",
+            f"limit of {what}",
+            (_show(x), _show(y)),
+            unit,
+            measure(x, y),
+            "",
+            parts,
+        )
+
+
+def _has_unknown_effort(pair: Pair, match: JointMatch) -> bool:
+    """Tell whether an MJCF does not bound the effort of a joint."""
+    return any(
+        name == "mjcf" and (joint.limit is None or joint.limit.effort is None)
+        for name, joint in zip(pair.formats, match[:2], strict=True)
+    )
+
+
+def _get_bound(limit: Limit | None, what: str) -> float:
+    """Return a limit of effort or velocity; infinite if none is written."""
+    value = None if limit is None else getattr(limit, what)
+    return math.inf if value is None else _bound(value)
+
+
+def _bound(value: float) -> float:
+    return value if abs(value) < UNLIMITED else math.copysign(math.inf, value)
+
+
+def _show(value: float) -> object:
+    """Return a number; ``unlimited`` for an infinite one."""
+    return value if math.isfinite(value) else "unlimited"
+
+
+def measure(x: float, y: float) -> float:
+    """Return the difference of two numbers, relative if they are larger than 1."""
+    if x == y:
+        return 0.0
+    if not (math.isfinite(x) and math.isfinite(y)):
+        return math.inf
+    return abs(x - y) / max(1.0, abs(x), abs(y))
+
+
+_FORMATS_OF = {
+    "damping": ("urdf", "sdf", "mjcf", "usd"),
+    "friction": ("urdf", "sdf", "mjcf"),
+    "armature": ("mjcf", "usd"),
+    "stiffness": ("sdf", "mjcf", "usd"),
+    "spring_reference": ("sdf", "mjcf", "usd"),
+}
+"""Formats that have each property of the dynamics."""
+
+
+def _compare_dynamics(pair: Pair, match: JointMatch, sign: float, comparison: Comparison) -> None:
+    parts = match.one.dynamics, match.two.dynamics
+    slides = match.one.type == "prismatic"
+    units = {
+        "damping": "N·s/m" if slides else "N·m·s/rad",
+        "friction": "N" if slides else "N·m",
+        "armature": "kg" if slides else "kg·m²",
+        "stiffness": "N/m" if slides else "N·m/rad",
+        "spring_reference": "m" if slides else "rad",
+    }
+    for name, unit in units.items():
+        x, y = (0.0 if part is None else getattr(part, name) or 0.0 for part in parts)
+        y = y * sign if name == "spring_reference" else y
+        what = name.replace("_", " ")
+        if not all(format_ in _FORMATS_OF[name] for format_ in pair.formats):
+            if x or y:
+                comparison.note_not_comparable(f"{what}: not in every format")
+            continue
+        _add(comparison, match, "joint physics", what, (x, y), unit, measure(x, y), "", parts)
+
+
+def compare_mimic(
+    pair: Pair, one: Joint, two: Joint, signs: dict[str, float], comparison: Comparison
+) -> None:
+    """Compare the dependence of a joint on another.
+
+    Args:
+        pair: Both robots.
+        one: The joint in the first.
+        two: The joint in the second.
+        signs: Sign of the axis of each joint, by its name in the first robot.
+        comparison: Where differences are recorded.
+    """
+    match = JointMatch(one, two, np.eye(3))
+    parts = x, y = one.mimic, two.mimic
+    if x is None and y is None:
+        return
+    if x is None or y is None:
+        words = [None if m is None else f"{m.multiplier:g} × {m.joint}" for m in parts]
+        _add(comparison, match, "tree", "mimic", (words[0], words[1]), "", math.inf, "", parts)
+        return
+    leader = pair.joints.get(x.joint, x.joint)
+    same = 0.0 if leader == y.joint else math.inf
+    _add(comparison, match, "tree", "mimic joint", (x.joint, y.joint), "", same, "", parts)
+    if same:
+        return
+    own = signs.get(one.name, 1.0)
+    factor = own * signs.get(x.joint, 1.0) * y.multiplier
+    values = x.multiplier, factor
+    amount = measure(*values)
+    _add(comparison, match, "tree", "mimic multiplier", values, "", amount, "", parts)
+    values = x.offset, own * y.offset
+    amount = measure(*values)
+    _add(comparison, match, "tree", "mimic offset", values, "rad", amount, "", parts)

@@ -1,0 +1,110 @@
+"""Names of joints and links in one robot for those in another."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ...errors import ConfigError
+
+
+class NameMap(NamedTuple):
+    """Names in a second robot by those in a first."""
+
+    joints: Mapping[str, str]
+    links: Mapping[str, str]
+
+
+EMPTY = NameMap({}, {})
+
+_KINDS = ("joint", "link")
+
+
+def read_map(path: Path, count: int) -> list[tuple[str, tuple[str, ...]]]:
+    """Read a file of names: on each line ``joint`` or ``link``, and its name in each robot.
+
+    Text after ``#`` is a comment.
+
+    Args:
+        path: The file.
+        count: Number of robots.
+
+    Raises:
+        ConfigError: The file cannot be read, or a line has another form.
+    """
+    try:
+        text = path.read_text("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError(f"cannot be read: {error}", path=path) from None
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        words = line.partition("#")[0].split()
+        if not words:
+            continue
+        if words[0] not in _KINDS or len(words) != count + 1:
+            names = " ".join("ABCDEFGH"[:count])
+            raise ConfigError(
+                f"line {number} is not 'joint {names}' or 'link {names}', names in each robot",
+                path=path,
+            )
+        found.append((words[0], tuple(words[1:])))
+    return found
+
+
+def get_pair(lines: Iterable[tuple[str, tuple[str, ...]]], one: int, two: int) -> NameMap:
+    """Return the names of two of the robots, by the numbers of the robots."""
+    maps: dict[str, dict[str, str]] = {kind: {} for kind in _KINDS}
+    for kind, names in lines:
+        maps[kind][names[one]] = names[two]
+    return NameMap(maps["joint"], maps["link"])
+
+
+def match_names(a: Sequence[str], b: Sequence[str], given: Mapping[str, str]) -> dict[str, str]:
+    """Match names: as given, then equal ones, then those equal up to case, marks and a prefix.
+
+    Args:
+        a: Names in the first robot.
+        b: Names in the second.
+        given: Names that are known, which need not exist.
+
+    Returns:
+        Names in the second robot by those in the first; each name occurs once.
+    """
+    found = {x: y for x, y in given.items() if x in a and y in b}
+    found |= {x: x for x in a if x in b and x not in found and x not in found.values()}
+    for plain in (_simplify, _strip):
+        left = [x for x in a if x not in found]
+        right = [y for y in b if y not in found.values()]
+        one, two = plain(left, a), plain(right, b)
+        for key in one.keys() & two.keys():
+            if len(one[key]) == len(two[key]) == 1:
+                found[one[key][0]] = two[key][0]
+    return {x: found[x] for x in a if x in found}
+
+
+def _simplify(names: Sequence[str], every: Sequence[str]) -> dict[str, list[str]]:
+    """Group names by their letters and digits, in lower case."""
+    return _group(names, "")
+
+
+def _strip(names: Sequence[str], every: Sequence[str]) -> dict[str, list[str]]:
+    """Group names by letters and digits without the prefix that all names of a robot have."""
+    lower = [name.lower() for name in every]
+    prefix = ""
+    if len(lower) > 1:
+        first, last = min(lower), max(lower)
+        same = (i for i, (x, y) in enumerate(zip(first, last, strict=False)) if x != y)
+        prefix = first[: next(same, min(len(first), len(last)))]
+    return _group(names, prefix.rstrip("0123456789"))
+
+
+def _group(names: Sequence[str], prefix: str) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for name in names:
+        short = name.lower().removeprefix(prefix)
+        short = re.sub(r"(?<![a-z])joint|joint(?![a-z])", "", short) or short
+        key = re.sub(r"[^a-z0-9]", "", short)
+        found.setdefault(key, []).append(name)
+    return found

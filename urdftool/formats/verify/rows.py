@@ -1,0 +1,77 @@
+"""Compared properties, with their tolerances."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ...errors import ConfigError
+from ...suggestions import suggest_name
+
+
+class Row(NamedTuple):
+    """A compared property.
+
+    Attributes:
+        name: Name in tables and for ``--only``.
+        what: What is compared.
+        tolerance: Largest difference that counts as equal.
+    """
+
+    name: str
+    what: str
+    tolerance: float
+
+
+ROWS = (
+    Row("base", "whether the base is fixed", 0.0),
+    Row("tree", "types, parents and mimic of joints [rad, m]", 1e-6),
+    Row("frames", "origins of joints, poses of links [m, rad]", 1e-5),
+    Row("axes", "directions and positions of joint axes [rad, m]", 1e-5),
+    Row("limits", "position, effort and velocity, relative above 1", 1e-5),
+    Row("joint physics", "damping, friction, armature, springs, relative above 1", 1e-6),
+    Row("mass", "mass, relative", 1e-4),
+    Row("center of mass", "position in the link [m]", 1e-5),
+    Row("inertia", "tensor, relative to its trace", 1e-3),
+    Row("collisions", "types, sizes and poses [m]", 1e-5),
+    Row("visuals", "types, sizes and poses [m]", 1e-5),
+    Row("colors", "colors of equal visuals", 1 / 255),
+    Row("mass matrix", "at 5 configurations, relative to the largest element", 1e-4),
+    Row("gravity", "joint forces at 5 configurations, relative to the largest", 1e-4),
+)
+"""Every property, in the order of the table."""
+
+GLOBAL_ROWS = ("mass matrix", "gravity")
+"""Properties of the whole robot, which follow from those of its parts."""
+
+NOT_COMPARED = (
+    *("contact settings", "friction", "textures", "actuators", "sensors", "cameras", "plugins"),
+    *("closed loops", "transmissions"),
+)
+"""Parts of a description that are not compared."""
+
+
+def select_rows(names: str, tolerance: float | None) -> tuple[Row, ...]:
+    """Return the rows with the given names, separated by commas; all for an empty text.
+
+    Args:
+        names: Names, of which a unique beginning suffices.
+        tolerance: Tolerance of every row in place of its own, except where the values must be
+            equal.
+
+    Raises:
+        ConfigError: There is no such row.
+    """
+    known = [row.name for row in ROWS]
+    chosen: set[str] = set()
+    for word in (word.strip() for word in names.split(",") if word.strip()):
+        matches = [name for name in known if name == word] or [
+            name for name in known if name.startswith(word)
+        ]
+        if len(matches) != 1:
+            hint = suggest_name(word, known, 0.6) or f"; choose of {', '.join(known)}"
+            raise ConfigError(f"row '{word}' does not exist{hint}")
+        chosen.add(matches[0])
+    rows = [row for row in ROWS if not chosen or row.name in chosen]
+    if tolerance is None:
+        return tuple(rows)
+    return tuple(row._replace(tolerance=tolerance if row.tolerance else 0.0) for row in rows)

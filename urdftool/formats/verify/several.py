@@ -1,0 +1,157 @@
+"""Comparison of all pairs of several robots."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from ...model.elements import Robot
+from ...source.location import Place
+from .compare import compare_robots
+from .difference import Comparison, Difference
+from .mesh_measure import MeshMeasures
+from .names import get_pair
+from .rows import ROWS, Row
+
+Key = tuple[str, str, str, str]
+
+
+@dataclass
+class Disagreement:
+    """A property that differs between some of the robots.
+
+    Attributes:
+        row: Name of its row.
+        kind: ``link``, ``joint`` or ``robot``.
+        name: Name in the first robot that has the part.
+        what: The property.
+        unit: Unit of the values.
+        note: Explanation of the first difference.
+        is_convention: Whether it is a convention only.
+        values: Value in each robot; None where there is none.
+        places: Location in each file; None where there is none.
+        pairs: Numbers of the robots that differ from each other.
+    """
+
+    row: str
+    kind: str
+    name: str
+    what: str
+    unit: str
+    note: str
+    is_convention: bool
+    values: list[object]
+    places: list[Place | None]
+    pairs: list[tuple[int, int]] = field(default_factory=list)
+
+    @property
+    def alone(self) -> int | None:
+        """Return the number of the robot that differs from all others, which agree; or None."""
+        count = len(self.values)
+        if count < 3:
+            return None
+        for number in range(count):
+            others = [pair for pair in self.pairs if number not in pair]
+            if not others and len(self.pairs) == count - 1:
+                return number
+        return None
+
+
+@dataclass
+class Agreement:
+    """Result of the comparison of several robots.
+
+    Attributes:
+        rows: Compared properties.
+        pairs: Comparison of each pair, by the numbers of the robots.
+    """
+
+    rows: tuple[Row, ...]
+    pairs: dict[tuple[int, int], Comparison]
+
+    @property
+    def is_equal(self) -> bool:
+        """Tell whether no pair differs in more than conventions."""
+        return all(comparison.is_equal for comparison in self.pairs.values())
+
+    @property
+    def count(self) -> int:
+        """Return the number of robots."""
+        return 1 + max(number for pair in self.pairs for number in pair)
+
+    def list_disagreements(self) -> list[Disagreement]:
+        """Return the differences of all pairs, one for each property of a part."""
+        found: dict[Key, Disagreement] = {}
+        for (i, j), comparison in self.pairs.items():
+            for difference in comparison.differences:
+                key = self._get_key(i, difference)
+                entry = found.get(key)
+                if entry is None:
+                    entry = found[key] = _make_entry(difference, key[2], self.count)
+                entry.pairs.append((i, j))
+                for side, number in enumerate((i, j)):
+                    entry.values[number] = difference.values[side]
+                    if difference.places[side].file.path:
+                        entry.places[number] = difference.places[side]
+        for entry in found.values():
+            self._complete(entry)
+        order = {row.name: number for number, row in enumerate(self.rows)}
+        return sorted(found.values(), key=lambda entry: order[entry.row])
+
+    def _get_key(self, i: int, difference: Difference) -> Key:
+        """Return row, kind, name in the first robot and property of a difference."""
+        name = difference.names[0] or difference.names[1]
+        if i and difference.names[0]:
+            first = self.pairs[0, i]
+            known = first.joints if difference.kind == "joint" else first.links
+            name = {new: old for old, new in known.items()}.get(name, name)
+        return difference.row, difference.kind, name, difference.what
+
+    def _complete(self, entry: Disagreement) -> None:
+        """Set the value of robots that agree with one whose value is known."""
+        differing = {number for pair in entry.pairs for number in pair}
+        for i, j in self.pairs:
+            if (i, j) not in entry.pairs and (i in differing) != (j in differing):
+                known, new = (i, j) if i in differing else (j, i)
+                entry.values[new] = entry.values[known]
+
+
+def _make_entry(difference: Difference, name: str, count: int) -> Disagreement:
+    return Disagreement(
+        difference.row,
+        difference.kind,
+        name,
+        difference.what,
+        difference.unit,
+        difference.note,
+        difference.is_convention,
+        [None] * count,
+        [None] * count,
+    )
+
+
+def compare_all(
+    robots: Sequence[Robot],
+    *,
+    rows: Sequence[Row] = ROWS,
+    names: Sequence[tuple[str, tuple[str, ...]]] = (),
+) -> Agreement:
+    """Compare all pairs of at least two robots.
+
+    Args:
+        robots: The robots.
+        rows: Properties to compare.
+        names: Known names, as :func:`names.read_map` returns them.
+
+    Raises:
+        ModelError: The links of a robot do not form a tree.
+    """
+    meshes = MeshMeasures()
+    pairs = {
+        (i, j): compare_robots(
+            robots[i], robots[j], rows=rows, names=get_pair(names, i, j), meshes=meshes
+        )
+        for i, j in combinations(range(len(robots)), 2)
+    }
+    return Agreement(tuple(rows), pairs)

@@ -1,0 +1,324 @@
+"""Comparison of the collisions and visuals of bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Link,
+    Material,
+    Mesh,
+    Plane,
+    Robot,
+    Sphere,
+    Visual,
+)
+from ...model.shapes import get_shape_name
+from ..mechanics import Array, get_origin_matrix
+from .bodies import Bodies, Body
+from .difference import Comparison, Difference
+from .frames import describe_pose, format_vector, invert, measure_largest
+from .mesh_measure import Measure, measure_distance
+from .pair import Match, Pair, add_presence, locate
+
+
+class Placed(NamedTuple):
+    """A shape at its pose in the frame of the first body.
+
+    Attributes:
+        link: Its link.
+        shape: The visual or collision.
+        geometry: Its geometry.
+        pose: Pose, 4 × 4.
+    """
+
+    link: Link
+    shape: Visual | Collision
+    geometry: Geometry
+    pose: Array
+
+
+@dataclass
+class _Comparing:
+    """The shapes of two bodies that have no counterpart yet."""
+
+    pair: Pair
+    row: str
+    comparison: Comparison
+    one: list[Placed]
+    two: list[Placed]
+
+    @property
+    def tolerance(self) -> float:
+        """Return the tolerance of the row [m]."""
+        return self.comparison.tolerances.get(self.row, 0.0)
+
+
+def compare_shapes(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Compare collisions and visuals of two bodies, as sets."""
+    for row, kind in (("collisions", "collision"), ("visuals", "visual")):
+        if row not in comparison.tolerances and not (
+            row == "visuals" and "colors" in comparison.tolerances
+        ):
+            continue
+        one = _list_shapes(pair.a, match.one, kind, np.eye(4))
+        two = _list_shapes(pair.b, match.two, kind, match.frame)
+        state = _Comparing(pair, row, comparison, one, two)
+        _match_equal(state)
+        _match_unions(state)
+        _match_others(state, kind, match)
+
+
+def _list_shapes(bodies: Bodies, body: Body, kind: str, frame: Array) -> list[Placed]:
+    found = []
+    for name, pose in body.members.items():
+        link = bodies.robot.link[name]
+        shapes = link.collisions if kind == "collision" else link.visuals
+        for shape in shapes:
+            if shape.geometry is not None:
+                at = frame @ pose @ get_origin_matrix(shape.origin)
+                found.append(Placed(link, shape, shape.geometry, at))
+    return found
+
+
+def _match_equal(state: _Comparing) -> None:
+    """Remove the shapes that are equal in both bodies, the nearest first."""
+    pairs = sorted(
+        (
+            (distance, i, j)
+            for i, x in enumerate(state.one)
+            for j, y in enumerate(state.two)
+            if (distance := _measure(state, x, y)) <= state.tolerance
+        ),
+    )
+    left, right = set(range(len(state.one))), set(range(len(state.two)))
+    for distance, i, j in pairs:
+        if i in left and j in right:
+            left.remove(i)
+            right.remove(j)
+            _add(state, state.one[i], state.two[j], min(distance, state.tolerance), "")
+            _compare_colors(state, state.one[i], state.two[j])
+    state.one = [state.one[i] for i in sorted(left)]
+    state.two = [state.two[j] for j in sorted(right)]
+
+
+def _measure(state: _Comparing, x: Placed, y: Placed) -> float:
+    """Return how far two shapes are apart [m]; infinite for different types."""
+    if type(x.geometry) is not type(y.geometry):
+        return np.inf
+    if isinstance(x.geometry, Mesh) and isinstance(y.geometry, Mesh):
+        return _measure_meshes(state, x, y)
+    size, size2 = (_get_size(p.geometry) for p in (x, y))
+    if size is None or size2 is None:
+        same = get_shape_name(x.geometry) == get_shape_name(y.geometry)
+        return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
+    distance = float(np.linalg.norm(x.pose[:3, 3] - y.pose[:3, 3]))
+    turned, turned2 = (
+        p.pose[:3, :3] @ np.diag(s) @ p.pose[:3, :3].T for p, s in ((x, size), (y, size2))
+    )
+    spread = float(np.abs(turned - turned2).max())
+    along = 0.0
+    if isinstance(x.geometry, Cone | Plane):
+        along = float(np.linalg.norm(x.pose[:3, 2] - y.pose[:3, 2])) * float(max(size))
+    sizes = float(np.abs(np.array(size) - np.array(size2)).max())
+    return max(distance, spread, along, sizes)
+
+
+def _get_size(geometry: Geometry) -> tuple[float, float, float] | None:
+    """Return three lengths [m] that describe a primitive, of which the third is along z."""
+    if isinstance(geometry, Box):
+        return geometry.size
+    if isinstance(geometry, Ellipsoid):
+        return geometry.radii
+    if isinstance(geometry, Sphere):
+        return geometry.radius, geometry.radius, geometry.radius
+    if isinstance(geometry, Cylinder | Capsule | Cone):
+        return geometry.radius, geometry.radius, geometry.length
+    if isinstance(geometry, Plane):
+        return 1.0, 1.0, 0.0
+    return None
+
+
+def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
+    one, two = _as_mesh(x), _as_mesh(y)
+    meshes, robots = state.pair.meshes, (state.pair.a.robot, state.pair.b.robot)
+    files = meshes.find(robots[0], one), meshes.find(robots[1], two)
+    if files[0] is not None and files[1] is not None and one.scale == two.scale:
+        if meshes.get_digest(files[0]) == meshes.get_digest(files[1]):
+            distance = measure_largest(invert(x.pose) @ y.pose)
+            if distance <= state.tolerance:
+                return distance
+    measures = _measure_union(state, [x], [y])
+    if measures is None:
+        state.comparison.note_not_comparable("meshes whose file is missing or unreadable")
+        same = one.filename.rpartition("/")[2] == two.filename.rpartition("/")[2]
+        return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
+    return _round_off(measures)
+
+
+def _as_mesh(placed: Placed) -> Mesh:
+    assert isinstance(placed.geometry, Mesh)
+    return placed.geometry
+
+
+def _measure_union(
+    state: _Comparing, one: list[Placed], two: list[Placed]
+) -> tuple[Measure, Measure] | None:
+    pair = state.pair
+    found = (
+        pair.meshes.measure(pair.a.robot, [(_as_mesh(p), p.pose) for p in one]),
+        pair.meshes.measure(pair.b.robot, [(_as_mesh(p), p.pose) for p in two]),
+    )
+    return None if found[0] is None or found[1] is None else (found[0], found[1])
+
+
+def _round_off(measures: tuple[Measure, Measure]) -> float:
+    """Return the distance of two surfaces less the rounding error of 32-bit files [m]."""
+    distance = measure_distance(*measures)
+    return max(0.0, distance - 2e-6 * max(measure.size for measure in measures))
+
+
+def _match_unions(state: _Comparing) -> None:
+    """Remove the remaining meshes of both bodies if their union is equal.
+
+    Converters split a file by material, or join files.
+    """
+    one, two = (
+        [p for p in side if isinstance(p.geometry, Mesh)] for side in (state.one, state.two)
+    )
+    if not one or not two or len(one) == len(two) == 1:
+        return
+    measures = _measure_union(state, one, two)
+    if measures is None or _round_off(measures) > state.tolerance:
+        return
+    _add(state, one[0], two[0], _round_off(measures), "")
+    state.one = [p for p in state.one if not isinstance(p.geometry, Mesh)]
+    state.two = [p for p in state.two if not isinstance(p.geometry, Mesh)]
+
+
+def _match_others(state: _Comparing, kind: str, match: Match) -> None:
+    """Record the remaining shapes: as changed if a link has the same number of them in both."""
+    names = dict(state.pair.match_members(match.one, match.two))
+    links = {p.link.name for p in state.one}
+    for name in sorted(links):
+        one = [p for p in state.one if p.link.name == name]
+        two = [p for p in state.two if p.link.name == names.get(name)]
+        if len(one) == len(two) or (len(state.one) == len(state.two) == 1):
+            two = two or state.two
+            for x, y in zip(one, two, strict=False):
+                _add(state, x, y, _measure(state, x, y), "")
+            state.one = [p for p in state.one if not _contains(one, p)]
+            state.two = [p for p in state.two if not _contains(two, p)]
+    tops = state.pair.a.robot.link[match.one.name], state.pair.b.robot.link[match.two.name]
+    for side, shapes in enumerate((state.one, state.two)):
+        for p in shapes:
+            add_presence(
+                state.comparison,
+                state.row,
+                "link",
+                _describe_what(kind, p),
+                side,
+                p.shape,
+                p.link.name,
+                _describe(p),
+                other=tops[1 - side],
+            )
+
+
+def _contains(shapes: list[Placed], shape: Placed) -> bool:
+    return any(other is shape for other in shapes)
+
+
+def _describe_what(kind: str, placed: Placed) -> str:
+    return f"{kind} '{placed.shape.name}'" if placed.shape.name else kind
+
+
+def _add(state: _Comparing, x: Placed, y: Placed, amount: float, note: str) -> None:
+    kind = "collision" if state.row == "collisions" else "visual"
+    if amount > state.tolerance and np.isfinite(amount):
+        note = f"{amount * 1000:.4g} mm apart"
+    difference = Difference(
+        state.row,
+        "link",
+        (x.link.name, y.link.name),
+        _describe_what(kind, x),
+        (_describe(x), _describe(y)),
+        "m",
+        amount,
+        (locate(x.shape, x.link), locate(y.shape, y.link)),
+        note,
+    )
+    state.comparison.add(difference)
+
+
+def _describe(placed: Placed) -> str:
+    """Describe a shape with its size and its pose in the link."""
+    geometry = placed.geometry
+    at = describe_pose(get_origin_matrix(placed.shape.origin))
+    name = get_shape_name(geometry)
+    if isinstance(geometry, Mesh):
+        scale = (
+            "" if geometry.scale == (1, 1, 1) else f" × {format_vector(np.array(geometry.scale))}"
+        )
+        return f"mesh {geometry.filename.rpartition('/')[2]}{scale} at {at}"
+    size = _get_size(geometry)
+    if isinstance(geometry, Sphere):
+        return f"sphere {geometry.radius:.6g} at {at}"
+    if isinstance(geometry, Cylinder | Capsule | Cone):
+        return f"{name} {geometry.radius:.6g} {geometry.length:.6g} at {at}"
+    text = (
+        "" if size is None or isinstance(geometry, Plane) else f" {format_vector(np.array(size))}"
+    )
+    return f"{name}{text} at {at}"
+
+
+def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
+    if state.row != "visuals":
+        return
+    colors = (
+        _find_color(state.pair.a.robot, x.shape),
+        _find_color(state.pair.b.robot, y.shape),
+    )
+    if colors[0] is None or colors[1] is None:
+        return
+    amount = float(np.abs(np.array(colors[0]) - np.array(colors[1])).max())
+    state.comparison.add(
+        Difference(
+            "colors",
+            "link",
+            (x.link.name, y.link.name),
+            f"color of {_describe_what('visual', x)}",
+            (format_vector(np.array(colors[0])), format_vector(np.array(colors[1]))),
+            "",
+            amount,
+            (locate(x.shape, x.link), locate(y.shape, y.link)),
+        )
+    )
+
+
+def _find_color(robot: Robot, shape: Visual | Collision) -> tuple[float, ...] | None:
+    """Return the color of a visual, also of one that names a material; None with a texture."""
+    material = shape.material if isinstance(shape, Visual) else None
+    if material is None:
+        return None
+    named: list[Material] = [material]
+    named += [m for m in robot.materials if m.name == material.name]
+    named += [
+        v.material
+        for link in robot.links
+        for v in link.visuals
+        if v.material is not None and v.material.name == material.name and material.name
+    ]
+    if any(m.texture for m in named[:1]):
+        return None
+    return next((m.color for m in named if m.color is not None), None)

@@ -1,0 +1,160 @@
+"""Reports of the comparison of several robots as text and JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..formats.verify.difference import Comparison
+from ..formats.verify.rows import NOT_COMPARED
+from ..formats.verify.several import Agreement, Disagreement
+from .counted import format_count
+from .json_text import format_json
+from .tables import render_table
+
+LETTERS = "ABCDEFGH"
+"""Letters of the robots."""
+
+_SHOWN = 60
+
+
+def to_json(paths: Sequence[str], agreement: Agreement) -> str:
+    """Format the result as one object.
+
+    Args:
+        paths: Paths of the robots, as given.
+        agreement: The result.
+    """
+    report = {
+        "version": 1,
+        "files": list(paths),
+        "equal": agreement.is_equal,
+        "pairs": [
+            {
+                "files": list(pair),
+                "equal": comparison.is_equal,
+                "checks": [check.as_dict() for check in comparison.make_checks()],
+                "skipped": comparison.skipped,
+                "not_comparable": comparison.not_comparable,
+                "joints": comparison.joints,
+                "links": comparison.links,
+            }
+            for pair, comparison in agreement.pairs.items()
+        ],
+        "differences": [_build_record(entry) for entry in agreement.list_disagreements()],
+        "not_compared": list(NOT_COMPARED),
+    }
+    return format_json(report, 1) + "\n"
+
+
+def _build_record(entry: Disagreement) -> dict[str, object]:
+    return {
+        "row": entry.row,
+        "kind": entry.kind,
+        "name": entry.name,
+        "what": entry.what,
+        "unit": entry.unit,
+        "values": entry.values,
+        "places": [
+            None if place is None else {"path": place.path, "line": place.line}
+            for place in entry.places
+        ],
+        "note": entry.note,
+        "convention": entry.is_convention,
+        "pairs": [list(pair) for pair in entry.pairs],
+        "alone": entry.alone,
+    }
+
+
+def format_text(paths: Sequence[str], agreement: Agreement) -> str:
+    """Format the result as a table, followed by the differences.
+
+    Args:
+        paths: Paths of the robots, as given.
+        agreement: The result.
+    """
+    lines = [f"{letter}  {path}" for letter, path in zip(LETTERS, paths, strict=False)]
+    text = "\n".join(lines) + "\n\n" + _format_table(agreement)
+    entries = agreement.list_disagreements()
+    for convention in (False, True):
+        chosen = [entry for entry in entries if entry.is_convention is convention]
+        if chosen:
+            title = "Conventions that differ, with the same motion and mass:" if convention else ""
+            text += f"\n{title}\n" if title else "\n"
+            text += "".join(_format_entry(entry) for entry in chosen[:_SHOWN])
+        if len(chosen) > _SHOWN:
+            text += f"… and {len(chosen) - _SHOWN} more; --format json lists all\n"
+    return text + _format_rest(agreement)
+
+
+def _format_table(agreement: Agreement) -> str:
+    labels = [
+        "verdict" if len(agreement.pairs) == 1 else f"{LETTERS[i]}-{LETTERS[j]}"
+        for i, j in agreement.pairs
+    ]
+    rows = [("row", "compared", "tolerance", *labels)]
+    for row in agreement.rows:
+        bound = "exact" if row.tolerance == 0 else f"{row.tolerance:.0e}"
+        cells = [_format_cell(comparison, row.name) for comparison in agreement.pairs.values()]
+        rows.append((row.name, row.what, bound, *cells))
+    return render_table(rows, left=range(3 + len(labels)), rule=True)
+
+
+def _format_cell(comparison: Comparison, row: str) -> str:
+    if row in comparison.skipped:
+        return "not compared"
+    check = next(check for check in comparison.make_checks() if check.name == row)
+    if check.verdict == "announced":
+        return "equal, by convention"
+    count = f" ({len(check.differing)})" if check.differing else ""
+    return f"{check.verdict}{count}"
+
+
+def _format_entry(entry: Disagreement) -> str:
+    unit = f" [{entry.unit}]" if entry.unit else ""
+    owner = f"{entry.kind} '{entry.name}': " if entry.name else ""
+    note = f": {entry.note}" if entry.note else ""
+    text = f"{owner}{entry.what}{unit}{note}\n"
+    for number, (value, place) in enumerate(zip(entry.values, entry.places, strict=True)):
+        if entry.kind == "robot":
+            continue
+        shown = f"{value:.8g}" if isinstance(value, float) else "none" if value is None else value
+        where = f"  {place}" if place is not None else ""
+        alone = "  (alone)" if entry.alone == number else ""
+        text += f"  {LETTERS[number]}  {shown}{where}{alone}\n"
+    return text
+
+
+def _format_rest(agreement: Agreement) -> str:
+    """List what was not compared, and why."""
+    missing: dict[str, None] = {}
+    for comparison in agreement.pairs.values():
+        for what in comparison.not_comparable:
+            missing[what] = None
+        for row, why in comparison.skipped.items():
+            missing[f"{row}: {why}"] = None
+    lines = [f"not comparable: {'; '.join(missing)}\n"] if missing else []
+    return "\n" + "".join(lines) + f"not compared: {', '.join(NOT_COMPARED)}\n"
+
+
+def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int]) -> str:
+    """Return one sentence with the verdict.
+
+    Args:
+        paths: Paths of the robots, as given.
+        agreement: The result.
+        totals: Number of joints of each robot that are not fixed.
+    """
+    entries = [entry for entry in agreement.list_disagreements() if not entry.is_convention]
+    robots = f"{len(paths)} robots"
+    if not entries:
+        return f"{robots}: equal in every compared property"
+    text = f"{robots}: {format_count(len(entries), 'difference')}"
+    for (i, j), comparison in agreement.pairs.items():
+        most = max(totals[i], totals[j])
+        if 2 * len(comparison.joints) < most:
+            text += (
+                f"; only {len(comparison.joints)} joints of {LETTERS[i]} ({totals[i]}) and "
+                f"{LETTERS[j]} ({totals[j]}) match, so these may be different robots "
+                "(--map FILE names joints)"
+            )
+    return text
