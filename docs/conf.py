@@ -30,7 +30,7 @@ MENU = {
         "howto/untrusted-input",
     ),
     "Reference": (
-        *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "formats/mjcf_runs"),
+        *("rules/index", "configuration", "formats/urdf", "formats/sdf", "formats/mjcf", "formats/mjcf_runs"),
         "formats/usd",
         *("python", "completion"),
     ),

@@ -124,7 +124,7 @@ class Format:
 
 
 FORMATS = (
-    Format("urdf", "URDF and xacro", (".urdf", ".xacro"), can_read=True),
+    Format("urdf", "URDF and xacro", (".urdf", ".xacro"), can_read=True, can_write=True),
     Format(
         "sdf",
         "SDF, for Gazebo",

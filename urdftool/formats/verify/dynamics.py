@@ -39,6 +39,8 @@ def compare_dynamics(
     why = ""
     if sorted(others) != sorted(joint.name for joint in two.joints):
         why = "the joints differ"
+    elif any(d.row == "tree" and d.what == "type" for d in comparison.differences):
+        why = "the types of joints differ"
     elif len(names) > _MOST_JOINTS:
         why = f"there are more than {_MOST_JOINTS} joints"
     elif not names:

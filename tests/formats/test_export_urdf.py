@@ -1,0 +1,83 @@
+"""Export to URDF from SDF and MJCF."""
+
+import json
+
+import pytest
+
+import urdftool as api
+from tests.conftest import FIXTURES
+from tests.formats.verify.test_verify import MJCF, SDF
+
+READERS = FIXTURES / "readers"
+mujoco = pytest.mark.library("mujoco")
+FILES = [
+    pytest.param("robot.sdf", SDF, id="sdf"),
+    pytest.param("robot.xml", MJCF, id="mjcf", marks=mujoco),
+]
+
+
+@pytest.mark.parametrize(("name", "text"), FILES)
+def test_the_result_equals_its_source(urdftool, write, name, text, tmp_path):
+    result = urdftool(
+        *("export", "urdf", write(name, text), "-o", tmp_path / "out.urdf", "--verify"),
+        *("--format", "json"),
+    )
+    assert result.code == 0
+    report = json.loads(result.out)
+    assert {check["verdict"] for check in report["checks"]} == {"equal"}
+    robot = api.load(tmp_path / "out.urdf")
+    assert [joint.type for joint in robot.joints if not joint.is_fixed] == ["revolute", "prismatic"]
+    assert (robot.joint["shoulder"].limit.lower, robot.joint["shoulder"].limit.upper) == (-1, 2)
+
+
+@pytest.mark.parametrize("path", ["mechanism.sdf", pytest.param("mechanism.xml", marks=mujoco)])
+def test_every_loss_of_a_mechanism_is_announced(urdftool, tmp_path, path):
+    result = urdftool("export", "urdf", READERS / path, "-o", tmp_path / "out", "--verify")
+    assert result.code == 0, result.err
+    assert "[lossy-" in result.err
+    assert len(list((tmp_path / "out").glob("*.urdf"))) == 1
+
+
+def test_a_changed_export_differs(write):
+    """The comparison of an export finds what the writer did not write."""
+    from urdftool.formats.registry import format_named
+    from urdftool.formats.urdf.checks import check_output
+    from urdftool.formats.urdf.options import Options
+
+    robot = format_named("sdf").read(write("robot.sdf", SDF)).robot
+    options = Options(file="robot.urdf")
+    written = format_named("urdf").write(robot, options)
+    written.files["robot.urdf"] = written.files["robot.urdf"].replace(b'"0.7"', b'"0.8"')
+    checks = check_output(robot, options, written, None)
+    assert [check.name for check in checks if check.verdict == "differs"] == ["joint physics"]
+
+
+def test_a_capsule_and_a_screw(urdftool, write, tmp_path):
+    text = SDF.replace(
+        "<cylinder><radius>0.05</radius><length>0.4</length></cylinder>",
+        "<capsule><radius>0.05</radius><length>0.4</length></capsule>",
+    )
+    result = urdftool(
+        *("export", "urdf", write("r.sdf", text), "-o", tmp_path / "r.urdf", "--verify"),
+        *("--format", "json"),
+    )
+    assert result.code == 0
+    report = json.loads(result.out)
+    assert [f["rule"] for f in report["findings"]] == ["lossy-capsule"]
+    verdicts = {check["check"]: check["verdict"] for check in report["checks"]}
+    assert verdicts["collisions"] == "announced"
+    shapes = api.load(tmp_path / "r.urdf").link["upper"].collisions
+    assert len(shapes) == 3
+    result = urdftool("export", "urdf", write("r.sdf", text), "-o", tmp_path / "b", "--strict")
+    assert result.code == 2
+    assert not (tmp_path / "b").exists()
+
+
+def test_nothing_is_written_without_the_mesh(urdftool, write, tmp_path):
+    text = SDF.replace(
+        "<box><size>0.2 0.3 0.1</size></box>", "<mesh><uri>meshes/gone.stl</uri></mesh>"
+    )
+    result = urdftool("export", "urdf", write("r.sdf", text), "-o", tmp_path / "out")
+    assert result.code == 2
+    assert "r.sdf:" in result.err
+    assert not (tmp_path / "out").exists()

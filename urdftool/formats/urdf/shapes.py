@@ -1,0 +1,133 @@
+"""Visuals and collisions of an export to URDF."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lxml import etree
+
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Link,
+    Material,
+    Mesh,
+    Origin,
+    Robot,
+    Sphere,
+    Visual,
+)
+from ...model.pose import Pose, get_origin_at, make_pose, rpy_from_rotation
+from ...model.shapes import get_shape_name
+from ..written import Written
+from .mesh_files import MeshFiles
+
+
+def add_shape(
+    robot: Robot,
+    written: Written,
+    meshes: MeshFiles,
+    node: etree._Element,
+    link: Link,
+    shape: Visual | Collision,
+) -> None:
+    """Add a visual or collision to the element of its link, or report why it is dropped."""
+    kind = "visual" if isinstance(shape, Visual) else "collision"
+    for origin, geometry in _split(shape.origin, shape.geometry):
+        inner = _make_geometry(geometry, meshes)
+        if inner is None:
+            name = get_shape_name(geometry)
+            text = f"{kind} of link '{link.name}' is dropped, since URDF has no shape '{name}'"
+            written.report_loss("shape", text, shape.place, kind="link", name=link.name)
+            continue
+        attributes = {"name": shape.name} if shape.name else {}
+        outer = etree.SubElement(node, kind, attributes)
+        _add_origin(outer, origin)
+        etree.SubElement(outer, "geometry").append(inner)
+        if isinstance(shape, Visual) and shape.material is not None:
+            _add_material(robot, meshes, outer, shape.material)
+    if isinstance(shape.geometry, Capsule):
+        text = f"{kind} of link '{link.name}' is a cylinder with two spheres in place of a capsule"
+        written.report_loss("capsule", text, shape.place, kind="link", name=link.name)
+
+
+def _split(
+    origin: Origin | None, geometry: Geometry | None
+) -> list[tuple[Origin | None, Geometry]]:
+    """Return the shapes of URDF that form a shape: those of a capsule are three."""
+    if geometry is None:
+        return []
+    if isinstance(geometry, Ellipsoid) and len(set(geometry.radii)) == 1:
+        return [(origin, Sphere(geometry.provenance, geometry.radii[0]))]
+    if not isinstance(geometry, Capsule):
+        return [(origin, geometry)]
+    pose, place = make_pose(origin), geometry.provenance
+    ball = Sphere(place, geometry.radius)
+    ends: list[tuple[Origin | None, Geometry]] = [
+        (get_origin_at(pose @ Pose(translation=(0.0, 0.0, z))), replace(ball))
+        for z in (-geometry.length / 2, geometry.length / 2)
+    ]
+    return [(origin, Cylinder(place, geometry.radius, geometry.length)), *ends]
+
+
+def _format(*values: float) -> str:
+    return " ".join(f"{value + 0.0!r}".removesuffix(".0") for value in values)
+
+
+def _make_geometry(geometry: Geometry, meshes: MeshFiles) -> etree._Element | None:
+    if isinstance(geometry, Box):
+        return etree.Element("box", size=_format(*geometry.size))
+    if isinstance(geometry, Sphere):
+        return etree.Element("sphere", radius=_format(geometry.radius))
+    if isinstance(geometry, Cylinder):
+        radius, length = _format(geometry.radius), _format(geometry.length)
+        return etree.Element("cylinder", radius=radius, length=length)
+    if isinstance(geometry, Mesh):
+        place = meshes.get_place(geometry.filename)
+        if place is None:
+            return None
+        node = etree.Element("mesh", filename=place)
+        if geometry.scale != (1.0, 1.0, 1.0):
+            node.set("scale", _format(*geometry.scale))
+        return node
+    return None
+
+
+def _add_origin(parent: etree._Element, origin: Origin | None) -> None:
+    if origin is None:
+        return
+    rpy = origin.rpy
+    if origin.quaternion is not None:
+        rpy = rpy_from_rotation(make_pose(origin).rotation)
+    if any(origin.xyz) or any(rpy):
+        etree.SubElement(parent, "origin", xyz=_format(*origin.xyz), rpy=_format(*rpy))
+
+
+def _add_material(
+    robot: Robot, meshes: MeshFiles, parent: etree._Element, material: Material
+) -> None:
+    """Add a material with its own color or texture; one by name is resolved."""
+    color, texture = material.color, material.texture
+    if color is None and texture is None:
+        named = [m for m in robot.materials if m.name == material.name]
+        named += [
+            v.material
+            for link in robot.links
+            for v in link.visuals
+            if v.material is not None and v.material.name == material.name
+        ]
+        full = next((m for m in named if m.color is not None or m.texture), None)
+        color, texture = (None, None) if full is None else (full.color, full.texture)
+    place = None if texture is None else meshes.get_place(texture)
+    if color is None and place is None:
+        return
+    name = material.name or "rgba_" + "_".join(f"{part:.4g}" for part in color or ())
+    node = etree.SubElement(parent, "material", name=name)
+    if color is not None:
+        etree.SubElement(node, "color", rgba=_format(*color))
+    if place is not None:
+        etree.SubElement(node, "texture", filename=place)

@@ -1,0 +1,296 @@
+"""Export of a robot to URDF: files and losses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import PurePath
+
+from lxml import etree
+
+from ...diagnostic import Severity
+from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
+from ...model.mechanism import Frame
+from ...model.pose import make_pose, rpy_from_rotation
+from ...source.document import Element
+from ..common.directory import mark
+from ..common.force_fallbacks import (
+    FATAL,
+    drop_invalid_parts,
+    report_passed_defects,
+    report_tree_defects,
+)
+from ..common.naming import replace_file_name
+from ..defects import refuse
+from ..written import Written
+from .mesh_files import MeshFiles, report_mesh_defects
+from .names import Names
+from .options import Options
+from .shapes import add_shape
+
+UNLIMITED = 1e9
+"""Number that stands for no limit where URDF requires one."""
+
+_COPIED = ("gazebo", "transmission", "ros2_control")
+
+
+@dataclass
+class Translation:
+    """State of an export.
+
+    Attributes:
+        robot: The source.
+        options: Options.
+        written: The export.
+        names: Names in the export.
+        meshes: Mesh and texture files.
+        root: The element ``<robot>``.
+    """
+
+    robot: Robot
+    options: Options
+    written: Written
+    names: Names
+    meshes: MeshFiles
+    root: etree._Element = field(default_factory=lambda: etree.Element("robot"))
+
+
+def write(robot: Robot, options: Options | None = None) -> Written:
+    """Convert a robot to URDF.
+
+    Args:
+        robot: The robot.
+        options: Options of the export; None for the defaults.
+
+    Raises:
+        Refused: The robot has defects that prevent the export; the error lists them.
+    """
+    options = options or Options()
+    left = drop_invalid_parts(robot)
+    converted = {joint.name for joint in robot.joints if joint.type in (*BALL_TYPES, "screw")}
+    found = [
+        finding
+        for finding in report_tree_defects(robot, left, options.force)
+        if finding.code != "unknown-joint-type" or finding.name not in converted
+    ]
+    if options.force:
+        robot = left
+    meshes = MeshFiles(robot, options)
+    found += report_mesh_defects(robot, meshes)
+    refuse(found, force=options.force, fatal=FATAL)
+    stem = replace_file_name(robot.name or "robot")
+    written = Written(options.file or f"{stem}.urdf")
+    t = Translation(robot, options, written, Names(robot, written), meshes)
+    t.root.set("name", robot.name or "robot")
+    for link in robot.links:
+        _add_link(t, link)
+    for joint in robot.joints:
+        _add_joint(t, joint)
+    _add_frames(t)
+    _copy_extensions(t)
+    _report_unexpressed(t)
+    report_passed_defects(written, found)
+    etree.indent(t.root, "  ")
+    source = PurePath(robot.source.path).name if robot.source is not None else "a robot"
+    text = b'<?xml version="1.0"?>\n' + etree.tostring(t.root, encoding="UTF-8") + b"\n"
+    written.files[written.main] = mark(text, source)
+    for path, name in meshes.places.items():
+        written.files.setdefault(name, path)
+    return written
+
+
+def _number(value: float) -> str:
+    return f"{value + 0.0!r}".removesuffix(".0")
+
+
+def _numbers(*values: float) -> str:
+    return " ".join(map(_number, values))
+
+
+def _add(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
+    return etree.SubElement(parent, tag, attributes)
+
+
+def _add_origin(parent: etree._Element, origin: Origin | None) -> None:
+    if origin is None:
+        return
+    rpy = origin.rpy
+    if origin.quaternion is not None:
+        rpy = rpy_from_rotation(make_pose(origin).rotation)
+    if any(origin.xyz) or any(rpy):
+        _add(parent, "origin", xyz=_numbers(*origin.xyz), rpy=_numbers(*rpy))
+
+
+def _add_link(t: Translation, link: Link) -> None:
+    node = _add(t.root, "link", name=t.names.links[link.name])
+    inertial = link.inertial
+    if inertial is not None and inertial.mass is not None:
+        inner = _add(node, "inertial")
+        _add_origin(inner, inertial.origin)
+        _add(inner, "mass", value=_number(inertial.mass))
+        six = (0.0,) * 6 if inertial.inertia is None else inertial.inertia.six
+        names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        _add(inner, "inertia", **{n: _number(v) for n, v in zip(names, six, strict=True)})
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    for shape in shapes:
+        add_shape(t.robot, t.written, t.meshes, node, link, shape)
+
+
+def _add_joint(t: Translation, joint: Joint) -> None:
+    name, child = t.names.joints[joint.name], t.names.links.get(joint.child, joint.child)
+    parent = t.names.links.get(joint.parent, joint.parent)
+    if joint.type in BALL_TYPES:
+        _add_ball(t, joint, name, parent, child)
+        return
+    kind = joint.type
+    if kind == "screw":
+        kind = "continuous"
+        text = f"joint '{joint.name}' is continuous, since URDF has no screws"
+        t.written.report_loss("screw", text, joint.place, kind="joint", name=joint.name)
+    node = _make_joint(t, name, kind, parent, child, joint.origin)
+    if kind == "fixed":
+        return
+    if joint.axis is not None and kind != "floating":
+        _add(node, "axis", xyz=_numbers(*joint.axis.xyz))
+    _add_limit(t, node, joint, kind)
+    dynamics = joint.dynamics
+    if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):
+        written = {"damping": dynamics.damping, "friction": dynamics.friction}
+        _add(node, "dynamics", **{n: _number(v) for n, v in written.items() if v is not None})
+    if joint.mimic is not None:
+        m = joint.mimic
+        leader = t.names.joints.get(m.joint, m.joint)
+        _add(
+            node,
+            "mimic",
+            joint=leader,
+            multiplier=_number(m.multiplier),
+            offset=_number(m.offset),
+        )
+    for tag in ("safety_controller", "calibration"):
+        element = joint.find_child_xml(tag)
+        if element is not None:
+            _add(node, tag, **element.attributes)
+
+
+def _make_joint(
+    t: Translation, name: str, kind: str, parent: str, child: str, origin: Origin | None
+) -> etree._Element:
+    node = _add(t.root, "joint", name=name, type=kind)
+    _add(node, "parent", link=parent)
+    _add(node, "child", link=child)
+    _add_origin(node, origin)
+    return node
+
+
+def _add_limit(t: Translation, node: etree._Element, joint: Joint, kind: str) -> None:
+    """Add the limits; URDF requires effort and velocity in each."""
+    limit = joint.limit
+    needed = kind in ("revolute", "prismatic")
+    effort = None if limit is None else limit.effort
+    velocity = None if limit is None else limit.velocity
+    if not needed and effort is None and velocity is None:
+        return
+    values: dict[str, float] = {}
+    if needed:
+        lower, upper = (None, None) if limit is None else (limit.lower, limit.upper)
+        unlimited = limit is None
+        values["lower"] = _bound(lower, -UNLIMITED if unlimited else 0.0)
+        values["upper"] = _bound(upper, UNLIMITED if unlimited else 0.0)
+    values["effort"] = _bound(effort, UNLIMITED)
+    values["velocity"] = _bound(velocity, UNLIMITED)
+    missing = [n for n, v in (("effort", effort), ("velocity", velocity)) if v is None]
+    if missing:
+        text = (
+            f"joint '{joint.name}' has no limit of {' and '.join(missing)}; URDF requires one, so "
+            f"{UNLIMITED:g} is written"
+        )
+        data = {"missing": missing}
+        t.written.report_loss(
+            "limit", text, joint.place, kind="joint", name=joint.name,
+            severity=Severity.INFO, data=data,
+        )  # fmt: skip
+    _add(node, "limit", **{name: _number(value) for name, value in values.items()})
+
+
+def _bound(value: float | None, default: float) -> float:
+    if value is None:
+        return default
+    return value if math.isfinite(value) else math.copysign(UNLIMITED, value)
+
+
+def _add_ball(t: Translation, joint: Joint, name: str, parent: str, child: str) -> None:
+    """Write a ball joint as three hinges with links without mass between them."""
+    text = f"joint '{joint.name}' is three hinges about x, y and z, since URDF has no ball joints"
+    t.written.report_loss("ball", text, joint.place, kind="joint", name=joint.name)
+    origin = joint.origin
+    for number, axis in enumerate(("1 0 0", "0 1 0", "0 0 1")):
+        to = child if number == 2 else t.names.taken_links.take(f"{name}_{'xy'[number]}_link")
+        if to != child:
+            _add(t.root, "link", name=to)
+        own = t.names.taken_joints.take(f"{name}_{'xyz'[number]}")
+        node = _make_joint(t, own, "continuous", parent, to, origin)
+        _add(node, "axis", xyz=axis)
+        parent, origin = to, None
+
+
+def _add_frames(t: Translation) -> None:
+    """Add a link without mass for each named frame."""
+    if not t.options.frames:
+        for frame in t.robot.frames:
+            text = f"{frame.kind} '{frame.name}' is dropped"
+            t.written.report_loss(
+                "frame", text, frame.place, kind="link", name=frame.link, severity=Severity.INFO
+            )
+        return
+    for frame in t.robot.frames:
+        name = t.names.taken_links.take(_get_frame_name(frame))
+        _add(t.root, "link", name=name)
+        own = t.names.taken_joints.take(f"{name}_fixed")
+        parent = t.names.links.get(frame.link, frame.link)
+        _make_joint(t, own, "fixed", parent, name, frame.origin)
+
+
+def _get_frame_name(frame: Frame) -> str:
+    if frame.kind == "body":
+        return f"{frame.link}_origin"
+    return (frame.name or f"{frame.link}_{frame.kind}").replace("::", "_")
+
+
+def _copy_extensions(t: Translation) -> None:
+    """Copy the elements for simulators and controllers of a URDF source."""
+    source = t.robot.xml
+    for element in () if source is None else source.children:
+        if element.tag in _COPIED:
+            _copy(t.root, element)
+
+
+def _copy(parent: etree._Element, element: Element) -> None:
+    tag = element.tag.replace(":", "_")
+    attributes = {n: v for n, v in element.attributes.items() if ":" not in n and n != "xmlns"}
+    node = etree.SubElement(parent, tag, attributes)
+    node.text = element.text.strip() or None
+    for child in element.children:
+        _copy(node, child)
+
+
+def _report_unexpressed(t: Translation) -> None:
+    """Report what URDF cannot hold, once for each kind."""
+    robot = t.robot
+    springs = [j for j in robot.joints if j.dynamics is not None and j.dynamics.stiffness]
+    rotors = [j for j in robot.joints if j.dynamics is not None and j.dynamics.armature]
+    kinds = (
+        ("spring", "springs of joints are dropped", springs),
+        ("armature", "rotor inertia (armature) of joints is dropped", rotors),
+        ("closure", "connections that close loops are dropped", robot.closures),
+        ("actuator", "actuators and their gains are dropped", robot.joint_actuators),
+        ("exclusion", "excluded contacts are dropped", robot.exclusions),
+        ("configuration", "named configurations are dropped", robot.configurations),
+        ("camera", "cameras are dropped", robot.cameras),
+        ("sensor", "sensors are dropped", robot.mounted_sensors),
+    )
+    for code, text, parts in kinds:
+        if parts:
+            t.written.report_loss(
+                code, f"{text}: {len(parts)}", parts[0].place, kind="robot", name=robot.name
+            )
