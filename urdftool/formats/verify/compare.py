@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...model.elements import Joint, Robot
+from ...model.world import WORLD
 from ..mechanics import Array
 from .bodies import Bodies, Body, compute_axis, find_locked_joints
 from .difference import Comparison, Difference
@@ -69,8 +70,7 @@ def compare_robots(
     _compare_base(pair, comparison)
     frame = _align_base(walk, one, two)
     if measure_largest(frame) > 1e-6:
-        pose = "identity", describe_pose(frame)
-        _add_frame_convention(comparison, "base", pair, Match(one, two, frame), pose)
+        _add_base_pose(pair, Match(one, two, frame), comparison)
     _compare_tree(walk, Match(one, two, frame))
     for name, other in list(pair.joints.items()):
         if name not in walk.compared:  # its parent has no counterpart
@@ -116,6 +116,21 @@ def _compare_base(pair: Pair, comparison: Comparison) -> None:
     )
 
 
+def _add_base_pose(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Record another pose of the whole robot: a difference if both files have a link for the world.
+
+    Otherwise it is a convention.
+    """
+    if not match.one.name == match.two.name == WORLD:
+        poses = "identity", describe_pose(match.frame)
+        _add_frame_convention(comparison, "base", pair, match, poses)
+        return
+    for x, y in pair.match_members(match.one, match.two):
+        if x != WORLD:
+            _compare_frame(pair, Match(match.one, match.two, np.eye(4)), x, y, comparison)
+            return
+
+
 def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
     """Return the pose of the second root body in the first with the fewest differences."""
     pair = walk.pair
@@ -131,7 +146,10 @@ def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
 
 
 def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array:
-    """Return the pose with the fewest differences of two bodies; the first of several."""
+    """Return the pose with the fewest differences of two bodies.
+
+    It is the first one, unless another leaves at most half of the differences.
+    """
     different: list[Array] = []
     for pose in candidates:
         if all(measure_largest(invert(other) @ pose) > 1e-6 for other in different):
@@ -139,7 +157,8 @@ def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array
     if len(different) == 1:
         return different[0]
     counts = [_count(walk, Match(one, two, pose)) for pose in different]
-    return different[counts.index(min(counts))]
+    least = min(counts)
+    return different[counts.index(least)] if 2 * least <= counts[0] else different[0]
 
 
 def _count(walk: _Walk, match: Match) -> int:

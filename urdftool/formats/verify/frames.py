@@ -65,4 +65,4 @@ def describe_pose(pose: Array) -> str:
 
 def format_vector(vector: Array) -> str:
     """Format numbers with six digits, zero without sign."""
-    return " ".join(f"{value + 0.0 if abs(value) > 1e-12 else 0.0:.6g}" for value in vector)
+    return " ".join(f"{value + 0.0 if abs(value) > 1e-15 else 0.0:.6g}" for value in vector)

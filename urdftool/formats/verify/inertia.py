@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ...mechanics.tensor import get_noise
 from ...model.elements import Link
 from ..mechanics import Array, compute_mass_properties
 from .bodies import Bodies, Body
@@ -151,6 +152,7 @@ def _compare_properties(
     if mass and mass2:  # that of another mass differs with it, which is one difference
         tensor2 = tensor2 * (mass / mass2) if relative > 1e-12 else tensor2
         size = max(abs(np.trace(tensor)), abs(np.trace(tensor2)))
+    size = max(size, 3 * get_noise(larger))
     spread = float(np.abs(tensor - tensor2).max()) / size if size else 0.0
     texts = [
         _format_tensor(f[:3, :3].T @ t @ f[:3, :3])

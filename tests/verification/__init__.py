@@ -1,0 +1,1 @@
+"""Measurements of ``urdftool verify`` and ``urdftool export urdf`` on real robots."""
