@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import ModelError
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
+from ...model.mechanism import Frame
 from ...model.world import WORLD
 from ..mechanics import Array, get_origin_matrix, turn
 
@@ -27,6 +28,7 @@ class Body:
         parent: Name of the parent body; empty for the root.
         members: Pose of each link in the frame of the body, 4 × 4.
         joints: Moving joints whose parent is one of the links.
+        frames: Named frames on the links, with their poses in the frame of the body.
     """
 
     name: str
@@ -34,6 +36,7 @@ class Body:
     parent: str
     members: dict[str, Array] = field(default_factory=dict)
     joints: list[Joint] = field(default_factory=list)
+    frames: dict[str, tuple[Frame, Array]] = field(default_factory=dict)
 
 
 class Bodies:
@@ -79,6 +82,12 @@ class Bodies:
                 if joint is not None:
                     self.by_name[parent].joints.append(joint)
             self.body_of[name] = body.name
+        for frame in robot.frames:
+            owner = self.body_of.get(frame.link)
+            if frame.kind != "body" and frame.name not in robot.link and owner is not None:
+                body = self.by_name[owner]
+                pose = body.members[frame.link] @ get_origin_matrix(frame.origin)
+                body.frames.setdefault(frame.name, (frame, pose))
         self.root, self.is_free = self._find_base(top.name)
 
     def _find_base(self, root: str) -> tuple[str, bool | None]:

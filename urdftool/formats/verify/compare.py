@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...model.elements import Joint, Robot
-from ...model.world import WORLD
 from ..mechanics import Array
 from .bodies import Bodies, Body, compute_axis, find_locked_joints
 from .difference import Comparison, Difference
@@ -22,6 +21,9 @@ from .names import EMPTY, NameMap, match_names
 from .pair import Match, Pair, add_presence, locate
 from .rows import ROWS, Row
 from .shapes import compare_shapes
+
+_MANY = 3
+"""Number of differences from which another frame is considered."""
 
 
 @dataclass
@@ -117,18 +119,19 @@ def _compare_base(pair: Pair, comparison: Comparison) -> None:
 
 
 def _add_base_pose(pair: Pair, match: Match, comparison: Comparison) -> None:
-    """Record another pose of the whole robot: a difference if both files have a link for the world.
+    """Record another pose of the whole robot in its root link.
 
-    Otherwise it is a convention.
+    It is a difference if the root has the same name in both files and another link is fixed to it;
+    otherwise it is a convention.
     """
-    if not match.one.name == match.two.name == WORLD:
-        poses = "identity", describe_pose(match.frame)
-        _add_frame_convention(comparison, "base", pair, match, poses)
+    members = pair.match_members(match.one, match.two)
+    others = [(x, y) for x, y in members if x != match.one.name and y != match.two.name]
+    if others and (match.one.name, match.two.name) in members:
+        plain = Match(match.one, match.two, np.eye(4))
+        _compare_frame(pair, plain, *others[0], comparison)
         return
-    for x, y in pair.match_members(match.one, match.two):
-        if x != WORLD:
-            _compare_frame(pair, Match(match.one, match.two, np.eye(4)), x, y, comparison)
-            return
+    poses = "identity", describe_pose(match.frame)
+    _add_frame_convention(comparison, "base", pair, match, poses)
 
 
 def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
@@ -148,7 +151,7 @@ def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
 def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array:
     """Return the pose with the fewest differences of two bodies.
 
-    It is the first one, unless another leaves at most half of the differences.
+    It is the first one, unless that causes several differences and another at most half of them.
     """
     different: list[Array] = []
     for pose in candidates:
@@ -158,7 +161,8 @@ def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array
         return different[0]
     counts = [_count(walk, Match(one, two, pose)) for pose in different]
     least = min(counts)
-    return different[counts.index(least)] if 2 * least <= counts[0] else different[0]
+    is_better = 2 * least <= counts[0] and counts[0] >= _MANY
+    return different[counts.index(least)] if is_better else different[0]
 
 
 def _count(walk: _Walk, match: Match) -> int:
@@ -170,7 +174,8 @@ def _count(walk: _Walk, match: Match) -> int:
         other = _find_joint(pair, joint)
         if other is not None and pair.b.body_of[other.parent] == match.two.name:
             pose = pair.a.compute_joint_pose(joint)
-            offset = invert(pose) @ match.frame @ pair.b.compute_joint_pose(other)
+            frame = _choose_parent_frame(pair, joint, other, match.frame)
+            offset = invert(pose) @ frame @ pair.b.compute_joint_pose(other)
             trial.worst["frames"] = 0.0
             if measure_largest(offset) > trial.tolerances["frames"]:
                 trial.add(_describe_origin(pair, joint, other, offset, match.frame))
@@ -184,17 +189,85 @@ def _find_joint(pair: Pair, joint: Joint) -> Joint | None:
 
 def _compare_content(pair: Pair, match: Match, comparison: Comparison) -> None:
     """Compare frames, inertia and shapes of two bodies."""
-    for x, y in pair.match_members(match.one, match.two):
-        if x != match.one.name or y != match.two.name:
-            _compare_frame(pair, match, x, y, comparison)
-    compare_inertia(pair, match, comparison)
-    compare_shapes(pair, match, comparison)
+    members = pair.match_members(match.one, match.two)
+    fixed = [(x, y) for x, y in members if x != match.one.name or y != match.two.name]
+    for x, y in fixed:
+        _compare_frame(pair, match, x, y, comparison)
+    _compare_named_frames(pair, match, comparison)
+    chosen = match
+    if any(_is_moved(match, x, y) for x, y in fixed):
+        local = _put_members_at(match, fixed)
+        trials = [Comparison(comparison.rows), Comparison(comparison.rows)]
+        for trial, candidate in zip(trials, (match, local), strict=True):
+            compare_inertia(pair, candidate, trial)
+            compare_shapes(pair, candidate, trial)
+        if len(trials[1].differences) < len(trials[0].differences):
+            chosen = local
+    compare_inertia(pair, chosen, comparison)
+    compare_shapes(pair, chosen, comparison)
+
+
+def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Compare the poses of frames and sites with those of frames or links of the same name."""
+    sides = [
+        {
+            **{name: (bodies.robot.link[name], pose) for name, pose in body.members.items()},
+            **body.frames,
+        }
+        for bodies, body in ((pair.a, match.one), (pair.b, match.two))
+    ]
+    for x, (part, pose) in sides[0].items():
+        y = pair.links.get(x, x)
+        if y not in sides[1] or (x in match.one.members and y in match.two.members):
+            continue
+        other, there = sides[1][y]
+        offset = invert(pose) @ match.frame @ there
+        comparison.add(
+            Difference(
+                "frames",
+                "link",
+                (x, y),
+                f"pose in '{match.one.name}'",
+                (describe_pose(pose), describe_pose(match.frame @ there)),
+                "m, rad",
+                measure_largest(offset),
+                (locate(part, None), locate(other, None)),
+                describe_motion(offset),
+            )
+        )
+
+
+def _is_moved(match: Match, x: str, y: str) -> bool:
+    """Tell whether a link is at another pose in its body."""
+    offset = invert(match.one.members[x]) @ match.frame @ match.two.members[y]
+    return measure_largest(offset) > 1e-6
+
+
+def _put_members_at(match: Match, members: list[tuple[str, str]]) -> Match:
+    """Return the bodies with the links of the second at the poses of those of the first.
+
+    The contents of links are then compared in the frames of the links.
+    """
+    back = invert(match.frame)
+    poses = {y: back @ match.one.members[x] for x, y in members}
+    two = replace(match.two, members={**match.two.members, **poses})
+    return Match(match.one, two, match.frame)
 
 
 def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Comparison) -> None:
     """Compare the pose of a link that a fixed joint connects to the body."""
     one, two = match.one.members[x], match.frame @ match.two.members[y]
     offset = invert(one) @ two
+    above = pair.a.robot.tree.get_parent_joint(x), pair.b.robot.tree.get_parent_joint(y)
+    owner = match.one.name
+    if above[0] is not None and above[1] is not None and measure_largest(offset) > 1e-9:
+        parents = above[0].parent, above[1].parent
+        if parents in pair.match_members(match.one, match.two):
+            local = invert(match.one.members[parents[0]]) @ one
+            other = invert(match.two.members[parents[1]]) @ match.two.members[y]
+            if measure_largest(invert(local) @ other) < measure_largest(offset):
+                one, two, owner = local, other, parents[0]
+                offset = invert(one) @ two
     links = pair.a.robot.link[x], pair.b.robot.link[y]
     joints = pair.a.robot.tree.get_parent_joint(x), pair.b.robot.tree.get_parent_joint(y)
     comparison.add(
@@ -202,7 +275,7 @@ def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Compari
             "frames",
             "link",
             (x, y),
-            f"pose in '{match.one.name}'",
+            f"pose in '{owner}'",
             (describe_pose(one), describe_pose(two)),
             "m, rad",
             measure_largest(offset),
@@ -284,6 +357,7 @@ def _compare_child(
     one, two = pair.a.get_child(x), pair.b.get_child(y)
     child = np.eye(4)
     if parent_is_known:
+        frame = _choose_parent_frame(pair, x, y, frame)
         offset = invert(pair.a.compute_joint_pose(x)) @ frame @ pair.b.compute_joint_pose(y)
         if measure_largest(offset) > min(1e-6, comparison.tolerances.get("frames", 1e-6)):
             child = _choose_child_frame(walk, x, y, offset, frame)
@@ -295,6 +369,22 @@ def _compare_child(
         _compare_tree(walk, match)
         return []
     return [match]
+
+
+def _choose_parent_frame(pair: Pair, x: Joint, y: Joint, frame: Array) -> Array:
+    """Return the pose of the second parent body in the first for the origin of a joint.
+
+    It is that of the parent links if they have the same name and the origins are closer then: a
+    link that moved in its body is a difference of its own.
+    """
+    if pair.links.get(x.parent, x.parent) != y.parent:
+        return frame
+    one = pair.a.by_name[pair.a.body_of[x.parent]]
+    two = pair.b.by_name[pair.b.body_of[y.parent]]
+    local = one.members[x.parent] @ invert(two.members[y.parent])
+    poses = pair.a.compute_joint_pose(x), pair.b.compute_joint_pose(y)
+    sizes = [measure_largest(invert(poses[0]) @ f @ poses[1]) for f in (frame, local)]
+    return local if sizes[1] < sizes[0] - 1e-9 else frame
 
 
 def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array, frame: Array) -> Array:

@@ -283,7 +283,7 @@ def _describe(placed: Placed) -> str:
 
 
 def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
-    if state.row != "visuals":
+    if state.row != "visuals" or any(_has_own_colors(placed.geometry) for placed in (x, y)):
         return
     colors = (
         _find_color(state.pair.a.robot, x.shape),
@@ -304,6 +304,12 @@ def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
             (locate(x.shape, x.link), locate(y.shape, y.link)),
         )
     )
+
+
+def _has_own_colors(geometry: Geometry) -> bool:
+    """Tell whether a mesh file has colors, of which readers show either those or the material's."""
+    endings = (".dae", ".gltf", ".glb")
+    return isinstance(geometry, Mesh) and geometry.filename.lower().endswith(endings)
 
 
 def _find_color(robot: Robot, shape: Visual | Collision) -> tuple[float, ...] | None:
