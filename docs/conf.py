@@ -30,14 +30,14 @@ MENU = {
         "howto/untrusted-input",
     ),
     "Reference": (
-        *("rules/index", "configuration", "formats/urdf", "formats/sdf", "formats/mjcf", "formats/mjcf_runs"),
-        "formats/usd",
+        *("rules/index", "configuration", "formats/urdf", "formats/sdf", "formats/mjcf"),
+        *("formats/mjcf_runs", "formats/usd"),
         *("python", "completion"),
     ),
     "Measurements": (
         *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
         "collision-measurements",
-        *("inertia-vendors", "lint-precision"),
+        *("inertia-vendors", "vendors", "lint-precision"),
     ),
     "Development": ("architecture", "contributing"),
 }

@@ -221,7 +221,7 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
         if y not in sides[1] or (x in match.one.members and y in match.two.members):
             continue
         other, there = sides[1][y]
-        offset = invert(pose) @ match.frame @ there
+        offset = _find_least_offset(pair, match, pose, there)
         comparison.add(
             Difference(
                 "frames",
@@ -235,6 +235,18 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
                 describe_motion(offset),
             )
         )
+
+
+def _find_least_offset(pair: Pair, match: Match, one: Array, two: Array) -> Array:
+    """Return the offset of a frame, in the body or relative to the link that leaves the least.
+
+    A link that moved with the frame is a difference of its own.
+    """
+    offsets = [invert(one) @ match.frame @ two]
+    for x, y in pair.match_members(match.one, match.two):
+        local = match.one.members[x] @ invert(match.two.members[y])
+        offsets.append(invert(one) @ local @ two)
+    return min(offsets, key=measure_largest)
 
 
 def _is_moved(match: Match, x: str, y: str) -> bool:
