@@ -21,9 +21,12 @@ class Names:
     def __init__(self, robot: Robot, written: Written) -> None:
         """Choose names: ``::`` of nested models becomes ``_``; each is unique."""
         self.taken_links, self.taken_joints = UniqueNames(), UniqueNames()
-        self.links = {link.name: self.taken_links.take(_plain(link.name)) for link in robot.links}
+        self.links = {
+            link.name: self.taken_links.take(_replace_separators(link.name)) for link in robot.links
+        }
         self.joints = {
-            joint.name: self.taken_joints.take(_plain(joint.name)) for joint in robot.joints
+            joint.name: self.taken_joints.take(_replace_separators(joint.name))
+            for joint in robot.joints
         }
         for kind, names, parts in (
             ("link", self.links, robot.link),
@@ -39,5 +42,5 @@ class Names:
                     )
 
 
-def _plain(name: str) -> str:
+def _replace_separators(name: str) -> str:
     return name.replace("::", "_").replace("~", "_")

@@ -103,7 +103,7 @@ def _number(value: float) -> str:
     return f"{value + 0.0!r}".removesuffix(".0")
 
 
-def _numbers(*values: float) -> str:
+def _format_numbers(*values: float) -> str:
     return " ".join(map(_number, values))
 
 
@@ -118,7 +118,7 @@ def _add_origin(parent: etree._Element, origin: Origin | None) -> None:
     if origin.quaternion is not None:
         rpy = rpy_from_rotation(make_pose(origin).rotation)
     if any(origin.xyz) or any(rpy):
-        _add(parent, "origin", xyz=_numbers(*origin.xyz), rpy=_numbers(*rpy))
+        _add(parent, "origin", xyz=_format_numbers(*origin.xyz), rpy=_format_numbers(*rpy))
 
 
 def _add_link(t: Translation, link: Link) -> None:
@@ -151,7 +151,7 @@ def _add_joint(t: Translation, joint: Joint) -> None:
     if kind == "fixed":
         return
     if joint.axis is not None and kind != "floating":
-        _add(node, "axis", xyz=_numbers(*joint.axis.xyz))
+        _add(node, "axis", xyz=_format_numbers(*joint.axis.xyz))
     _add_limit(t, node, joint, kind)
     dynamics = joint.dynamics
     if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):

@@ -100,7 +100,7 @@ def _make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair
 def _compare_base(pair: Pair, comparison: Comparison) -> None:
     known = pair.a.is_free, pair.b.is_free
     if None in known:
-        comparison.note_not_comparable("base: not specified in every file")
+        comparison.record_not_comparable("base: not specified in every file")
         return
     roots = pair.a.robot.link[pair.a.root], pair.b.robot.link[pair.b.root]
     words = ["free" if free else "fixed" for free in known]
@@ -360,7 +360,7 @@ def _compare_child(
         y: The joint in the second.
         frame: Pose of the second parent body in the first, 4 × 4.
         parent_is_known: Whether the parents correspond.
-        walk_on: Whether to compare the bodies below at once.
+        walk_on: Whether to compare the bodies below immediately.
     """
     if x.name in walk.compared:
         return []

@@ -88,7 +88,7 @@ class Comparison:
         if not amount <= tolerance:
             self.differences.append(difference)
 
-    def note_not_comparable(self, what: str) -> None:
+    def record_not_comparable(self, what: str) -> None:
         """Record a property that one of the formats does not have."""
         if what not in self.not_comparable:
             self.not_comparable.append(what)

@@ -105,7 +105,7 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
     for what, unit in (("effort", force), ("velocity", rate)):
         limits = [_get_bound(limit, what) for limit in parts]
         if "mjcf" in pair.formats and (what == "velocity" or _has_unknown_effort(pair, match)):
-            comparison.note_not_comparable(f"limit of {what}: not in every MJCF")
+            comparison.record_not_comparable(f"limit of {what}: not in every MJCF")
             continue
         x, y = limits
         _add(
@@ -179,7 +179,7 @@ def _compare_dynamics(pair: Pair, match: JointMatch, sign: float, comparison: Co
         what = name.replace("_", " ")
         if not all(format_ in _FORMATS_OF[name] for format_ in pair.formats):
             if x or y:
-                comparison.note_not_comparable(f"{what}: not in every format")
+                comparison.record_not_comparable(f"{what}: not in every format")
             continue
         _add(comparison, match, "joint physics", what, (x, y), unit, measure(x, y), "", parts)
 

@@ -160,7 +160,7 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
                 return distance
     measures = _measure_union(state, [x], [y])
     if measures is None:
-        state.comparison.note_not_comparable("meshes whose file is missing or unreadable")
+        state.comparison.record_not_comparable("meshes whose file is missing or unreadable")
         same = one.filename.rpartition("/")[2] == two.filename.rpartition("/")[2]
         return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
     return _round_off(measures)
