@@ -36,7 +36,7 @@ def completed(*words, shell="bash"):
 def test_commands_are_completed():
     assert completed("li") == ["plain,lint"]
     assert completed("") == [f"plain,{name}" for name in cli.COMMANDS]
-    assert completed("export", "") == ["plain,sdf", "plain,mjcf", "plain,usd"]
+    assert completed("export", "") == ["plain,urdf", "plain,sdf", "plain,mjcf", "plain,usd"]
 
 
 def test_options_are_completed():

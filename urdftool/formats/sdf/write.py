@@ -52,7 +52,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     """
     options = options or Options()
     if robot.links and all(link.name == WORLD for link in robot.links):
-        text = "the robot has no link besides the world, and a model of SDF needs one"
+        text = "the robot has no link except the world, and a model of SDF requires one"
         raise Refused([make_defect("no-links", text, robot.place, "robot", robot.name)])
     left = drop_invalid_parts(robot)
     found = [*report_tree_defects(robot, left, options.force), *validate(robot, "export:sdf")]
