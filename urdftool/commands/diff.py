@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..report.counted import format_count
 from .grouped_help import GroupedCommand
 from .options import add_package_options, make_format_option, make_output_option, split_robots
 
@@ -88,7 +89,8 @@ def _split_sides(words: tuple[str, ...]) -> tuple[Side, Side]:
     """Split the words into both files, each with its xacro arguments."""
     sides = split_robots(words)
     if len(sides) != 2:
-        raise click.UsageError(f"{len(sides)} files are given, but the command compares two robots")
+        given = f"{format_count(len(sides), 'file')} given"
+        raise click.UsageError(f"{given}, but the command compares two robots")
     (one, a), (two, b) = sides
     return (one, a or b), (two, b)
 

@@ -140,8 +140,8 @@ def check_spread(
     times = 2 * spread / (high - low)
     if times >= _SHORTEST:
         sentence = (
-            f"is possible only if {shapes} were at least {times:.3g} times as long along {name}, "
-            f"where they span {low:.4g} to {high:.4g} m"
+            f"would be possible only if {shapes} were at least {times:.3g} times as long along "
+            f"{name}, where they span {low:.4g} to {high:.4g} m"
         )
     else:
         sentence = (

@@ -64,11 +64,11 @@ def _name_frame(
     else:
         t.report_loss(
             "frame-id",
-            f"messages of sensor '{made.get('name')}' are in frame '{frame}', which SDF "
-            f"{t.options.sdf_version} cannot say; in gz their frame is MODEL/LINK/SENSOR",
+            f"SDF {t.options.sdf_version} cannot express the frame '{frame}' of the messages of "
+            f"sensor '{made.get('name')}'; gz writes MODEL/LINK/SENSOR as their frame",
             element,
             part,
-            hint="--sdf-version 1.12 can, or write <gz_frame_id> in the <sensor>",
+            hint="use --sdf-version 1.12, or write <gz_frame_id> in the <sensor>",
         )
 
 

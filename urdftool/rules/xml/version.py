@@ -194,7 +194,7 @@ def keep_rpy(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     INFO,
     on=("ros2",),
-    effects={"ros2 run … -p robot_description:=…": "couldn't parse parameter override rule"},
+    effects={"ros2 run … -p robot_description:=…": "stops: couldn't parse parameter override rule"},
 )
 def colon_space_in_comment(document: Document, description: Description) -> Iterator[Problem]:
     """A comment contains a colon with a space or line end after it.
