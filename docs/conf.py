@@ -43,11 +43,8 @@ MENU = {
 }
 """Pages of the menu, by caption; files that do not exist are left out."""
 
-REDIRECTS = {
-    "howto/strangers": "howto/untrusted-input",
-    "house": "architecture",
-    **{f"rules/{old}": f"rules/{new}" for old, new in RENAMED_RULES.items()},
-}
+RENAMED_PAGES = {"howto/strangers": "howto/untrusted-input", "house": "architecture"}
+REDIRECTS = RENAMED_PAGES | {f"rules/{a}": f"rules/{b}" for a, b in RENAMED_RULES.items()}
 """Old addresses of pages, and their new ones."""
 
 project = author = "urdftool"

@@ -36,6 +36,14 @@ def make(folder):
     mobile = packages / "my_robot/urdf/mobile_manipulator.urdf.xacro"
     _put(folder / "rover.urdf", expand(mobile))
     _put(folder / "arm.srdf", SRDF)
+    shutil.copy(FIXTURES / "formats/sdf/gripper_arm.gz.sdf", folder / "model.sdf")
+    for name in ("arm.xml", "robot.xml", "b.xml"):
+        shutil.copy(FIXTURES / "formats/mjcf/arm.xml", folder / name)
+    _put(folder / "a.urdf", arm)
+    _put(folder / "arm.srdf.xacro", SRDF)
+    words = ("bundle", "panda.urdf", "-o", "arm.zip")
+    subprocess.run([sys.executable, "-m", "urdftool", "-q", *words], cwd=folder, check=True)
+    _put(folder / "names.txt", "# no names differ\n")
     _put(folder / "actuators.toml", '[joints."*"]\narmature = 0.01\n')
     for name, mesh in {
         "link3.stl": "cube.stl",

@@ -9,6 +9,7 @@ from generator.console import BLOCK, insert_output, is_same, list_pages, read_mo
 
 from tests.conftest import ROOT
 from urdftool.rules import get_rule
+from urdftool.rules.old_names import RENAMED_RULES
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/**/*.md"))]
 RUN = [path for path in list_pages() if BLOCK.search(path.read_text("utf-8"))]
@@ -72,7 +73,8 @@ def test_a_rule_page_shows_the_changed_lines_and_folds_the_robot(rule):
 
 def test_redirects_lead_to_pages():
     text = (ROOT / "docs" / "conf.py").read_text("utf-8")
-    redirects = ast.literal_eval(re.search(r"REDIRECTS = (\{.*?\})", text, re.DOTALL)[1])
+    redirects = ast.literal_eval(re.search(r"RENAMED_PAGES = (\{.*?\})", text)[1])
+    redirects |= {f"rules/{a}": f"rules/{b}" for a, b in RENAMED_RULES.items()}
     for old, new in redirects.items():
         assert not (ROOT / "docs" / f"{old}.md").exists()
         assert (ROOT / "docs" / f"{new}.md").exists()

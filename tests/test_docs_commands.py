@@ -79,7 +79,7 @@ def needed(words):
     """The library that a command needs and that is not everywhere."""
     if "simulate" in words[:2] and "mujoco" not in words:
         return "pybullet"
-    if "mjcf" in words and "--verify" in words:
+    if ("mjcf" in words and "--verify" in words) or any(word.endswith(".xml") for word in words):
         return "mujoco"
     return "viser" if is_lasting(words) else "click"
 

@@ -61,7 +61,7 @@ def test_defects_bear_the_names_that_lint_explains():
     assert {name for name in named if name not in FAMILY_OF} - own == set()
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", [name for name in LANGUAGES if name != "usd"])
 def test_where_nothing_weighs_anything_differences_are_what_they_are(urdftool, tmp_path, language):
     file = tmp_path / "robot.urdf"
     turns = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'

@@ -25,6 +25,7 @@ BEYOND = """<robot name="r"><link name="a"/><link name="b"/>
 <actuator name="m"/></transmission>
 <ros2_control name="c" type="system"><joint name="j">
 <command_interface name="position"/></joint></ros2_control>
+<gazebo reference="b"><sensor name="s" type="imu"/></gazebo>
 <gazebo><plugin name="p" filename="libgazebo_ros_p3d.so"/></gazebo></robot>
 """
 

@@ -108,7 +108,7 @@ EXTRA = {
     "mounted_sensors": [MountedSensor(name="gyro", type="gyro", link="tip")],
 }
 CODES = {
-    *("lossy-base", "lossy-closure", "lossy-frame", "lossy-joint-actuator", "lossy-exclusion"),
+    *("lossy-closure", "lossy-frame", "lossy-joint-actuator", "lossy-exclusion"),
     *("lossy-configuration", "lossy-camera", "lossy-sensor", "lossy-joint-spring"),
 }
 TEXT = """

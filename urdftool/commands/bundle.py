@@ -95,7 +95,7 @@ def command(
     \b
         urdftool bundle arm.urdf.xacro prefix:=left_ -o arm/
         urdftool bundle arm.urdf -o arm.zip
-        urdftool bundle arm/ --check
+        urdftool bundle arm.zip --check
     """  # noqa: D301 -- click reads the escape
     from ..bundle.check import is_bundle
     from ..bundle.make import make_bundle

@@ -66,7 +66,7 @@ def command(
 
     \b
         urdftool export urdf arm.xml -o arm/ --verify
-        urdftool export urdf model.sdf -o arm.urdf
+        urdftool export urdf model.sdf -o model.urdf
     """  # noqa: D301 -- click reads the escape
     from ..formats.registry import format_named
     from ..formats.urdf.options import Options

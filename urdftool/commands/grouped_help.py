@@ -9,7 +9,9 @@ from typing import Any
 import click
 
 SHARED = "Shared options"
-SHARED_OPTIONS = ("gltf_up", "package", "package_path", "cache_dir", "no_cache", "help")
+SHARED_OPTIONS = (
+    *("named", "gltf_up", "package", "package_path", "cache_dir", "no_cache", "help"),
+)
 """Parameters of the last group, which have the same meaning in every command."""
 
 _MAX_COLUMN = 26  # characters; a longer option has a line of its own
