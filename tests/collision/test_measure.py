@@ -72,6 +72,7 @@ def test_a_collision_that_is_too_small_is_uncovered():
     assert found.uncovered == pytest.approx(0.01, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_other_code_finds_the_same():
     surface = prepare(*l_profile())
     low = make_mesh_piece(*compute_hull(surface.vertices))

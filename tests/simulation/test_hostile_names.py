@@ -39,7 +39,13 @@ def is_clean(text):
     )
 
 
-@pytest.mark.parametrize("name", NAMES.values(), ids=NAMES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, id=kind, marks=[] if kind == "ansi" else pytest.mark.slow)
+        for kind, name in NAMES.items()
+    ],
+)
 def test_names_are_only_names(urdftool, write, tmp_path, monkeypatch, name):
     path = write("r.urdf", robot(name))
     monkeypatch.chdir(tmp_path)
