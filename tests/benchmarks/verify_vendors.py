@@ -89,7 +89,7 @@ def list_lines(folders: dict[str, Path]) -> list[str]:
         comparison = compare_robots(*map(read, paths))
         names = " / ".join(f"`{name}`" for name in models[1:])
         lines.append(f"| {' | '.join((models.robot, names, *describe(comparison)))} |")
-        details += ["", f"### {models.robot}: {names}", ""]
+        details += ["", f"## {models.robot}: {names}", ""]
         for row in ROWS:
             found = [d for d in comparison.differences if d.row == row.name and d.kind != "robot"]
             for d in found[:2]:
