@@ -1,8 +1,8 @@
 """A robot looked over: the table, its JSON, masses and lumps."""
 
 import json
-import re
 import math
+import re
 from pathlib import Path
 
 import jsonschema
