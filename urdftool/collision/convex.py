@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
 from ..geometry.mesh import Faces, Points
 from .vec3 import compute_dot, compute_lengths, compute_normals
+
+if TYPE_CHECKING:
+    from scipy.spatial import ConvexHull
 
 _BATCH = 6  # points that are added to a hull in one step
 _APART = 4.0  # their least distance, in multiples of that from the hull
@@ -20,12 +25,7 @@ def compute_hull(points: Points) -> tuple[Points, Faces]:
     Raises:
         MeshError: The points lie in a plane.
     """
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        found = ConvexHull(points)
-    except (QhullError, ValueError) as error:
-        raise MeshError("the mesh is flat; it encloses no volume") from error
+    found = _run_qhull(points)
     seen = np.zeros(len(points), dtype=bool)
     seen[found.simplices] = True
     faces = (np.cumsum(seen) - 1)[found.simplices]
@@ -33,6 +33,18 @@ def compute_hull(points: Points) -> tuple[Points, Faces]:
     inwards = compute_dot(compute_normals(vertices[faces]), found.equations) < 0
     faces[inwards] = faces[inwards][:, ::-1]
     return vertices, faces[np.lexsort(faces.T[::-1])]
+
+
+def _run_qhull(points: Points) -> ConvexHull:
+    from scipy.spatial import ConvexHull, QhullError
+
+    # Q12: nearly coplanar points may give facets wider than Qhull accepts by default
+    for options in ("Qt", "Qt Q12 Pp"):
+        try:
+            return ConvexHull(points, qhull_options=options)
+        except (QhullError, ValueError) as error:
+            cause = error
+    raise MeshError("the mesh is flat; it encloses no volume") from cause
 
 
 def compute_capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Points, Faces]:

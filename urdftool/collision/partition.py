@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry.hull import FLAT
 from ..geometry.mesh import Faces, Points
 from .distance import spread
 from .exterior import Exterior
@@ -25,6 +26,7 @@ _BURIED_POINTS = 4  # through each of which planes are tried
 _PRICED = 4  # planes, those with the smallest hulls, whose parts are priced
 _OTHER, _VOLUME = 0.3, 0.3  # weights of the cheaper part and of the volume in the choice
 _INTERNAL = 2e-4  # distance of a hull's face from a cut, relative to the size
+_FLUSH = 1e-7  # distance of a point from a plane that it is in, relative to the size
 _TOUCH = 0.01  # largest gap between parts that are joined, relative to the size
 _GRID_SHARES = (0.3, 0.5, 0.7)
 
@@ -139,9 +141,8 @@ class Partition:
     def _split(self, part: Part, *, dense: bool) -> list[Part] | None:
         ranked: list[tuple[float, int, Points]] = []
         for plane in self._list_planes(part, dense=dense):
-            height = part.points @ plane[:3] - plane[3]
-            crossing = _compute_crossings(part.points, part.faces, height)
-            sides = [np.concatenate([part.points[s], crossing]) for s in (height <= 0, height > 0)]
+            height = _compute_signed_heights(part.points, plane, _FLUSH * self.size)
+            sides = [_compute_side(part.points, part.faces, sign * height) for sign in (1, -1)]
             volumes = [_compute_volume(side) for side in sides]
             if min(volumes) > 1e-4 * part.volume:
                 ranked.append((sum(volumes), len(ranked), plane))
@@ -179,7 +180,7 @@ class Partition:
     def _clip_part(self, part: Part, plane: Points) -> list[Part] | None:
         made = []
         for side in (plane, -plane):
-            points, faces = clip(part.points, part.faces, side)
+            points, faces = clip(part.points, part.faces, side, _FLUSH * self.size)
             found = self._make_part(points, faces, np.concatenate([part.cuts, side[None]]))
             if found is None:
                 return None
@@ -198,6 +199,8 @@ class Partition:
         except (QhullError, ValueError):
             return None
         sides = hull.equations * np.array([1, 1, 1, -1])
+        if hull.volume < FLAT * self.size**3:
+            return None
         inner = self._find_faces_on_cuts(ends[hull.simplices], sides, cuts)
         volume = float(hull.volume)
         part = Part(points, faces, cuts, ends[hull.vertices], volume, sides, inner)
@@ -316,16 +319,27 @@ class Partition:
         return living
 
 
-def clip(points: Points, faces: Faces, plane: Points) -> tuple[Points, Faces]:
-    """Return the part of a surface below a plane, given as normal and offset [m]."""
-    height = points @ plane[:3] - plane[3]
+def clip(
+    points: Points, faces: Faces, plane: Points, flush: float = 0.0
+) -> tuple[Points, Faces]:
+    """Return the part of a surface below a plane.
+
+    A triangle in the plane belongs to the side of its solid, which is behind its normal.
+
+    Args:
+        points: Points [m].
+        faces: Triangles.
+        plane: Normal and offset [m].
+        flush: Distance [m] up to which a point is in the plane.
+    """
+    height = _compute_signed_heights(points, plane, flush)
     above = height[faces] > 0
     count = above.sum(axis=1)
-    kept = [faces[count == 0]]
+    kept = [faces[(count == 0) & ~_find_opposite_faces(points, faces, plane, height)]]
     more = [points]
     total = len(points)
     for alone in (True, False):  # whether the corner that differs is above
-        rows = faces[count == (1 if alone else 2)]
+        rows = faces[(count == (1 if alone else 2)) & (height[faces] < 0).any(axis=1)]
         if not len(rows):
             continue
         first = np.argmax((height[rows] > 0) == alone, axis=1)[:, None]
@@ -335,12 +349,30 @@ def clip(points: Points, faces: Faces, plane: Points) -> tuple[Points, Faces]:
         new_c = new_b + len(rows)
         more += [to_b, to_c]
         total += 2 * len(rows)
-        if alone:
-            kept += [np.stack([new_b, b, c], axis=1), np.stack([new_b, c, new_c], axis=1)]
+        if alone:  # where a corner is in the plane, the crossing is that corner
+            wide_b, wide_c = height[b] < 0, height[c] < 0
+            kept += [
+                np.stack([new_b, b, c], axis=1)[wide_b],
+                np.stack([np.where(wide_b, new_b, b), c, new_c], axis=1)[wide_c],
+            ]
         else:
             kept.append(np.stack([a, new_b, new_c], axis=1))
     used, inverse = np.unique(np.concatenate(kept), return_inverse=True)
     return np.concatenate(more)[used], inverse.reshape(-1, 3)
+
+
+def _compute_signed_heights(points: Points, plane: Points, flush: float) -> Points:
+    """Compute the distance [m] of points above a plane; 0 for those within ``flush`` of it."""
+    height = points @ plane[:3] - plane[3]
+    return np.where(np.abs(height) <= flush, 0.0, height)
+
+
+def _find_opposite_faces(points: Points, faces: Faces, plane: Points, height: Points) -> Mask:
+    """Find triangles that are in a plane, with a normal against the plane's, as a mask."""
+    found = np.zeros(len(faces), dtype=bool)
+    flat = np.flatnonzero((height[faces] == 0).all(axis=1))
+    found[flat] = compute_normals(points[faces[flat]]) @ plane[:3] <= 0
+    return found
 
 
 def _compute_crossing(points: Points, height: Points, a: Faces, b: Faces) -> Points:
@@ -348,13 +380,14 @@ def _compute_crossing(points: Points, height: Points, a: Faces, b: Faces) -> Poi
     return np.asarray(points[a] + share * (points[b] - points[a]))
 
 
-def _compute_crossings(points: Points, faces: Faces, height: Points) -> Points:
-    """Compute where edges cross a plane."""
-    above = height > 0
-    pairs = []
+def _compute_side(points: Points, faces: Faces, height: Points) -> Points:
+    """Compute points that have the hull of the surface at negative heights."""
+    below = height < 0
+    pairs = [points[below]]
     for a, b in ((0, 1), (1, 2), (2, 0)):
-        some = faces[above[faces[:, a]] & ~above[faces[:, b]]]
-        pairs.append(_compute_crossing(points, height, some[:, a], some[:, b]))
+        for one, other in ((a, b), (b, a)):
+            some = faces[below[faces[:, one]] & ~below[faces[:, other]]]
+            pairs.append(_compute_crossing(points, height, some[:, one], some[:, other]))
     return np.concatenate(pairs)
 
 
