@@ -43,10 +43,10 @@ pybullet.vhacd(sys.argv[1], sys.argv[2], sys.argv[3], resolution=100000, gamma=0
 ABOUT = f"""\
 Processor time (user and system) of one thread of BLAS for a mesh in memory: `auto` is a call of the
 function behind `collision`, with its defaults, with `--quality tight`, and with `--max-error 0.02
---max-hulls 48` in addition; CoACD is `run_coacd` with its defaults, stopped after {LIMIT:.0f} s by the clock;
-V-HACD is that of PyBullet with 100,000 voxels. Of each robot, the link with the most triangles is
-taken. *Error* is the larger one of reach and excess, relative to the diagonal, measured in the same
-way for all methods; *volume* is relative to that of the visual."""
+--max-hulls 48` in addition; CoACD is `run_coacd` with its defaults, stopped after {LIMIT:.0f} s by
+the clock; V-HACD is that of PyBullet with 100,000 voxels. Of each robot, the link with the most
+triangles is taken. *Error* is the larger one of reach and excess, relative to the diagonal,
+measured in the same way for all methods; *volume* is relative to that of the visual."""
 
 
 class Line(NamedTuple):

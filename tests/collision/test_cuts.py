@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull, QhullError
 
 from tests.collision.shapes import finer, l_profile, noisy
 from urdftool.collision.choose import choose
+from urdftool.collision.convex import compute_hull
 from urdftool.collision.cuts import PlaneCutter
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import ReferenceSurface
@@ -64,6 +66,54 @@ def test_clipping_keeps_what_is_below_the_plane():
         for t in (points[faces], above[others])
     ]
     assert sum(areas) == pytest.approx(24)
+
+
+def areas_and_normals(corners):
+    """Area of each triangle, and normal of that length."""
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    return np.linalg.norm(normal, axis=1), normal
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_face_in_the_plane_belongs_to_its_solid(axis):
+    vertices, faces = l_profile()
+    plane = np.append(np.eye(3)[axis], 0.05)  # in which one leg ends
+    noise = np.random.default_rng(1).normal(0, 1e-12, vertices.shape)
+    total = 0.0
+    for side in (plane, -plane):
+        points, kept = clip(vertices + noise, faces, side, 1e-9)
+        area, normal = areas_and_normals(points[kept])
+        assert area.min() > 1e-6
+        flat = np.abs(points[kept] @ side[:3] - side[3]).max(axis=1) < 1e-9
+        assert (normal[flat] @ side[:3] > 0).all()
+        total += area.sum()
+    assert total == pytest.approx(areas_and_normals(vertices[faces])[0].sum())
+
+
+def test_cuts_through_the_same_points_do_not_multiply_triangles():
+    points, faces = noisy("box", (0.3, 0.2, 0.1))
+    before = len(faces)
+    random = np.random.default_rng(2)
+    for _ in range(20):
+        normal = np.array([0.6, 0, 0.8]) + random.normal(0, 1e-13, 3)
+        points, faces = clip(points, faces, np.append(normal, 0.03), 1e-9)
+    assert len(faces) < 2 * before
+
+
+def test_a_hull_with_facets_that_qhull_finds_too_wide():
+    y, z = (-0.16967401679506897, -0.16967401678750763), 0.03663993934611936
+    points = [
+        (-0.05576687540312109, y[0], 0.062105389472597146), (0.011249977000942607, y[0], z),
+        (0.011249977000942607, y[1], 0.03673185805495809),
+        (0.011238709725432859, y[1], 0.03663995523273686),
+        (0.011249977000942607, y[1], 0.03663993934612712),
+        (-0.05576687539830151, y[1], 0.062105389474508256),
+        (-0.05576687519050419, y[0], 0.06210538943691654),
+    ]  # fmt: skip
+    with pytest.raises(QhullError):
+        ConvexHull(np.array(points))
+    vertices, faces = compute_hull(np.array(points))
+    assert min(len(vertices), len(faces)) >= 4
 
 
 def test_the_fewest_pieces_within_the_error_are_taken():
