@@ -5,6 +5,8 @@ VENV   ?= .venv
 BIN    := $(VENV)/bin
 DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
 SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
+# tests on every core; a worker without work takes tests of another
+PARALLEL := -n auto --maxprocesses 8 --dist worksteal
 
 .PHONY: demo test test-core test-programs test-all check format docs site bench bench-peers fidelity record compare \
   clean
@@ -34,7 +36,7 @@ demo: $(BIN)/urdftool
 	$(BIN)/urdftool export sdf $(SOUND) -o $(VENV)/demo_arm --verify
 
 test: $(VENV)/.dev
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow" $(PARALLEL)
 
 # the command line as pip installs it without an extra, and then every extra, from wheels alone
 CORE := build/core
@@ -45,7 +47,7 @@ test-core:
 	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: .
 	$(CORE)/bin/python -m tests.installed_size
 	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[test-core]'
-	$(CORE)/bin/python -m pytest -q -m "not slow" $(CORE_TESTS)
+	$(CORE)/bin/python -m pytest -q -m "not slow" $(PARALLEL) $(CORE_TESTS)
 	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[all]'
 	$(CORE)/bin/urdftool collision mesh fixtures/meshes/cube.stl --method hull --no-cache
 
@@ -54,7 +56,7 @@ test-programs: $(VENV)/.dev
 	$(BIN)/python -m pytest -m "program and not slow"
 
 test-all: $(VENV)/.dev
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest $(PARALLEL)
 
 check: $(VENV)/.dev
 	$(BIN)/ruff check

@@ -26,7 +26,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 MOST_SKIPPED = 60
-"""How many tests may be skipped where the corpus is present; see test_few_tests_are_skipped."""
+"""How many tests may be skipped where the corpus and every extra are present."""
 
 ABSENT = re.compile(r"requires (a physics engine|\w+), (?:which is not|and none is) installed: pip")
 """What a command prints where an optional library is missing; a test of it is skipped there."""
@@ -40,7 +40,22 @@ def is_there(named):
     return extras.is_installed(names.get(named, named))
 
 
-_skipped = pytest.StashKey[list[str]]()
+def skips_too_many(count):
+    """Whether so many tests were skipped that a green run would mean little."""
+    left_out = ("dask", "robots")
+    optional = {library for library, extra in extras.EXTRA_OF.items() if extra not in left_out}
+    return count > MOST_SKIPPED and CORPUS.exists() and all(map(extras.is_installed, optional))
+
+
+def pytest_sessionfinish(session):
+    """Fail a run that skipped too many tests; workers of a parallel run do not count them."""
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    if reporter is None or hasattr(session.config, "workerinput"):
+        return
+    count = len(reporter.stats.get("skipped", []))
+    if skips_too_many(count) and session.exitstatus == pytest.ExitCode.OK:
+        reporter.write_line(f"{count} tests were skipped; {MOST_SKIPPED} may be", red=True)
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
 def pytest_collection_modifyitems(items):
@@ -54,7 +69,6 @@ def pytest_collection_modifyitems(items):
         for mark in item.iter_markers("library"):
             if not all(map(extras.is_installed, mark.args)):
                 item.add_marker(pytest.mark.skip(reason=f"requires {' and '.join(mark.args)}"))
-    items.sort(key=lambda item: item.name == "test_few_tests_are_skipped")
 
 
 @pytest.hookimpl(wrapper=True)
@@ -66,15 +80,7 @@ def pytest_runtest_makereport(item, call):
         if library is not None and not extras.is_installed(library):
             report.outcome = "skipped"
             report.longrepr = (str(item.path), 0, f"requires {library}")
-    if report.skipped:
-        item.config.stash.setdefault(_skipped, []).append(item.nodeid)
     return report
-
-
-@pytest.fixture
-def skipped_tests(pytestconfig):
-    """The names of the tests that were skipped until now."""
-    return pytestconfig.stash.get(_skipped, [])
 
 
 @pytest.fixture(scope="session")

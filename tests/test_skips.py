@@ -1,14 +1,35 @@
-"""How many tests were skipped, which runs last: a green run must not mean that little was run."""
+"""A run that skipped many tests fails: green must not mean that little was run."""
+
+from types import SimpleNamespace
 
 import pytest
 
-from tests.conftest import CORPUS, MOST_SKIPPED
-from urdftool import extras
+from tests import conftest
 
 
-def test_few_tests_are_skipped(skipped_tests):
-    left_out = ("dask", "robots")
-    optional = {library for library, extra in extras.EXTRA_OF.items() if extra not in left_out}
-    if not CORPUS.exists() or not all(map(extras.is_installed, optional)):
-        pytest.skip("without the corpus and every extra, more tests are skipped")
-    assert len(skipped_tests) <= MOST_SKIPPED, skipped_tests
+class Reporter:
+    """Counts of a run, and what was written after it."""
+
+    def __init__(self, skipped):
+        self.stats = {"skipped": [None] * skipped}
+        self.lines = []
+
+    def write_line(self, line, **markup):
+        self.lines.append(line)
+
+
+@pytest.mark.parametrize("more", [0, 1])
+@pytest.mark.parametrize("role", ["alone", "worker"])
+def test_a_run_fails_that_skipped_too_many(monkeypatch, tmp_path, more, role):
+    monkeypatch.setattr(conftest, "CORPUS", tmp_path)
+    monkeypatch.setattr(conftest.extras, "is_installed", lambda library: True)
+    reporter = Reporter(conftest.MOST_SKIPPED + more)
+    manager = SimpleNamespace(get_plugin={"terminalreporter": reporter}.get)
+    config = SimpleNamespace(pluginmanager=manager)
+    if role == "worker":
+        config.workerinput = {}
+    session = SimpleNamespace(config=config, exitstatus=pytest.ExitCode.OK)
+    conftest.pytest_sessionfinish(session)
+    fails = more and role == "alone"
+    assert session.exitstatus == (pytest.ExitCode.TESTS_FAILED if fails else pytest.ExitCode.OK)
+    assert len(reporter.lines) == bool(fails)
