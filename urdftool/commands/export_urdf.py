@@ -13,7 +13,7 @@ from .options import add_gltf_option, add_package_options, add_robot_argument
 
 _GROUPS = {
     "Output": "output mesh_dir overwrite style",
-    "Conversion": "frames",
+    "Conversion": "frames hardware",
     "Verification": "verified strict force",
 }
 
@@ -33,6 +33,13 @@ _GROUPS = {
     show_default=True,
     help="Sites and frames: keep as links without mass, or none.",
 )
+@click.option(
+    "--hardware",
+    metavar="PLUGIN",
+    default="mock_components/GenericSystem",
+    show_default=True,
+    help="Hardware plugin in <ros2_control>, which holds the actuators; none drops them.",
+)
 @make_export_options(
     mesh_dir="meshes",
     verify=(
@@ -49,6 +56,7 @@ def command(
     robot: tuple[str, dict[str, str]],
     output: str | None,
     frames: str,
+    hardware: str,
     mesh_dir: str,
     package: dict[str, Path],
     package_path: tuple[str, ...],
@@ -60,9 +68,10 @@ def command(
 ) -> int:
     """Convert the robot IN, in SDF or MJCF, to URDF.
 
-    A folder OUT contains ROBOT.urdf and meshes; meshes of a file OUT are written next to it.
-    Several joints between two bodies become links without mass with one joint each. Every loss is
-    reported with its place; --verify compares the result with IN.
+    A folder OUT contains ROBOT.urdf, meshes and, for excluded contacts and named joint positions,
+    ROBOT.srdf; files of a file OUT are written next to it. Several joints between two bodies become
+    links without mass with one joint each. Every loss is reported with its place; --verify compares
+    the result with IN.
 
     \b
         urdftool export urdf arm.xml -o arm/ --verify
@@ -75,7 +84,14 @@ def command(
 
     place = output or "-"
     file = Path(place).name if place == "-" or Path(place).suffix.lower() == ".urdf" else ""
-    options = Options(frames == "keep", force, "robot.urdf" if place == "-" else file, mesh_dir)
+    options = Options(
+        frames == "keep",
+        force,
+        "robot.urdf" if place == "-" else file,
+        mesh_dir,
+        "" if hardware == "none" else hardware,
+        srdf=place != "-",
+    )
     model = read_any(console, robot, package, package_path)
     return run_export(
         console,

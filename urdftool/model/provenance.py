@@ -9,6 +9,8 @@ from ..source.location import Place, SourceFile
 if TYPE_CHECKING:
     from typing import Protocol
 
+    from ..source.document import Element
+
     class Provenance(Protocol):
         """Source of a part: an element of URDF, or a :class:`Written` of another format."""
 
@@ -26,10 +28,12 @@ class Written:
 
     Attributes:
         place: Span in the file.
+        element: XML of the part, if a writer may copy it; else None.
     """
 
-    __slots__ = ("place",)
+    __slots__ = ("element", "place")
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, place: Place, element: Element | None = None) -> None:
         """Store the place."""
         self.place = place
+        self.element = element

@@ -198,7 +198,8 @@ def _close(context: Context, robot: Robot, row: Row, written: Written) -> None:
 def _add_sensor(context: Context, robot: Robot, row: Row) -> None:
     written, target = context.get_place(row), row["objid"]
     kind = row["objtype"]
-    sensor = MountedSensor(written, row["name"], row["type"])
+    tag = context.get_element(row).tag if row["line"] else row["type"]
+    sensor = MountedSensor(written, row["name"], tag)
     if kind == "joint":
         robot.mounted_sensors.append(replace(sensor, joint=context.joints[target]))
         return

@@ -154,7 +154,7 @@ def add_joint(context: Context, found: Found) -> None:
     if found.type == "gearbox":
         context.record_loss("gearbox", "ratios of gearboxes are not read", found.element)
     for sensor in found.element.list_children("sensor"):
-        place, name = Written(sensor.place), sensor.get("name") or ""
+        place, name = Written(sensor.place, sensor), sensor.get("name") or ""
         kind = sensor.get("type") or ""
         robot.mounted_sensors.append(MountedSensor(place, name, kind, joint=found.name))
 

@@ -229,7 +229,7 @@ def _read_material(context: Context, holder: Element) -> Material | None:
 def _add_sensor(
     context: Context, scope: Scope, prefix: str, link: Element, element: Element
 ) -> None:
-    written, kind = Written(element.place), element.get("type") or ""
+    written, kind = Written(element.place, element), element.get("type") or ""
     pose = _compute_pose(context, scope, prefix, link, element)
     name, owner = element.get("name") or "", prefix + (link.get("name") or "")
     camera = element.find_child("camera")

@@ -12,10 +12,15 @@ from ..common.losses import DeclaredLosses
 from ..verify.compare import compare_robots
 from ..verify.difference import Comparison
 from ..verify.names import NameMap
-from ..verify.rows import NOT_COMPARED as NOT_COMPARED
 from ..written import Written
 from .options import Options
 from .read import read
+from .verify_extensions import check_extensions
+
+NOT_COMPARED = (
+    "contact settings", "friction", "textures", "plugins", "closed loops", "transmissions"
+)  # fmt: skip
+"""Parts of a description that no check compares."""
 
 _CODES = {
     "tree": ("lossy-ball", "lossy-screw"),
@@ -61,8 +66,11 @@ def _compare(robot: Robot, written: Written, path: Path) -> list[Check]:
         for kind in ("joint", "link")
     }
     names = NameMap(renamed["joint"], renamed["link"])
-    comparison = compare_robots(robot, read(path).robot, names=names)
-    return _make_checks(comparison, DeclaredLosses.from_findings(written.losses))
+    result, declared = read(path).robot, DeclaredLosses.from_findings(written.losses)
+    checks = _make_checks(compare_robots(robot, result, names=names), declared)
+    if robot.xml is None:  # the extensions of a URDF source are copied
+        checks += check_extensions(robot, result, path, written.renamed, declared)
+    return checks
 
 
 def _make_checks(comparison: Comparison, declared: DeclaredLosses) -> list[Check]:

@@ -21,10 +21,11 @@ from ...model.elements import (
     Sphere,
     Visual,
 )
-from ...model.pose import Pose, get_origin_at, make_pose, rpy_from_rotation
+from ...model.pose import Pose, get_origin_at, make_pose
 from ...model.shapes import get_shape_name
 from ..written import Written
 from .mesh_files import MeshFiles
+from .translation import add_origin, format_numbers
 
 
 def add_shape(
@@ -46,7 +47,7 @@ def add_shape(
             continue
         attributes = {"name": shape.name} if shape.name else {}
         outer = etree.SubElement(node, kind, attributes)
-        _add_origin(outer, origin)
+        add_origin(outer, origin)
         etree.SubElement(outer, "geometry").append(inner)
         if isinstance(shape, Visual) and shape.material is not None:
             _add_material(robot, meshes, outer, shape.material)
@@ -74,17 +75,13 @@ def _split(
     return [(origin, Cylinder(place, geometry.radius, geometry.length)), *ends]
 
 
-def _format(*values: float) -> str:
-    return " ".join(f"{value + 0.0!r}".removesuffix(".0") for value in values)
-
-
 def _make_geometry(geometry: Geometry, meshes: MeshFiles) -> etree._Element | None:
     if isinstance(geometry, Box):
-        return etree.Element("box", size=_format(*geometry.size))
+        return etree.Element("box", size=format_numbers(*geometry.size))
     if isinstance(geometry, Sphere):
-        return etree.Element("sphere", radius=_format(geometry.radius))
+        return etree.Element("sphere", radius=format_numbers(geometry.radius))
     if isinstance(geometry, Cylinder):
-        radius, length = _format(geometry.radius), _format(geometry.length)
+        radius, length = format_numbers(geometry.radius), format_numbers(geometry.length)
         return etree.Element("cylinder", radius=radius, length=length)
     if isinstance(geometry, Mesh):
         place = meshes.get_place(geometry.filename)
@@ -92,19 +89,9 @@ def _make_geometry(geometry: Geometry, meshes: MeshFiles) -> etree._Element | No
             return None
         node = etree.Element("mesh", filename=place)
         if geometry.scale != (1.0, 1.0, 1.0):
-            node.set("scale", _format(*geometry.scale))
+            node.set("scale", format_numbers(*geometry.scale))
         return node
     return None
-
-
-def _add_origin(parent: etree._Element, origin: Origin | None) -> None:
-    if origin is None:
-        return
-    rpy = origin.rpy
-    if origin.quaternion is not None:
-        rpy = rpy_from_rotation(make_pose(origin).rotation)
-    if any(origin.xyz) or any(rpy):
-        etree.SubElement(parent, "origin", xyz=_format(*origin.xyz), rpy=_format(*rpy))
 
 
 def _add_material(
@@ -128,6 +115,6 @@ def _add_material(
     name = material.name or "rgba_" + "_".join(f"{part:.4g}" for part in color or ())
     node = etree.SubElement(parent, "material", name=name)
     if color is not None:
-        etree.SubElement(node, "color", rgba=_format(*color))
+        etree.SubElement(node, "color", rgba=format_numbers(*color))
     if place is not None:
         etree.SubElement(node, "texture", filename=place)

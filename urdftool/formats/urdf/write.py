@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 from pathlib import PurePath
 
 from lxml import etree
@@ -11,8 +10,6 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
 from ...model.mechanism import Frame
-from ...model.pose import make_pose, rpy_from_rotation
-from ...source.document import Element
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -23,36 +20,17 @@ from ..common.force_fallbacks import (
 from ..common.naming import replace_file_name
 from ..defects import refuse
 from ..written import Written
+from .control import add_control
+from .gazebo import add_cameras, add_sensors, add_springs, copy_extensions
 from .mesh_files import MeshFiles, report_mesh_defects
 from .names import Names
 from .options import Options
+from .semantics import make_srdf
 from .shapes import add_shape
+from .translation import Translation, add, add_origin, format_number, format_numbers
 
 UNLIMITED = 1e9
 """Number that stands for no limit where URDF requires one."""
-
-_COPIED = ("gazebo", "transmission", "ros2_control")
-
-
-@dataclass
-class Translation:
-    """State of an export.
-
-    Attributes:
-        robot: The source.
-        options: Options.
-        written: The export.
-        names: Names in the export.
-        meshes: Mesh and texture files.
-        root: The element ``<robot>``.
-    """
-
-    robot: Robot
-    options: Options
-    written: Written
-    names: Names
-    meshes: MeshFiles
-    root: etree._Element = field(default_factory=lambda: etree.Element("robot"))
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:
@@ -87,50 +65,39 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     for joint in robot.joints:
         _add_joint(t, joint)
     _add_frames(t)
-    _copy_extensions(t)
+    copy_extensions(t)
+    add_control(t)
+    add_springs(t)
+    add_cameras(t)
+    add_sensors(t)
     _report_unexpressed(t)
     report_passed_defects(written, found)
-    etree.indent(t.root, "  ")
-    source = PurePath(robot.source.path).name if robot.source is not None else "a robot"
-    text = b'<?xml version="1.0"?>\n' + etree.tostring(t.root, encoding="UTF-8") + b"\n"
-    written.files[written.main] = mark(text, source)
+    written.files[written.main] = _format_file(t, t.root)
+    semantics = make_srdf(t)
+    if semantics is not None:
+        written.files[str(PurePath(written.main).with_suffix(".srdf"))] = _format_file(t, semantics)
     for path, name in meshes.places.items():
         written.files.setdefault(name, path)
     return written
 
 
-def _number(value: float) -> str:
-    return f"{value + 0.0!r}".removesuffix(".0")
-
-
-def _format_numbers(*values: float) -> str:
-    return " ".join(map(_number, values))
-
-
-def _add(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
-    return etree.SubElement(parent, tag, attributes)
-
-
-def _add_origin(parent: etree._Element, origin: Origin | None) -> None:
-    if origin is None:
-        return
-    rpy = origin.rpy
-    if origin.quaternion is not None:
-        rpy = rpy_from_rotation(make_pose(origin).rotation)
-    if any(origin.xyz) or any(rpy):
-        _add(parent, "origin", xyz=_format_numbers(*origin.xyz), rpy=_format_numbers(*rpy))
+def _format_file(t: Translation, root: etree._Element) -> bytes:
+    etree.indent(root, "  ")
+    source = PurePath(t.robot.source.path).name if t.robot.source is not None else "a robot"
+    text = b'<?xml version="1.0"?>\n' + etree.tostring(root, encoding="UTF-8") + b"\n"
+    return mark(text, source)
 
 
 def _add_link(t: Translation, link: Link) -> None:
-    node = _add(t.root, "link", name=t.names.links[link.name])
+    node = add(t.root, "link", name=t.names.links[link.name])
     inertial = link.inertial
     if inertial is not None and inertial.mass is not None:
-        inner = _add(node, "inertial")
-        _add_origin(inner, inertial.origin)
-        _add(inner, "mass", value=_number(inertial.mass))
+        inner = add(node, "inertial")
+        add_origin(inner, inertial.origin)
+        add(inner, "mass", value=format_number(inertial.mass))
         six = (0.0,) * 6 if inertial.inertia is None else inertial.inertia.six
         names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        _add(inner, "inertia", **{n: _number(v) for n, v in zip(names, six, strict=True)})
+        add(inner, "inertia", **{n: format_number(v) for n, v in zip(names, six, strict=True)})
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     for shape in shapes:
         add_shape(t.robot, t.written, t.meshes, node, link, shape)
@@ -151,35 +118,35 @@ def _add_joint(t: Translation, joint: Joint) -> None:
     if kind == "fixed":
         return
     if joint.axis is not None and kind != "floating":
-        _add(node, "axis", xyz=_format_numbers(*joint.axis.xyz))
+        add(node, "axis", xyz=format_numbers(*joint.axis.xyz))
     _add_limit(t, node, joint, kind)
     dynamics = joint.dynamics
     if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):
         written = {"damping": dynamics.damping, "friction": dynamics.friction}
-        _add(node, "dynamics", **{n: _number(v) for n, v in written.items() if v is not None})
+        add(node, "dynamics", **{n: format_number(v) for n, v in written.items() if v is not None})
     if joint.mimic is not None:
         m = joint.mimic
         leader = t.names.joints.get(m.joint, m.joint)
-        _add(
+        add(
             node,
             "mimic",
             joint=leader,
-            multiplier=_number(m.multiplier),
-            offset=_number(m.offset),
+            multiplier=format_number(m.multiplier),
+            offset=format_number(m.offset),
         )
     for tag in ("safety_controller", "calibration"):
         element = joint.find_child_xml(tag)
         if element is not None:
-            _add(node, tag, **element.attributes)
+            add(node, tag, **element.attributes)
 
 
 def _make_joint(
     t: Translation, name: str, kind: str, parent: str, child: str, origin: Origin | None
 ) -> etree._Element:
-    node = _add(t.root, "joint", name=name, type=kind)
-    _add(node, "parent", link=parent)
-    _add(node, "child", link=child)
-    _add_origin(node, origin)
+    node = add(t.root, "joint", name=name, type=kind)
+    add(node, "parent", link=parent)
+    add(node, "child", link=child)
+    add_origin(node, origin)
     return node
 
 
@@ -210,7 +177,7 @@ def _add_limit(t: Translation, node: etree._Element, joint: Joint, kind: str) ->
             "limit", text, joint.place, kind="joint", name=joint.name,
             severity=Severity.INFO, data=data,
         )  # fmt: skip
-    _add(node, "limit", **{name: _number(value) for name, value in values.items()})
+    add(node, "limit", **{name: format_number(value) for name, value in values.items()})
 
 
 def _bound(value: float | None, default: float) -> float:
@@ -227,10 +194,10 @@ def _add_ball(t: Translation, joint: Joint, name: str, parent: str, child: str) 
     for number, axis in enumerate(("1 0 0", "0 1 0", "0 0 1")):
         to = child if number == 2 else t.names.taken_links.take(f"{name}_{'xy'[number]}_link")
         if to != child:
-            _add(t.root, "link", name=to)
+            add(t.root, "link", name=to)
         own = t.names.taken_joints.take(f"{name}_{'xyz'[number]}")
         node = _make_joint(t, own, "continuous", parent, to, origin)
-        _add(node, "axis", xyz=axis)
+        add(node, "axis", xyz=axis)
         parent, origin = to, None
 
 
@@ -245,7 +212,7 @@ def _add_frames(t: Translation) -> None:
         return
     for frame in t.robot.frames:
         name = t.names.taken_links.take(_get_frame_name(frame))
-        _add(t.root, "link", name=name)
+        add(t.root, "link", name=name)
         own = t.names.taken_joints.take(f"{name}_fixed")
         parent = t.names.links.get(frame.link, frame.link)
         _make_joint(t, own, "fixed", parent, name, frame.origin)
@@ -257,37 +224,13 @@ def _get_frame_name(frame: Frame) -> str:
     return (frame.name or f"{frame.link}_{frame.kind}").replace("::", "_")
 
 
-def _copy_extensions(t: Translation) -> None:
-    """Copy the elements for simulators and controllers of a URDF source."""
-    source = t.robot.xml
-    for element in () if source is None else source.children:
-        if element.tag in _COPIED:
-            _copy(t.root, element)
-
-
-def _copy(parent: etree._Element, element: Element) -> None:
-    tag = element.tag.replace(":", "_")
-    attributes = {n: v for n, v in element.attributes.items() if ":" not in n and n != "xmlns"}
-    node = etree.SubElement(parent, tag, attributes)
-    node.text = element.text.strip() or None
-    for child in element.children:
-        _copy(node, child)
-
-
 def _report_unexpressed(t: Translation) -> None:
     """Report what URDF cannot hold, once for each kind."""
     robot = t.robot
-    springs = [j for j in robot.joints if j.dynamics is not None and j.dynamics.stiffness]
     rotors = [j for j in robot.joints if j.dynamics is not None and j.dynamics.armature]
     kinds = (
-        ("spring", "springs of joints are dropped", springs),
         ("armature", "rotor inertia (armature) of joints is dropped", rotors),
         ("closure", "connections that close loops are dropped", robot.closures),
-        ("actuator", "actuators and their gains are dropped", robot.joint_actuators),
-        ("exclusion", "excluded contacts are dropped", robot.exclusions),
-        ("configuration", "named configurations are dropped", robot.configurations),
-        ("camera", "cameras are dropped", robot.cameras),
-        ("sensor", "sensors are dropped", robot.mounted_sensors),
     )
     for code, text, parts in kinds:
         if parts:
