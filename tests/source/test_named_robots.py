@@ -1,5 +1,6 @@
 """Robots by name, from stand-ins of the packages that download them."""
 
+import json
 import sys
 
 import pytest
@@ -9,6 +10,7 @@ from urdftool.errors import MissingDependency, SourceError
 from urdftool.source.named_robots import find_named_robot
 
 ARM = FIXTURES / "formats" / "mjcf" / "arm.urdf"
+OTHER = ARM.with_name("rover.urdf")
 
 MENAGERIE = """
 class Robot:
@@ -78,3 +80,44 @@ def test_commands_take_a_name_instead_of_a_file(packages, urdftool, tmp_path):
     both = urdftool("info", "-r", "arm", ARM)
     assert (both.code, "2 files are given" in both.err) == (2, True)
     assert urdftool("info").code == 2
+
+
+def test_names_keep_their_place_among_files(packages, urdftool):
+    """The order of two robots counts, and xacro arguments belong to the robot before them."""
+    changes = [
+        urdftool("diff", *words, "--format", "json").out
+        for words in (("-r", "arm", OTHER), ("-rarm", OTHER), (ARM, OTHER))
+    ]
+    assert changes[0] == changes[1] == changes[2] != ""
+    reverse = json.loads(urdftool("diff", OTHER, "-r", "arm", "--format", "json").out)
+    assert (reverse["before"], reverse["after"]) == (str(OTHER), str(ARM))
+
+
+COMMANDS = [
+    ("lint", "--format", "concise"),
+    ("collision", "--check"),
+    ("export", "urdf"),
+    ("export", "mjcf"),
+    ("graph", "-o", "-"),
+    ("inertia", "robot"),
+    ("info",),
+    ("expand",),
+]
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=lambda words: " ".join(words[:2]))
+def test_every_command_does_the_same_by_name(packages, urdftool, words):
+    by_name, by_path = urdftool(*words, "-r", "arm"), urdftool(*words, ARM)
+    assert (by_name.code, by_name.out) == (by_path.code, by_path.out)
+    assert by_name.out or by_name.err.removeprefix("cloning\n") == by_path.err
+
+
+def test_verify_takes_names(packages, urdftool):
+    assert urdftool("verify", "-r", "arm", "-r", "arm").code == 0
+    one = urdftool("verify", "-r", "arm")
+    assert (one.code, "1 file is given" in one.err) == (2, True)
+
+
+def test_a_name_is_required(urdftool):
+    assert "requires an argument" in urdftool("lint", "-r").err
+    assert urdftool("lint", "--help", "-r", "nothing").code == 0

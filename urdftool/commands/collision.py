@@ -16,7 +16,13 @@ from .collision_options import (
 )
 from .general_options import accept_general_options
 from .grouped_help import GroupedCommand
-from .options import add_gltf_option, add_jobs_option, add_package_options, split_arguments
+from .options import (
+    add_gltf_option,
+    add_jobs_option,
+    add_name_option,
+    add_package_options,
+    split_arguments,
+)
 from .picture_file import check_picture_name
 
 
@@ -57,6 +63,7 @@ _GROUPS = {
 
 @click.command("collision", cls=_OrMesh, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="IN [name:=value ...]")
+@add_name_option
 @click.option("-o", "--output", metavar="OUT", help="Write a new URDF; for folders, a folder.")
 @click.option("--in-place", is_flag=True, help="Edit the collision geometry in the source files.")
 @click.option("--check", is_flag=True, help="Measure the existing collision geometry; write none.")

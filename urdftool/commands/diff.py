@@ -12,7 +12,13 @@ import click
 from ..console import Console
 from ..report.counted import format_count
 from .grouped_help import GroupedCommand
-from .options import add_package_options, make_format_option, make_output_option, split_robots
+from .options import (
+    add_name_option,
+    add_package_options,
+    make_format_option,
+    make_output_option,
+    split_robots,
+)
 
 if TYPE_CHECKING:
     from ..compare.revision import Checkout
@@ -26,6 +32,7 @@ _GROUPS = {"Comparison": "tolerance", "Output": "style output"}
 
 @click.command("diff", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="A [name:=value ...] B [name:=value ...]")
+@add_name_option
 @make_output_option("Output file.  [default: standard output]")
 @click.option(
     "--tolerance",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from inspect import cleandoc
 from typing import Any
 
@@ -13,6 +13,9 @@ SHARED_OPTIONS = (
     *("named", "gltf_up", "package", "package_path", "cache_dir", "no_cache", "help"),
 )
 """Parameters of the last group, which have the same meaning in every command."""
+
+NAMED = "\0"
+"""Start of a word that is the name of a robot; no word of a command line contains it."""
 
 _MAX_COLUMN = 26  # characters; a longer option has a line of its own
 _EXAMPLES = "\n\n\b\n"
@@ -33,6 +36,12 @@ class GroupedCommand(click.Command):
         """Make a command; all other arguments are those of :class:`click.Command`."""
         super().__init__(*arguments, **settings)
         self.groups = {title: tuple(names.split()) for title, names in groups.items()}
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Parse the arguments; a robot by name, ``-r NAME``, keeps its place among the paths."""
+        if any(parameter.name == "named" for parameter in self.params):
+            args = list(_mark_names(args))
+        return super().parse_args(ctx, args)
 
     def list_groups(self, ctx: click.Context) -> Iterator[tuple[str, list[click.Option]]]:
         """Yield the title of each group and its options, in the order of the group."""
@@ -81,3 +90,19 @@ class GroupedCommand(click.Command):
         """Split the help into the text before the examples, and the examples with what follows."""
         text, _, rest = cleandoc(self.help or "").partition(_EXAMPLES)
         return text, rest
+
+
+def _mark_names(words: Iterable[str]) -> Iterator[str]:
+    """Yield words with each ``-r NAME`` as one word that begins with ``NAMED``."""
+    rest = iter(words)
+    for word in rest:
+        if word == "--":
+            yield word
+            yield from rest
+        elif word == "-r":
+            name = next(rest, None)
+            yield word if name is None else NAMED + name
+        elif word.startswith("-r") and word[2:].isidentifier():
+            yield NAMED + word[2:]
+        else:
+            yield word

@@ -11,7 +11,13 @@ import click
 from ..console import Console
 from .cache_options import add_cache_options, choose_cache_folder
 from .grouped_help import GroupedCommand
-from .options import add_gltf_option, add_jobs_option, add_package_options, split_arguments
+from .options import (
+    add_gltf_option,
+    add_jobs_option,
+    add_name_option,
+    add_package_options,
+    split_arguments,
+)
 
 if TYPE_CHECKING:
     from ..workspace import Workspace
@@ -29,6 +35,7 @@ _GROUPS = {
 
 @click.command("lint", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="PATH... [name:=value ...]")
+@add_name_option
 @click.option("--select", multiple=True, metavar="RULES", help="Check only these rules.")
 @click.option(
     "--extend-select",

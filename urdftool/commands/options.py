@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
+from .grouped_help import NAMED
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
@@ -23,9 +24,13 @@ ASSIGN = ":="
 def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
     """Separate paths from xacro arguments, which are written ``name:=value``.
 
+    A robot by name becomes its path.
+
     Raises:
         UsageError: An argument has no name, or a missing file looks like ``name=value``.
+        UrdftoolError: A robot by name is not found.
     """
+    words = tuple(map(_find_named, words))
     paths = [word for word in words if ASSIGN not in word]
     for word in paths:
         name, equals, value = word.partition("=")
@@ -45,11 +50,14 @@ def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
 def split_robots(words: tuple[str, ...]) -> list[tuple[str, dict[str, str]]]:
     """Split words into robots: paths, each followed by its xacro arguments.
 
+    A robot by name becomes its path.
+
     Raises:
         UsageError: An argument precedes the first path, or has another form.
+        UrdftoolError: A robot by name is not found.
     """
     sides: list[list[str]] = []
-    for word in words:
+    for word in map(_find_named, words):
         if ASSIGN not in word:
             sides.append([word])
         elif sides:
@@ -72,23 +80,23 @@ def add_robot_argument(function: F) -> F:
 
 
 def add_name_option(function: F) -> F:
-    """Add ``-r NAME``, whose robot takes the place of the path; see :func:`parse_robot`."""
+    """Add ``-r NAME``, a robot in place of a path; it requires a :class:`GroupedCommand`."""
     return click.option(
         "-r",
         "named",
         metavar="NAME",
-        is_eager=True,
         expose_value=False,
-        callback=_store_name,
-        help="Robot of the Python package robot_descriptions or mujoco-menagerie, instead of IN.",
+        help="Robot of the Python package robot_descriptions or mujoco-menagerie, in place of a "
+        "file.",
     )(function)
 
 
-_NAME = "urdftool.named_robot"
+def _find_named(word: str) -> str:
+    if not word.startswith(NAMED):
+        return word
+    from ..source.named_robots import find_named_robot
 
-
-def _store_name(ctx: click.Context, parameter: click.Parameter, name: str | None) -> None:
-    ctx.meta[_NAME] = name
+    return find_named_robot(word.removeprefix(NAMED))
 
 
 def _parse_robot(
@@ -104,11 +112,6 @@ def parse_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[s
         UsageError: There is no path, or more than one.
     """
     paths, arguments = split_arguments(words)
-    name = ctx.meta.get(_NAME)
-    if name is not None:
-        from ..source.named_robots import find_named_robot
-
-        paths.append(find_named_robot(name))
     if not paths:
         raise click.UsageError(
             "missing argument IN: a robot (URDF, xacro, SDF or MJCF), or '-' for standard input",

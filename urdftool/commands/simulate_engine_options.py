@@ -68,10 +68,10 @@ def add_robots_argument(function: F) -> F:
 def _parse_robots(
     ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]
 ) -> tuple[list[str], dict[str, str]]:
-    paths, arguments = split_arguments(words)
     if not ctx.params.get("fleet"):
         path, arguments = parse_robot(ctx, words)
         return [path], arguments
+    paths, arguments = split_arguments(words)
     if not paths:
         raise click.UsageError("missing argument IN: files or folders for --fleet", ctx)
     if "-" in paths:

@@ -10,6 +10,7 @@ from ..console import Console
 from .grouped_help import GroupedCommand
 from .options import (
     add_gltf_option,
+    add_name_option,
     add_package_options,
     make_output_option,
     split_robots,
@@ -22,6 +23,7 @@ _GROUPS = {"Comparison": "only tolerance names", "Output": "style output"}
 
 @click.command("verify", cls=GroupedCommand, groups=_GROUPS)
 @click.argument("words", nargs=-1, metavar="A [name:=value ...] B [name:=value ...] ...")
+@add_name_option
 @make_output_option("Output file.  [default: standard output]")
 @click.option(
     "--only",

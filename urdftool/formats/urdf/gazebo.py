@@ -12,6 +12,7 @@ from ...model.elements import Origin
 from ...model.mechanism import Camera, MountedSensor
 from ...model.pose import IDENTITY, Pose, get_origin_at, make_pose
 from ...model.provenance import Written as Source
+from ...model.world import WORLD
 from ...source.document import Element
 from ..common.naming import UniqueNames
 from .control import is_joint_state
@@ -75,6 +76,12 @@ def add_cameras(t: Translation) -> None:
     for camera in t.robot.cameras:
         name = names.take(camera.name or f"{camera.link}_camera")
         frame = _add_optical_frame(t, camera, name)
+        if camera.link == WORLD:
+            text = (
+                f"camera is dropped, since Gazebo has no sensors on link 'world': '{camera.name}'"
+            )
+            t.written.report_loss("sensor", text, camera.place, kind="sensor", name=camera.name)
+            continue
         node = add(t.root, "gazebo", reference=t.names.links[camera.link])
         source = _get_sdf(camera)
         if source is None:
@@ -135,7 +142,9 @@ def add_sensors(t: Translation) -> None:
     groups: dict[tuple[str, str, str], list[MountedSensor]] = {}
     for sensor in t.robot.mounted_sensors:
         element = _get_sdf(sensor)
-        if element is not None:
+        if sensor.link == WORLD:
+            _report(t, sensor, "is on link 'world', which Gazebo does not read")
+        elif element is not None:
             _add_sdf_sensor(t, sensor, element, names)
         elif is_joint_state(sensor):
             if not (t.options.hardware and t.robot.joint_actuators):
