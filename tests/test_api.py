@@ -149,3 +149,40 @@ def test_importing_the_package_loads_no_library():
     code += "print(sorted({'numpy', 'lxml', 'click', 'xacro'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+SDF = FIXTURES / "formats/sdf/gripper_arm.gz.sdf"
+
+
+def test_export_urdf_gives_what_the_command_writes(tmp_path, urdftool):
+    written = api.export_urdf(api.load(SDF), tmp_path / "api", verify=True)
+    assert {check.verdict for check in written.checks} == {"equal", "announced"}
+    urdftool("export", "urdf", SDF, "-o", tmp_path / "command")
+    name = "gripper_arm.urdf"
+    assert (tmp_path / "api" / name).read_bytes() == (tmp_path / "command" / name).read_bytes()
+    api.export_urdf(api.load(SDF), tmp_path / "file.urdf", frames=False)
+    assert len(api.load(tmp_path / "file.urdf").links) < len(
+        api.load(tmp_path / "api" / name).links
+    )
+    with pytest.raises(OutputError):
+        (tmp_path / "file.urdf").write_text("<robot/>")
+        api.export_urdf(api.load(SDF), tmp_path / "file.urdf")
+
+
+def test_verify_gives_what_the_command_prints(tmp_path, urdftool):
+    text = MIRA.read_text()
+    changed = tmp_path / "changed.urdf"
+    changed.write_text(text.replace('<mass value="', '<mass value="1', 1))
+    packages = {"mira_description": MIRA.parents[1]}
+    agreement = api.verify(MIRA, changed, only=["mass"], packages=packages)
+    assert [row.name for row in agreement.rows] == ["mass"]
+    (difference,) = agreement.list_disagreements()
+    assert (agreement.is_equal, difference.what, difference.kind) == (False, "mass", "link")
+    option = f"mira_description={MIRA.parents[1]}"
+    result = urdftool("verify", MIRA, changed, "--only", "mass", "-p", option)
+    assert (result.code, f"link '{difference.name}'" in result.out) == (1, True)
+    assert api.verify(api.load(MIRA), MIRA, packages=packages).is_equal
+    with pytest.raises(ConfigError, match="at least two robots"):
+        api.verify(MIRA)
+    with pytest.raises(ConfigError, match="did you mean 'colors'"):
+        api.verify(MIRA, MIRA, only=["colour"])

@@ -24,11 +24,13 @@ _HOMES = {
     "expand": "api.expand",
     "export_mjcf": "api.export",
     "export_sdf": "api.export",
+    "export_urdf": "api.export_urdf",
     "export_usd": "api.export_usd",
     "fix": "api.fix",
     "load": "api.load",
     "simplify_collisions": "api.collisions",
     "simulate": "api.simulate",
+    "verify": "api.verify",
 }
 
 __all__ = [
@@ -42,22 +44,26 @@ __all__ = [
     "expand",
     "export_mjcf",
     "export_sdf",
+    "export_urdf",
     "export_usd",
     "fix",
     "load",
     "simplify_collisions",
     "simulate",
+    "verify",
 ]
 
 if TYPE_CHECKING:
     from .api.collisions import simplify_collisions
     from .api.expand import expand
     from .api.export import export_mjcf, export_sdf
+    from .api.export_urdf import export_urdf
     from .api.export_usd import export_usd
     from .api.fix import fix
     from .api.lint import check
     from .api.load import load
     from .api.simulate import simulate
+    from .api.verify import verify
     from .diagnostic import Severity
     from .errors import UrdftoolError
     from .finding import Finding

@@ -11,6 +11,7 @@ from types import FunctionType
 import urdftool
 from urdftool.collision import compute, settings
 from urdftool.formats.check import Check
+from urdftool.formats.verify.several import Agreement, Disagreement
 from urdftool.formats.written import Written
 from urdftool.lint.fix_run import FixedDescription
 from urdftool.model import elements
@@ -28,7 +29,7 @@ PARTS = (
 """Parts of a robot that most programs use."""
 
 RESULTS = (
-    *(FixedDescription, Written, Check, Verdict, Fault),
+    *(FixedDescription, Written, Check, Agreement, Disagreement, Verdict, Fault),
     *(Settings, settings.Settings, compute.Result),
 )
 """Types of arguments and results other than robots and findings."""
