@@ -13,7 +13,8 @@ def simulate(
     """Spawn a robot above a plane, let it settle, and evaluate the result.
 
     Args:
-        robot: A robot from ``load``.
+        robot: A robot from ``load``. Of a scene in SDF or MJCF, the free part with most joints is
+            simulated, without other parts and planes of the world.
         settings: Spawn pose, duration and other settings; None simulates 5 s with each joint held
             at zero.
         engine: ``"pybullet"`` or ``"mujoco"``; None uses PyBullet, or MuJoCo where PyBullet has no
@@ -34,6 +35,7 @@ def simulate(
     from ..simulation.checks.interpenetration import precompute_overlaps
     from ..simulation.engines.registry import REGISTRY, check_engines, choose_default_engine
     from ..simulation.run import simulate as run
+    from ..simulation.scene import take_robot
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
 
@@ -42,5 +44,6 @@ def simulate(
         raise ConfigError(f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}")
     check_engines((engine,))
     require("simulate", "scipy", "manifold3d")
+    robot, _ = take_robot(robot)
     runs = run(robot, settings or Settings(), engine=engine, precompute=precompute_overlaps)
     return [judge(robot, one) for one in runs]

@@ -72,7 +72,7 @@ def command(
     from ..simulation.mesh_cache import set_cache_folder
     from .cache_options import choose_cache_folder
     from .load_tolerant import load_tolerant
-    from .simulate_control import apply_controllers, report_open_loops
+    from .simulate_control import apply_controllers, report_open_loops, take_robot_of_scene
     from .simulate_fleet import Fleet, simulate_fleet
     from .simulate_one import print_old_thresholds, read_configured_thresholds, simulate_one
     from .simulate_options import make_settings
@@ -105,6 +105,7 @@ def command(
         EngineProcess(get_library(engines[0])) as child,  # starts in parallel
     ):
         model = load_tolerant(console, paths[0], arguments, package, package_path)
+        model = take_robot_of_scene(console, model)
         set_cache_folder(model, cache)
         report_open_loops(console, model)
         settings = apply_controllers(console, settings, model, controllers, strict=strict)

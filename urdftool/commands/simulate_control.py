@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..simulation.settings import Settings
 
+_MOST = 4
+
 
 def apply_controllers(
     console: Console, settings: Settings, robot: Robot, path: str | None, *, strict: bool = False
@@ -54,7 +56,28 @@ def report_open_loops(console: Console, robot: Robot) -> None:
         robot: Robot; one that was read from URDF has none.
     """
     for closure in robot.closures:
+        which = f"closed loop '{closure.name}'" if closure.name else "the closed loop"
         console.print_note(
-            f"{closure.place}: warning: closed loop '{closure.name}' between links "
+            f"{closure.place}: warning: {which} between links "
             f"'{closure.parent}' and '{closure.child}' stays open: the simulation uses the tree"
         )
+
+
+def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
+    """Return the robot of a scene, and print what is not simulated.
+
+    Args:
+        console: Output for warnings.
+        robot: Robot; one that was read from URDF is returned as it is.
+    """
+    from ..simulation.scene import take_robot
+
+    part, left_out = take_robot(robot)
+    if left_out:
+        shown = ", ".join(left_out[:_MOST])
+        more = f" and {len(left_out) - _MOST} more" if len(left_out) > _MOST else ""
+        console.print_note(
+            f"{robot.place}: warning: parts of the scene are not simulated: {shown}{more}; the "
+            "simulation has one robot and its own ground"
+        )
+    return part

@@ -54,12 +54,13 @@ class Fleet:
         from ..simulation.fleet import Row, make_row
         from ..simulation.mesh_cache import set_cache_folder
         from .load_tolerant import load_tolerant
-        from .simulate_control import apply_controllers
+        from .simulate_control import apply_controllers, take_robot_of_scene
         from .simulate_one import read_configured_thresholds, simulate_and_judge
 
         robot = load_tolerant(
             self.console, path, self.arguments, self.packages, self.package_paths, many=True
         )
+        robot = take_robot_of_scene(self.console, robot)
         set_cache_folder(robot, self.cache)
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="the file has only macros and no link")

@@ -87,10 +87,11 @@ def report_robot_without_collision(robot: Robot) -> Iterator[Problem]:
     """Report a robot without any collision geometry with an extent."""
     shapes = [shape.geometry for link in robot.links for shape in link.collisions]
     if not any(shape is not None and has_extent(shape) for shape in shapes):
+        what = "geom that makes contact" if robot.format == "mjcf" else "<collision>"
         yield Problem(
             robot,
-            "no link has a <collision>, so the robot cannot make contact with the ground; add a "
-            "<collision> to each link",
+            f"no link has a {what}, so the robot cannot make contact with the ground; add a {what} "
+            "to each link",
         )
 
 

@@ -10,6 +10,7 @@ from ...diagnostic import Severity
 from ...formats.common.extent import get_shape_points
 from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
 from ...model.pose import Pose, make_pose
+from ..element_names import name_element
 from ..extent import compute_bounding_box, get_shape_corners
 from ..fault import Fault
 from ..overlap import tessellate_primitive_triangles
@@ -108,7 +109,8 @@ def _report_missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
                 yield Fault(
                     "missing-contact-geometry",
                     Severity.ERROR,
-                    f"link '{name}' is {where} the ground but has no <collision>",
+                    f"link '{name}' is {where} the ground but has no "
+                    f"{name_element(robot, '<collision>')}",
                     robot.link[name].place,
                     "link",
                     name,
@@ -146,13 +148,14 @@ def _report_submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
                     "missing-contact-geometry",
                     Severity.ERROR,
                     f"visual of link '{name}' extends {-low:.3g} m below the ground, and its "
-                    "<collision> does not reach the ground",
+                    "collision geometry does not reach the ground",
                     robot.link[name].collisions[0].place,
                     "link",
                     name,
                     "collision is much smaller than the visual; check its size, scale and units"
                     if small
-                    else "collision is offset or rotated from the visual; check its <origin>",
+                    else "collision is offset or rotated from the visual; check its "
+                    + name_element(robot, "<origin>"),
                     "collision-much-smaller-than-visual" if small else "collision-off-visual",
                 )
 
@@ -177,8 +180,8 @@ def _report_unlike_copies(robot: Robot, run: Run, state: FinalState) -> Iterator
                 yield Fault(
                     "missing-contact-geometry",
                     Severity.ERROR,
-                    f"link '{name}' has no <collision>, but link '{twin}' with equal visuals makes "
-                    "contact with the ground",
+                    f"link '{name}' has no {name_element(robot, '<collision>')}, but link '{twin}' "
+                    "with equal visuals makes contact with the ground",
                     robot.link[name].place,
                     "link",
                     name,

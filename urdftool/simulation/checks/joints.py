@@ -11,6 +11,7 @@ from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.pose import rotation_from_quaternion
 from ..control import is_driven
+from ..element_names import name_element
 from ..fault import Fault
 from ..model_checks.bodies import is_impossible
 from ..recording import GROUND
@@ -229,7 +230,8 @@ def _report_misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
             (mimic or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
-            "the multiplier or offset of its <mimic>, or its limits, are wrong",
+            f"the multiplier or offset of its {name_element(robot, '<mimic>')}, or its limits, are "
+            "wrong",
             "mimic-limits-inconsistent",
         )
 
@@ -250,7 +252,7 @@ def _report_beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
             (_make_joint(robot, joint.name).limit or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,
-            "the joint starts there, or follows its <mimic> leader there"
+            "the joint starts there, or follows its leader there"
             if joint.leader or not joint.lower <= run.bodies.positions[joint.name] <= joint.upper
             else "contacts push it there",
             "zero-outside-limits",
@@ -289,6 +291,8 @@ def _report_without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
     ]
     if names:
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+        is_mjcf = robot.format == "mjcf"
+        gazebo = "" if is_mjcf else "; Gazebo does not actuate a joint of effort zero"
         yield Fault(
             "no-effort",
             Severity.INFO,
@@ -297,8 +301,8 @@ def _report_without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
             _make_joint(robot, names[0]).place,
             "joint",
             names[0],
-            "write <limit effort> to check whether the joint can hold its load; Gazebo does not "
-            "actuate a joint of effort zero",
+            f"write {name_element(robot, '<limit effort>')} to check whether the joint can hold "
+            f"its load{gazebo}",
             "zero-effort-limit",
         )
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ..element_names import name_element
 from ..engines.registry import name_alternative
 from ..fault import Fault, quote_names
 from ..recording import Array, Recording
@@ -48,7 +49,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
             top.name,
             "collision geometry started below the ground plane"
             if touching
-            else "no link has a <collision>, so no contact is possible",
+            else f"no link has a {name_element(robot, '<collision>')}, so no contact is possible",
             "missing-collision",
         )
         return

@@ -1,0 +1,68 @@
+"""The robot of a scene: free parts besides the robot, and planes of the world."""
+
+import pytest
+
+import urdftool as api
+from urdftool.simulation.scene import take_robot
+
+BALL = """
+<link name="ball{n}"><pose>{n} 0 1 0 0 0</pose>
+<collision name="c"><geometry><sphere><radius>.1</radius></sphere></geometry></collision></link>
+"""
+ARM = """
+<link name="base"/><link name="arm"><sensor name="s" type="imu"/></link>
+<joint name="j" type="revolute"><parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis>
+</joint>
+"""
+MJCF = """
+<mujoco model="scene"><worldbody>
+  <geom name="floor" type="plane" size="1 1 1"/>
+  <geom name="wall" type="box" size="1 1 1" pos="5 0 0"/>
+  <body name="box"><freejoint/><geom size=".1"/></body>
+  <body name="robot" pos="0 0 1"><freejoint/><geom size=".1"/>
+    <body name="leg" pos="0 0 -.2"><joint name="knee" axis="0 1 0"/><geom size=".1"/></body>
+  </body>
+</worldbody></mujoco>
+"""
+
+
+def test_the_free_part_with_most_joints_is_the_robot(write):
+    body = BALL.format(n=1) + ARM + BALL.format(n=2)
+    robot = api.load(write("m.sdf", f'<sdf version="1.9"><model name="m">{body}</model></sdf>'))
+    assert len(robot.links) == 5
+    part, left_out = take_robot(robot)
+    assert [link.name for link in part.links] == ["world", "base", "arm"]
+    assert [joint.type for joint in part.joints if joint.parent == "world"] == ["floating"]
+    assert left_out == ["link 'ball1'", "link 'ball2'"]
+    assert [sensor.link for sensor in part.mounted_sensors] == ["arm"]
+    assert len(robot.links) == 5
+
+
+def test_one_robot_is_returned_as_it_is(write):
+    robot = api.load(write("m.sdf", f'<sdf version="1.9"><model name="m">{ARM}</model></sdf>'))
+    assert take_robot(robot) == (robot, [])
+    text = '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="floating">'
+    text += '<parent link="world"/><child link="a"/></joint></robot>'
+    robot = api.load(write("r.urdf", text))
+    assert take_robot(robot)[0] is robot
+
+
+@pytest.mark.library("mujoco")
+def test_planes_and_scenery_of_mjcf_are_left_out(write):
+    part, left_out = take_robot(api.load(write("m.xml", MJCF)))
+    assert [link.name for link in part.links] == ["world", "robot", "leg"]
+    assert left_out == ["plane 'floor'", "link 'box'", "collision 'wall' of link 'world'"]
+    fixed = MJCF.replace("<freejoint/>", "")
+    part, left_out = take_robot(api.load(write("m.xml", fixed)))
+    assert left_out == ["plane 'floor'"]
+    assert [c.name for c in part.link["world"].collisions] == ["wall"]
+    assert {"box", "robot", "leg"} < set(part.link)
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.library("pybullet")
+def test_a_scene_is_simulated(urdftool, write):
+    result = urdftool("simulate", write("m.xml", MJCF), "--duration", "1", "--no-cache")
+    assert result.code in (0, 1)
+    assert "m.xml:2:1: warning: parts of the scene are not simulated: plane 'floor'" in result.err
+    assert "<" not in result.out

@@ -1,0 +1,81 @@
+"""The robot of a file that also describes its surroundings, as files of MuJoCo often do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..model.elements import Link, Plane, Robot
+from ..model.tree import KinematicTree
+from ..model.world import WORLD
+
+
+def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
+    """Return the part of a scene that is simulated, and what is left out.
+
+    Planes of the world are left out, since the simulation has its own ground. If several parts
+    move freely, or one in addition to parts at the world, the one with most joints is the robot.
+
+    Args:
+        robot: Any robot; it is not modified. URDF describes one robot only and is returned as it
+            is.
+    """
+    tree = robot.tree
+    if robot.xml is not None or tree.root is None or tree.root.name != WORLD:
+        return robot, []
+    world = tree.root
+    left_out = [f"plane '{c.name}'" for c in world.collisions if isinstance(c.geometry, Plane)]
+    solid = [c for c in world.collisions if not isinstance(c.geometry, Plane)]
+    tops = {joint.child: joint for joint in tree.get_child_joints(WORLD)}
+    names = {link.name for link in robot.links}
+    if len(tops) > 1 and any(joint.type == "floating" for joint in tops.values()):
+        sizes = {top: _measure(tree, top) for top in tops}
+        chosen = max(sizes, key=lambda top: sizes[top])
+        names = {WORLD, *_list_below(tree, chosen)}
+        left_out += [f"link '{top}'" for top in tops if top != chosen]
+        left_out += [f"collision '{c.name}' of link 'world'" for c in solid]
+        solid = []
+    if not left_out:
+        return robot, []
+    links = [link for link in robot.links if link.name in names]
+    links[links.index(world)] = replace(world, collisions=solid)
+    return _select(robot, links), left_out
+
+
+def _list_below(tree: KinematicTree, link: str) -> Iterator[str]:
+    """Yield a link and all links below it."""
+    todo = [link]
+    while todo:
+        name = todo.pop()
+        yield name
+        todo += [joint.child for joint in tree.get_child_joints(name)]
+
+
+def _measure(tree: KinematicTree, top: str) -> tuple[int, int]:
+    """Return the number of joints that move below a link, and of links."""
+    below = list(_list_below(tree, top))
+    joints = [joint for name in below for joint in tree.get_child_joints(name)]
+    return sum(not joint.is_fixed for joint in joints), len(below)
+
+
+def _select(robot: Robot, links: list[Link]) -> Robot:
+    """Return the robot with some of its links, and what belongs to them."""
+    names = {link.name for link in links}
+    joints = [joint for joint in robot.joints if {joint.parent, joint.child} <= names]
+    kept = {joint.name for joint in joints}
+    return replace(
+        robot,
+        links=links,
+        joints=[
+            joint
+            if joint.mimic is None or joint.mimic.joint in kept
+            else replace(joint, mimic=None)
+            for joint in joints
+        ],
+        closures=[c for c in robot.closures if {c.parent, c.child} <= names],
+        frames=[frame for frame in robot.frames if frame.link in names],
+        joint_actuators=[a for a in robot.joint_actuators if a.joint in kept],
+        exclusions=[e for e in robot.exclusions if {e.link, e.other} <= names],
+        cameras=[camera for camera in robot.cameras if camera.link in names],
+        mounted_sensors=[s for s in robot.mounted_sensors if s.joint in kept or s.link in names],
+    )
