@@ -80,3 +80,44 @@ def test_strict_counts_what_was_not_read(urdftool, tmp_path):
     assert result.code == 2
     assert result.err.count("[unread-actuator]") == 1
     assert not (tmp_path / "a.sdf").exists()
+
+
+SDF_TYPO = """
+<sdf version="1.9"><model name="m"><link name="a"><inertial><mass>1</mass><inertia>
+<ixx>0.0066</ixx><iyy>0.0066</iyy><izz>0.00066</izz></inertia></inertial>
+<collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry></collision>
+</link></model></sdf>
+"""
+MJCF_TYPO = """
+<mujoco><worldbody><body name="a"><freejoint/>
+<inertial pos="0 0 0" mass="1" diaginertia="0.0066 0.0066 0.00066" quat="1 1 0 0"/>
+<geom type="box" size=".1 .1 .1"/></body></worldbody></mujoco>
+"""
+
+
+def test_a_proposed_tensor_has_the_syntax_of_the_file(urdftool, write):
+    result = urdftool("inertia", "robot", write("m.sdf", SDF_TYPO))
+    assert "<inertia><ixx>0.0066</ixx><ixy>0</ixy>" in result.out
+    assert "ixx=" not in result.out
+
+
+@pytest.mark.library("mujoco")
+def test_a_proposed_tensor_of_mjcf_is_in_the_axes_of_the_body(urdftool, write):
+    result = urdftool("inertia", "robot", write("m.xml", MJCF_TYPO))
+    assert 'diaginertia="0.0066 0.0066 0.0066", without quat' in result.out
+    turned = MJCF_TYPO.replace('size=".1 .1 .1"', 'size=".1 .1 .05"').replace("1 1 0 0", "1 0 0 1")
+    robot = urdftool("inertia", "robot", write("n.xml", turned.replace("0.00066", "0.0006")))
+    assert "<inertia" not in robot.out
+
+
+def test_an_inertia_without_mass_is_the_reason(urdftool, write):
+    text = SDF_TYPO.replace("<mass>1</mass>", "<mass>0</mass>").replace("0.00066", "0.0066")
+    result = urdftool("export", "mjcf", write("m.sdf", text))
+    assert (result.code, "but no mass" in result.err) == (2, True)
+
+
+@pytest.mark.library("pxr")
+def test_usd_is_written_from_every_format(urdftool, write, tmp_path):
+    path = write("m.sdf", SDF_TYPO)
+    result = urdftool("export", "usd", path, "-o", tmp_path / "m.usda", "--verify")
+    assert result.code == 0, result.err

@@ -10,7 +10,7 @@ import click
 from ..console import Console
 from .export_options import add_fix_inertia_option, make_export_options
 from .grouped_help import GroupedCommand
-from .load_strict import load_strict, report_gltf_axes
+from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
 
 _GROUPS = {
@@ -118,15 +118,14 @@ def command(
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..extras import require
     from ..formats.registry import format_named
-    from ..model.load import make_robot
     from .export_report import run_export
+    from .read_other import read_any
 
     require("'urdftool export usd'", "pxr")
     from ..formats.usd.options import Options
 
     usd, place = format_named("usd"), output or "-"
-    description = load_strict(console, robot, package, package_path)
-    model = make_robot(description)
+    model = read_any(console, robot, package, package_path)
     report_gltf_axes(console, model)
     options = Options(file=Path(place).name if usd.has_suffix(place) else "", **choices)
     if isaaclab is not None and place == "-":

@@ -216,7 +216,8 @@ def _show(
         text = report.as_json(report.as_dict(found, model.name, model.source.path))
     else:
         text = report.format_table(found, colors=colors)
-        remarks = [f"{line}\n" for line in report.format_remarks(found, colors=colors)]
+        lines = report.format_remarks(found, form=model.format, colors=colors)
+        remarks = [f"{line}\n" for line in lines]
         text += "".join(["\n", *remarks] if remarks else [])
     write_result(text, output, inputs=[file.path for file in model.source.files])
     console.print_note(report.summarize(found))

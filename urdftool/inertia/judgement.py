@@ -19,6 +19,7 @@ from ..model.bounds import Bounds, compute_bounds_at
 from ..model.elements import Inertial, Mesh, Robot
 from ..model.pose import IDENTITY, IDENTITY_ROTATION, Pose, make_pose, rotate, transpose
 from ..model.read import number
+from ..model.world import WORLD
 from ..rules.inertia.size import is_placeholder
 from ..rules.inertia.tensors import is_positive
 from .bodies import MeshBody
@@ -34,7 +35,8 @@ def read_written(item: LinkReview) -> None:
     """Set the written inertia of a review, its missing values and its unreadable numbers."""
     inertial = item.link.inertial
     if inertial is None:
-        item.missing = () if item.link.is_frame else ("inertial",)
+        is_world = item.link.name == WORLD and item.link.xml is None  # SDF, MJCF: without mass
+        item.missing = () if item.link.is_frame or is_world else ("inertial",)
         return
     missing = []
     if inertial.mass is None and not _is_unreadable(inertial, "mass", "value", item):

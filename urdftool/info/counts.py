@@ -8,6 +8,7 @@ from math import fsum
 
 from ..errors import PackageNotFound
 from ..model.elements import Joint, Mesh, Robot
+from ..model.world import WORLD
 
 FREEDOMS = {
     "revolute": 1,
@@ -81,7 +82,11 @@ def count(robot: Robot) -> Counts:
         mimics=sum(joint.mimic is not None for joint in robot.joints),
         freedom=count_degrees_of_freedom(robot.joints),
         mass=fsum(link.mass for link in robot.links),
-        massless=sum(link.inertial is None or link.inertial.mass is None for link in bodies),
+        massless=sum(
+            link.inertial is None or link.inertial.mass is None
+            for link in bodies
+            if link.name != WORLD or robot.xml is not None  # the world of SDF and MJCF has no mass
+        ),
         roots=[link.name for link in robot.tree.roots],
         depth=_compute_depth(robot),
         plugins=_collect_plugins(robot),

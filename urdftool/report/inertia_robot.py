@@ -10,8 +10,10 @@ from ..inertia.comparison import Comparison
 from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import get_components
+from ..mechanics.tensor import SymmetricTensor, get_components, rotate_tensor
 from ..mechanics.typo_detection import Proposal
+from ..model.elements import Link
+from ..model.pose import make_pose
 from ..source.location import Place
 from .counted import format_count
 from .findings import Painter, escape_controls
@@ -87,8 +89,16 @@ def _format_verdict(item: LinkReview) -> str:
     return "" if status == "ok" else status
 
 
-def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[str]:
-    """Yield faults with proposals, notes, and geometry that cannot be read."""
+def format_remarks(
+    reviews: Sequence[LinkReview], *, form: str = "urdf", colors: bool = False
+) -> Iterator[str]:
+    """Yield faults with proposals, notes, and geometry that cannot be read.
+
+    Args:
+        reviews: Reviews of links.
+        form: Format of the source, in whose syntax proposals are written.
+        colors: Whether to use colors.
+    """
     paint = Painter(colors)
     said: dict[tuple[str, str], list[str]] = {}
     for item in reviews:
@@ -111,10 +121,7 @@ def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> It
                     + _format_distance(item)
                 )
             yield f"  intended, probably: {item.proposal.sentence}"
-            rounded = _round_noise(SpatialInertia(1.0, tensor=item.proposal.tensor))
-            six = get_components(rounded.tensor)
-            written = " ".join(f'{key}="{number_text(value)}"' for key, value in six.items())
-            yield f"  <inertia {written}/>"
+            yield f"  {_format_tensor(item.proposal.tensor, item.link, form)}"
         elif item.faults and item.implied is not None and item.faults[-1].code != "unreadable":
             yield (
                 f"  the geometry implies, at {item.implied.mass:.6g} kg: "
@@ -134,6 +141,32 @@ def format_remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> It
                     )
                 if piece.suspicion is not None:
                     yield f"{piece.shape.place}: link '{name}': {piece.suspicion.message}"
+
+
+def _format_tensor(tensor: SymmetricTensor, link: Link, form: str) -> str:
+    """Return the tensor of a link in the syntax of a format."""
+    if form == "mjcf":
+        origin = None if link.inertial is None else link.inertial.origin
+        return _format_mjcf(rotate_tensor(tensor, make_pose(origin).rotation))
+    six = get_components(_round_noise(SpatialInertia(1.0, tensor=tensor)).tensor)
+    if form == "sdf":
+        inner = "".join(f"<{key}>{number_text(value)}</{key}>" for key, value in six.items())
+        return f"<inertia>{inner}</inertia>"
+    return f"<inertia {' '.join(_format_attribute(*item) for item in six.items())}/>"
+
+
+def _format_attribute(key: str, value: float) -> str:
+    return f'{key}="{number_text(value)}"'
+
+
+def _format_mjcf(tensor: SymmetricTensor) -> str:
+    """Return attributes of ``<inertial>`` for a tensor in the axes of the body."""
+    six = get_components(_round_noise(SpatialInertia(1.0, tensor=tensor)).tensor)
+    moments = [number_text(six[key]) for key in ("ixx", "iyy", "izz")]
+    products = [number_text(six[key]) for key in ("ixy", "ixz", "iyz")]
+    if all(text == "0" for text in products):
+        return f'diaginertia="{" ".join(moments)}", without quat'
+    return f'fullinertia="{" ".join(moments + products)}", without quat'
 
 
 def _format_distance(item: LinkReview) -> str:

@@ -53,7 +53,7 @@ def _list_rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tup
     if robot.closures:
         yield (
             "closed loops",
-            _format_listed([closure.name or "no name" for closure in robot.closures]),
+            _format_listed([c.name or f"{c.parent} – {c.child}" for c in robot.closures]),
         )
     if robot.joint_actuators:
         yield "actuators", _format_listed([one.name or one.joint for one in robot.joint_actuators])

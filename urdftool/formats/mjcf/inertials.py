@@ -165,13 +165,14 @@ def _repair(
     read = group[name]
     before = format_moments_text(read.tensor)
     static = structure.is_static(name)
+    is_tensor_possible = tensors.is_possible(read.tensor)
     if fix == "none" and not (static or force):
+        reason = "none may be negative or above the sum of the other two"
         yield make_defect(
             "inertia-triangle-inequality",
             f"inertia of link '{name}' is physically inconsistent: principal moments {before} "
-            "kg·m² "
-            "(none may be negative or above the sum of the other two); MuJoCo rejects it. Correct "
-            "it, or use --fix-inertia lift, balance or box",
+            f"kg·m² ({'but no mass' if is_tensor_possible else reason}); MuJoCo rejects it. "
+            "Correct it, or use --fix-inertia lift, balance or box",
             read.place,
             "link",
             name,
