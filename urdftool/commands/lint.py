@@ -135,9 +135,8 @@ def command(
 ) -> int:
     """Check robot descriptions for errors, and report each finding at its line.
 
-    PATH is a file (URDF, xacro, SDF or MJCF), a folder with .urdf and .urdf.xacro files, or '-'
-    (standard input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with
-    commas.
+    PATH is a file (URDF, xacro, SDF or MJCF), a folder with such files, or '-' (standard input).
+    RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with commas.
 
     \b
         urdftool lint arm.urdf.xacro prefix:=left_
@@ -153,8 +152,9 @@ def command(
     robot could not be read or expanded, and was not checked.
     """  # noqa: D301 -- click reads the escape
     from ..formats.detect import read_other_format
+    from ..formats.search import find_other_descriptions
     from ..lint.discover import explain_nothing_found, find_descriptions
-    from ..lint.outcome import Options
+    from ..lint.outcome import Options, Report
     from ..lint.parallel import check_files
     from ..lint.settings import Settings, check_selectors, check_targets
     from ..lint.skipped import add_skipped_parts, exclude_files
@@ -166,8 +166,9 @@ def command(
     paths, arguments = split_arguments(words)
     if not paths:
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
-    files = find_descriptions(paths)
-    if not files:
+    other = find_other_descriptions(paths)
+    files = find_descriptions([*paths, *other.files])
+    if not files and not other.skipped:
         raise click.UsageError(explain_nothing_found(paths))
     workspace = Workspace()
     files, excluded = exclude_files(files, paths, console.config, workspace)
@@ -203,7 +204,8 @@ def command(
             console, files, options, settings, output, jobs=jobs, kinds=kinds, diff=diff
         )
     reports = add_skipped_parts(check_files(files, options, jobs), paths)
-    return report(console, [*reports, *excluded], settings, output)
+    skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]
+    return report(console, [*reports, *skipped, *excluded], settings, output)
 
 
 def _warn_of_old_names(

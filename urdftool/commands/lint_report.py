@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..report.counted import format_count
 
 if TYPE_CHECKING:
+    from ..finding import Finding
     from ..lint.baseline import Baseline, Entry
     from ..lint.outcome import Outcome, Report
     from ..lint.settings import Settings
@@ -165,13 +167,24 @@ def _describe_stale(baseline: Baseline, stale: list[Entry]) -> str:
 
 
 def _report_unread(console: Console, reports: Iterable[Report]) -> None:
-    """Print what readers of SDF and MJCF left out, once for each file and kind."""
-    for report in reports:
-        if report.unread:
-            from ..formats.common.loss_report import format_lines
+    """Print what readers of SDF and MJCF left out, once for each kind; all with ``-v``."""
+    found = [finding for report in reports for finding in report.unread]
+    if not found:
+        return
+    from ..formats.common.loss_report import format_lines
 
-            for line in format_lines(report.unread):
-                console.print_note(line)
+    if console.verbosity > 0:
+        for line in format_lines(found):
+            console.print_note(line)
+        return
+    kinds: dict[str, list[Finding]] = {}
+    for finding in found:
+        kinds.setdefault(finding.code, []).append(finding)
+    for first, *others in kinds.values():
+        files = {finding.location.path for finding in others} - {first.location.path}
+        more = f" (and in {format_count(len(files), 'more file')})" if files else ""
+        for line in format_lines([first]):
+            console.print_note(line + more)
 
 
 def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence[str]) -> None:
