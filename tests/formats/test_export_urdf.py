@@ -65,9 +65,18 @@ def test_a_capsule_and_a_screw(urdftool, write, tmp_path):
     report = json.loads(result.out)
     assert [f["rule"] for f in report["findings"]] == ["lossy-capsule"]
     verdicts = {check["check"]: check["verdict"] for check in report["checks"]}
-    assert verdicts["collisions"] == "announced"
+    assert verdicts["collisions"] == "equal"
     shapes = api.load(tmp_path / "r.urdf").link["upper"].collisions
     assert len(shapes) == 3
+    assert urdftool("verify", write("r.sdf", text), tmp_path / "r.urdf").code == 0
+    assert urdftool("verify", tmp_path / "r.urdf", write("r.sdf", text)).code == 0
+    longer = (tmp_path / "r.urdf").read_text().replace('length="0.4"', 'length="0.41"')
+    for name, changed in (("length", longer), ("sphere", longer.replace("0 0 0.2", "0 0 0.21"))):
+        (tmp_path / "c.urdf").write_text(changed)
+        assert urdftool("verify", write("r.sdf", text), tmp_path / "c.urdf").code == 1, name
+    text = text.replace("<capsule>", "<ellipsoid><radii>1 2 3</radii>").replace(
+        "</capsule>", "</ellipsoid>"
+    )
     result = urdftool("export", "urdf", write("r.sdf", text), "-o", tmp_path / "b", "--strict")
     assert result.code == 2
     assert not (tmp_path / "b").exists()

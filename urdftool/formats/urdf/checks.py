@@ -24,8 +24,8 @@ NOT_COMPARED = (
 
 _CODES = {
     "tree": ("lossy-ball", "lossy-screw"),
-    "collisions": ("lossy-shape", "lossy-capsule"),
-    "visuals": ("lossy-shape", "lossy-capsule"),
+    "collisions": ("lossy-shape",),
+    "visuals": ("lossy-shape",),
 }
 """Codes of the losses that explain a difference, by row."""
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from lxml import etree
 
+from ...diagnostic import Severity
 from ...model.elements import (
     Box,
     Capsule,
@@ -53,7 +54,9 @@ def add_shape(
             _add_material(robot, meshes, outer, shape.material)
     if isinstance(shape.geometry, Capsule):
         text = f"{kind} of link '{link.name}' is a cylinder with two spheres in place of a capsule"
-        written.report_loss("capsule", text, shape.place, kind="link", name=link.name)
+        written.report_loss(
+            "capsule", text, shape.place, kind="link", name=link.name, severity=Severity.INFO
+        )
 
 
 def _split(

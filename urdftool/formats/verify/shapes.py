@@ -75,6 +75,7 @@ def compare_shapes(pair: Pair, match: Match, comparison: Comparison) -> None:
         two = _list_shapes(pair.b, match.two, kind, match.frame)
         state = _Comparing(pair, row, comparison, one, two)
         _match_equal(state)
+        _match_capsules(state)
         _match_unions(state)
         _match_others(state, kind, match)
 
@@ -204,6 +205,48 @@ def _match_unions(state: _Comparing) -> None:
     _add(state, one[0], two[0], _round_off(measures), "")
     state.one = [p for p in state.one if not isinstance(p.geometry, Mesh)]
     state.two = [p for p in state.two if not isinstance(p.geometry, Mesh)]
+
+
+def _match_capsules(state: _Comparing) -> None:
+    """Remove each capsule that is a cylinder and two spheres in the other body.
+
+    URDF has no capsules; its writers form them of these three shapes, whose union is the same.
+    """
+    for is_first in (True, False):
+        own, other = (state.one, state.two) if is_first else (state.two, state.one)
+        for placed in [p for p in own if isinstance(p.geometry, Capsule)]:
+            parts = _find_parts(state, placed, other)
+            if not parts:
+                continue
+            own[:] = [p for p in own if p is not placed]
+            other[:] = [p for p in other if not _contains(parts, p)]
+            x, y = (placed, parts[0]) if is_first else (parts[0], placed)
+            _add(state, x, y, 0.0, "")
+            _compare_colors(state, x, y)
+
+
+def _find_parts(state: _Comparing, placed: Placed, other: list[Placed]) -> list[Placed]:
+    """Return the cylinder and the two spheres that form a capsule; an empty list without them."""
+    capsule = placed.geometry
+    assert isinstance(capsule, Capsule)
+    radius, length = capsule.radius, capsule.length
+    wanted = [placed._replace(geometry=Cylinder(None, radius, length))]
+    for z in (-length / 2, length / 2):
+        at = placed.pose.copy()
+        at[:3, 3] += z * at[:3, 2]
+        wanted.append(placed._replace(geometry=Sphere(None, radius), pose=at))
+    found: list[Placed] = []
+    for part in wanted:
+        same = (
+            p
+            for p in other
+            if not _contains(found, p) and _measure(state, part, p) <= state.tolerance
+        )
+        one = next(same, None)
+        if one is None:
+            return []
+        found.append(one)
+    return found
 
 
 def _match_others(state: _Comparing, kind: str, match: Match) -> None:
