@@ -75,6 +75,8 @@ class UrdftoolError(Exception):
     @property
     def where(self) -> str:
         """Return ``FILE:LINE:COLUMN``, as far as known."""
+        if self.at is not None and self.at.file.part:
+            return str(self.at)
         return ":".join(str(part) for part in (self.path, self.line, self.column) if part)
 
     def __str__(self) -> str:

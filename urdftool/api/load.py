@@ -21,7 +21,7 @@ def load(
     package_paths: Iterable[str | Path] = (),
     gltf_up: GltfUp = "y",
 ) -> Robot:
-    """Read a robot from a file: URDF, xacro, SDF or MJCF, by its root element.
+    """Read a robot from a file: URDF, xacro, SDF, MJCF or USD, by its first bytes.
 
     The robot may be invalid in any way that leaves its XML well-formed; :func:`urdftool.check`
     reports its defects. SDF and MJCF are stricter: a joint must name links that exist, and MuJoCo

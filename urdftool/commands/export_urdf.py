@@ -1,4 +1,4 @@
-"""``urdftool export urdf``: convert a robot in SDF or MJCF to URDF."""
+"""``urdftool export urdf``: convert a robot in SDF, MJCF or USD to URDF."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def command(
     force: bool,
     style: str,
 ) -> int:
-    """Convert the robot IN, in SDF or MJCF, to URDF.
+    """Convert the robot IN, in SDF, MJCF or USD, to URDF.
 
     A folder OUT contains ROBOT.urdf, meshes and, for excluded contacts and named joint positions,
     ROBOT.srdf; files of a file OUT are written next to it. Several joints between two bodies become

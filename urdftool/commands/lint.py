@@ -135,8 +135,9 @@ def command(
 ) -> int:
     """Check robot descriptions for errors, and report each finding at its line.
 
-    PATH is a file (URDF, xacro, SDF or MJCF), a folder with such files, or '-' (standard input).
-    RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with commas.
+    PATH is a file (URDF, xacro, SDF, MJCF or USD), a folder with files of the first four, or '-'
+    (standard input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with
+    commas.
 
     \b
         urdftool lint arm.urdf.xacro prefix:=left_

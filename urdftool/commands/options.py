@@ -114,7 +114,7 @@ def parse_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[s
     paths, arguments = split_arguments(words)
     if not paths:
         raise click.UsageError(
-            "missing argument IN: a robot (URDF, xacro, SDF or MJCF), or '-' for standard input",
+            "missing argument IN: a robot (URDF, xacro, SDF, MJCF or USD), or '-' (standard input)",
             ctx,
         )
     if len(paths) > 1:

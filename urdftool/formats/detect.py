@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from ..model.elements import Robot
+from ..source.document import STAGE_HEADS
 from ..source.location import SourceFile
 from ..source.packages import Packages
 from .registry import Format, format_named
@@ -12,15 +13,12 @@ from .registry import Format, format_named
 _PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
 _TAG = re.compile(rb"<([\w:.-]+)")
 
-_USD = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
-"""First bytes of a stage as text, binary and package."""
-
 _FORMAT_OF = {b"sdf": "sdf", b"mujoco": "mjcf", b"mujocoinclude": "mjcf"}
 
 
 def format_of(file: SourceFile) -> Format:
     """Return the format of a file; URDF if the root element belongs to no format."""
-    if file.data.startswith(_USD):
+    if file.data.startswith(STAGE_HEADS):
         return format_named("usd")
     data = file.data.removeprefix(b"\xef\xbb\xbf")
     at = 0

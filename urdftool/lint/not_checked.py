@@ -9,7 +9,7 @@ from ..diagnostic import Severity
 from ..errors import PackageNotFound, SourceError, UrdftoolError
 from ..finding import Finding
 from ..source.description import Description
-from ..source.document import Element
+from ..source.document import STAGE_HEADS, Element
 from ..source.location import Place, SourceFile
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
@@ -35,7 +35,7 @@ def refuse_other_files(file: SourceFile) -> None:
             path=file.path,
         )
     text = (b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")  # has zero bytes in UTF-16 and UTF-32
-    if b"\0" in file.data[:_HEAD] and not file.data.startswith(text):
+    if b"\0" in file.data[:_HEAD] and not file.data.startswith(text + STAGE_HEADS):
         raise SourceError("is a binary file, not a robot description", path=file.path)
 
 

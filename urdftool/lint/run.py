@@ -37,7 +37,7 @@ from .not_checked import convert_error, refuse_other_files, refuse_other_roots, 
 from .outcome import Options, Report
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
-from .targets import TARGET_OF, infer_targets
+from .targets import infer_targets
 from .variants import as_one, get_variants, label
 
 
@@ -157,12 +157,6 @@ def _check_variant(
                 return report
             if other is not None:
                 assert other.source is not None
-                if other.format not in TARGET_OF:
-                    raise SourceError(
-                        f"is {other.format.upper()}, which lint does not check; it checks URDF, "
-                        "xacro, SDF and MJCF",
-                        path=file.path,
-                    )
                 report.unread = other.unread
                 _check_description(other.source, other, settings, report, [], options)
                 return report
@@ -275,7 +269,7 @@ def _check_description(
     report.targets = targets
     report.files = tuple(file.path for file in description.files)
     report.format = "urdf" if robot is None else robot.format
-    rules = _select_rules(settings, targets, description)
+    rules = _select_rules(settings, targets, description, report.format)
     if report.format != "urdf":
         rules = [rule for rule in rules if report.format in rule.formats]
     documents = list(_list_documents(description, report.format))
@@ -332,10 +326,18 @@ _TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)
 
 
 def _select_rules(
-    settings: Settings, targets: frozenset[str], description: Description
+    settings: Settings, targets: frozenset[str], description: Description, name: str
 ) -> list[Rule]:
-    """Return the rules to run, computed once for descriptions with equal tags and targets."""
-    tags = frozenset(_collect_tags(description) & _TELLING)
+    """Return the rules to run, computed once for descriptions with equal tags and targets.
+
+    Args:
+        settings: Settings of the description.
+        targets: Active targets.
+        description: The description.
+        name: Name of its format.
+    """
+    known = _collect_tags(description) & _TELLING
+    tags = frozenset(known) if name == "urdf" else _TELLING  # others have other tags
     return settings.memo.get((targets, tags), lambda: settings.get_rules(targets, tags))
 
 

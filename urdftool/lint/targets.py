@@ -21,8 +21,8 @@ _GZ_DEPENDENCIES = (
 )
 
 
-TARGET_OF = {"sdf": "gz", "mjcf": "mujoco"}
-"""Target of a robot in each format that is checked, other than URDF."""
+TARGETS_OF = {"sdf": ("gz",), "mjcf": ("mujoco",), "usd": ("newton", "isaac")}
+"""Targets of a robot in each format other than URDF."""
 
 
 def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
@@ -32,8 +32,8 @@ def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
     such a plugin, a ``<gazebo>`` tag counts for gz if the targets include ROS 2, else for Gazebo
     Classic. The package.xml distinguishes ROS 1 from ROS 2.
     """
-    if robot.format in TARGET_OF:
-        return frozenset((TARGET_OF[robot.format],))
+    if robot.format in TARGETS_OF:
+        return frozenset(TARGETS_OF[robot.format])
     targets = set(_infer_from_package(description))
     for plugin in robot.plugins:
         name = plugin.filename.rpartition("/")[2]

@@ -12,7 +12,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import BinaryIO, NamedTuple
 from xml.parsers import expat
 
 from ..errors import SourceError, XmlError
@@ -22,6 +22,12 @@ from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH, run_parser
 
 MAX_BYTES = 32 * 1024 * 1024
+
+MAX_STAGE_BYTES = 1024 * 1024 * 1024
+"""Limit of a stage of USD, which contains its meshes."""
+
+STAGE_HEADS = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
+"""First bytes of a stage of USD as text, binary and package."""
 
 
 class Element:
@@ -146,7 +152,8 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
         workspace: Access to files; None creates a new one.
 
     Raises:
-        SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``.
+        SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``, or
+            ``MAX_STAGE_BYTES`` for USD.
     """
     shown = str(path)
     named = STDIN if shown == "-" else shown
@@ -158,10 +165,10 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     try:
         if shown == "-":
             shown = STDIN
-            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+            data, limit = _read_bounded(sys.stdin.buffer)
         else:
             with workspace.open(shown) as stream:
-                data = stream.read(MAX_BYTES + 1)
+                data, limit = _read_bounded(stream)
     except FileNotFoundError:
         raise SourceError("no such file", path=shown) from None
     except IsADirectoryError:
@@ -170,10 +177,9 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
         raise SourceError("cannot be read: permission denied", path=shown) from None
     except (OSError, ValueError) as error:
         raise SourceError(f"cannot be read: {_get_reason(error)}", path=shown) from None
-    if len(data) > MAX_BYTES:
-        limit = MAX_BYTES // (1024 * 1024)
+    if len(data) > limit:
         raise SourceError(
-            f"is larger than {limit} MiB, the limit of a robot description; "
+            f"is larger than {limit // (1024 * 1024)} MiB, the limit of a robot description; "
             "move meshes to separate files",
             path=shown,
             line=1,
@@ -181,6 +187,14 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     if not data.strip():
         raise SourceError("is empty; a description requires a <robot> element", path=shown, line=1)
     return SourceFile(shown, data)
+
+
+def _read_bounded(stream: BinaryIO) -> tuple[bytes, int]:
+    """Return at most one byte more than the limit of a description, and the limit."""
+    data = stream.read(MAX_BYTES + 1)
+    if not data.startswith(STAGE_HEADS):
+        return data, MAX_BYTES
+    return data + stream.read(MAX_STAGE_BYTES + 1 - len(data)), MAX_STAGE_BYTES
 
 
 def _get_reason(error: Exception) -> str:

@@ -16,13 +16,15 @@ class SourceFile:
         path: Path as the user would type it, or ``<stdin>``.
         data: The bytes.
         encoding: Encoding of the bytes, for counting columns.
+        part: Path of one part, such as ``</robot/arm>``, of a file without lines; empty for text.
         editable: The file as :func:`edit.parse_source` parsed it; None before.
     """
 
-    __slots__ = ("_starts", "_tags", "data", "editable", "encoding", "path")
+    __slots__ = ("_starts", "_tags", "data", "editable", "encoding", "part", "path")
 
-    def __init__(self, path: str, data: bytes, encoding: str = "utf-8") -> None:
+    def __init__(self, path: str, data: bytes, encoding: str = "utf-8", part: str = "") -> None:
         """Store the bytes; derived values are computed on demand."""
+        self.part = part
         self.path = path
         self.data = data
         self.encoding = encoding
@@ -32,7 +34,7 @@ class SourceFile:
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle the bytes without derived values."""
-        return SourceFile, (self.path, self.data, self.encoding)
+        return SourceFile, (self.path, self.data, self.encoding, self.part)
 
     @property
     def line_starts(self) -> list[int]:
@@ -151,6 +153,8 @@ class Place(NamedTuple):
         return self.file.position(self.end)
 
     def __str__(self) -> str:
-        """Return ``FILE:LINE:COLUMN``."""
+        """Return ``FILE:LINE:COLUMN``, or file and part."""
+        if self.file.part:
+            return f"{self.file.path}{self.file.part}"
         line, column = self.file.position(self.start)
         return f"{self.file.path}:{line}:{column}"

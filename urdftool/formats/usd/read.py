@@ -50,6 +50,7 @@ def read(
     if not is_installed("pxr"):
         raise make_missing_error("pxr", "a USD file")
     from .read_mesh import MeshFolder
+    from .read_places import Layers
     from .read_shapes import add_shapes
     from .read_stage import Context, open_stage
     from .read_tree import add_tree
@@ -58,13 +59,15 @@ def read(
     file = file or read_file(path, workspace)
     losses = Losses()
     stage = open_stage(file, losses)
-    context = Context(stage, file, losses, articulation)
+    layers = Layers(stage, file, workspace)
+    context = Context(stage, layers, losses, articulation)
     written = Written(context.get_place(context.top))
     robot = Robot(written, context.robot_name, format="usd")
     finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
     root = Element("robot", {"name": robot.name}, None, file, 0)
-    robot.source = Description(str(path), Document(file, root, []), [file], finder)
+    robot.source = Description(str(path), Document(file, root, []), layers.list_files(), finder)
     add_tree(context, robot)
     folder = Path(mesh_folder) if mesh_folder is not None else cache_folder("usd-meshes")
     add_shapes(context, robot, MeshFolder(folder))
-    return Reading(robot, losses.make_findings())
+    robot.unread = losses.make_findings()
+    return Reading(robot, robot.unread)

@@ -76,7 +76,6 @@ def add_motion(context: Context, prim: Usd.Prim, joint: Joint) -> None:
     unit = math.radians(1.0) if angular else context.length
     force = context.mass * context.length * (context.length if angular else 1.0)
     kind = "angular" if angular else "linear"
-    written = context.get_written(prim)
     lower, upper = _read_bounds(prim)
     effort = get_value(prim, f"drive:{kind}:physics:maxForce")
     velocity = get_value(
@@ -86,7 +85,7 @@ def add_motion(context: Context, prim: Usd.Prim, joint: Joint) -> None:
         "physxJoint:maxJointVelocity",
     )
     limit = Limit(
-        written,
+        context.get_written(prim, "physics:lowerLimit"),
         convert_float(lower, unit) if math.isfinite(lower) else None,
         convert_float(upper, unit) if math.isfinite(upper) else None,
         convert_float(effort, force) if effort is not None and math.isfinite(effort) else None,

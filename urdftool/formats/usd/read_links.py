@@ -20,7 +20,7 @@ def read_inertial(context: Context, prim: Usd.Prim) -> Inertial | None:
             "mass", "bodies without mass, which simulators compute, have none", prim
         )
         return None
-    written = context.get_written(prim)
+    written = context.get_written(prim, "physics:mass")
     center = mass.GetCenterOfMassAttr().Get()
     if not all(abs(part) < 1e30 for part in center):
         text = "centers of mass that simulators compute from collision geometry are the origin"
@@ -28,10 +28,13 @@ def read_inertial(context: Context, prim: Usd.Prim) -> Inertial | None:
         center = (0.0, 0.0, 0.0)
     x, y, z = (convert_float(part, context.length) for part in center)
     shift = context.shifts.get(str(prim.GetPath()), Pose())
-    origin = get_origin_at(shift.invert() @ Pose(translation=(x, y, z)), written)
+    place = context.get_written(prim, "physics:centerOfMass")
+    origin = get_origin_at(shift.invert() @ Pose(translation=(x, y, z)), place)
     unit = context.mass * context.length * context.length
     six = _read_tensor(context, prim, mass)
-    inertia = None if six is None else Inertia(written, *(part * unit for part in six))
+    name = "newton:inertia" if has_schema(prim, "NewtonMassAPI") else "physics:diagonalInertia"
+    tensor = context.get_written(prim, name)
+    inertia = None if six is None else Inertia(tensor, *(part * unit for part in six))
     return Inertial(written, origin, convert_float(value, context.mass), inertia)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,8 +17,7 @@ from ...model.provenance import Written
 from ...source.document import STDIN
 from ...source.location import Place, SourceFile
 from ..reading import Losses
-
-_PRIM = re.compile(rb'^( *)(?:def|over|class)(?: \w+)? "(\w+)"', re.MULTILINE)
+from .read_places import Layers
 
 
 class Context:
@@ -27,6 +25,7 @@ class Context:
 
     Attributes:
         stage: The stage.
+        layers: The layers as source files.
         losses: What the robot does not hold.
         top: Prim below which the robot is; the pseudo-root if no prim is the default.
         length: Meters in a unit of length.
@@ -37,16 +36,14 @@ class Context:
         shifts: Pose of the frame of each link in the frame of its prim, by path.
     """
 
-    def __init__(
-        self, stage: Usd.Stage, file: SourceFile, losses: Losses, articulation: str
-    ) -> None:
+    def __init__(self, stage: Usd.Stage, layers: Layers, losses: Losses, articulation: str) -> None:
         """Find the bodies and joints of a stage.
 
         Raises:
             ModelError: There is no rigid body, or the stage has several robots.
         """
         self.stage, self.losses = stage, losses
-        self._places, self._file = _find_places(file), file
+        self.layers = layers
         self.top = self._find_top(articulation)
         self.length = float(UsdGeom.GetStageMetersPerUnit(stage))
         self.mass = float(UsdPhysics.GetStageKilogramsPerUnit(stage))
@@ -68,9 +65,8 @@ class Context:
         if articulation:
             prim = self.stage.GetPrimAtPath(articulation)
             if not prim:
-                raise ModelError(
-                    f"the stage has no prim {articulation}", at=Place(self._file, 0, 0)
-                )
+                at = self.get_place(self.stage.GetPseudoRoot())
+                raise ModelError(f"the stage has no prim {articulation}", at=at)
             return prim
         default = self.stage.GetDefaultPrim()
         return default if default else self.stage.GetPseudoRoot()
@@ -86,16 +82,13 @@ class Context:
         stored = self.top.GetCustomDataByKey("urdf:robot")
         return str(stored) if stored else self.top.GetName().strip("/")
 
-    def get_place(self, prim: Usd.Prim) -> Place:
-        """Return the place of a prim in the file; the start of a file that is not text."""
-        path = str(prim.GetPath())
-        while path and path not in self._places:
-            path = path.rpartition("/")[0]
-        return Place(self._file, *self._places.get(path, (0, 0)))
+    def get_place(self, prim: Usd.Prim, attribute: str = "") -> Place:
+        """Return the place of a prim, or of the layer that sets an attribute of it."""
+        return self.layers.get_place(prim, attribute)
 
-    def get_written(self, prim: Usd.Prim) -> Written:
-        """Return the provenance of a prim."""
-        return Written(self.get_place(prim))
+    def get_written(self, prim: Usd.Prim, attribute: str = "") -> Written:
+        """Return the provenance of a prim, or of the layer that sets an attribute of it."""
+        return Written(self.get_place(prim, attribute))
 
     def get_matrix(self, prim: Usd.Prim) -> Gf.Matrix4d:
         """Return the transform of a prim to the stage, as OpenUSD multiplies it (row vectors)."""
@@ -148,22 +141,6 @@ def _get_suffix(data: bytes) -> str:
     if data.startswith(b"PXR-USDC"):
         return ".usdc"
     return ".usdz" if data.startswith(b"PK") else ".usda"
-
-
-def _find_places(file: SourceFile) -> dict[str, tuple[int, int]]:
-    """Return the span of each prim of a text layer by path, by its indentation."""
-    found: dict[str, tuple[int, int]] = {}
-    if not file.data.startswith(b"#usda"):
-        return found
-    stack: list[tuple[int, str]] = []
-    for match in _PRIM.finditer(file.data):
-        depth = len(match[1])
-        while stack and stack[-1][0] >= depth:
-            stack.pop()
-        path = (stack[-1][1] if stack else "") + "/" + match[2].decode()
-        stack.append((depth, path))
-        found.setdefault(path, (match.start() + depth, match.end()))
-    return found
 
 
 def compute_pose(matrix: Gf.Matrix4d, length: float = 1.0) -> Pose:

@@ -56,10 +56,12 @@ def has_written_tensor(robot: Robot, link: Link) -> bool:
 def has_written_inertial(robot: Robot, link: Link) -> bool:
     """Tell whether an ``<inertial>`` is written.
 
-    Readers of SDF and MJCF give a default or inferred inertial the place of its link.
+    Readers of SDF and MJCF give a default or inferred inertial the place of its link. The reader
+    of USD adds none.
     """
     inertial = link.inertial
-    return inertial is not None and (robot.format == "urdf" or inertial.place != link.place)
+    written = robot.format in ("urdf", "usd")
+    return inertial is not None and (written or inertial.place != link.place)
 
 
 def is_zero(six: SymmetricTensor, mass: float) -> bool:
