@@ -46,3 +46,41 @@ def stage_of(written, folder):
 def codes(written):
     """Return the codes of the losses with their names."""
     return {(loss.code, loss.name) for loss in written.losses}
+
+
+HEAD = '#usda 1.0\n(\n    defaultPrim = "r"\n    metersPerUnit = {}\n    upAxis = "{}"\n)\n'
+
+BODY = """    def Xform "{name}" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+    )
+    {{
+        float physics:mass = {mass}
+        point3f physics:centerOfMass = (0, 0, 0)
+        float3 physics:diagonalInertia = (1, 2, 2.5)
+        double3 xformOp:translate = {at}
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+{more}
+    }}
+"""
+
+
+def body(name, mass=1, at="(0, 0, 0)", more=""):
+    """Return a body of a stage."""
+    return BODY.format(name=name, mass=mass, at=at, more=more)
+
+
+def stage(*parts, unit=1, up="Z"):
+    """Return a stage."""
+    return HEAD.format(unit, up) + 'def Xform "r"\n{\n' + "".join(parts) + "}\n"
+
+
+def turning(name, first, second, more=""):
+    """Return a revolute joint of a stage."""
+    return f"""    def PhysicsRevoluteJoint "{name}"
+    {{
+        rel physics:body0 = </r/{first}>
+        rel physics:body1 = </r/{second}>
+        uniform token physics:axis = "Z"
+{more}
+    }}
+"""

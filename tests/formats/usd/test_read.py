@@ -4,55 +4,9 @@ import math
 
 import pytest
 
-from tests.formats.usd.stages import export, joint, link, robot
+from tests.formats.usd.stages import body, export, joint, link, robot, stage, turning
 
 pytestmark = pytest.mark.library("pxr")
-
-HEAD = '#usda 1.0\n(\n    defaultPrim = "r"\n    metersPerUnit = {}\n    upAxis = "{}"\n)\n'
-
-BODY = """    def Xform "{name}" (
-        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
-    )
-    {{
-        float physics:mass = {mass}
-        point3f physics:centerOfMass = (0, 0, 0)
-        float3 physics:diagonalInertia = (1, 2, 2.5)
-        double3 xformOp:translate = {at}
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-{more}
-    }}
-"""
-
-
-def body(name, mass=1, at="(0, 0, 0)", more=""):
-    return BODY.format(name=name, mass=mass, at=at, more=more)
-
-
-def stage(*parts, unit=1, up="Z"):
-    return HEAD.format(unit, up) + 'def Xform "r"\n{\n' + "".join(parts) + "}\n"
-
-
-def turning(name, first, second, more=""):
-    return f"""    def PhysicsRevoluteJoint "{name}"
-    {{
-        rel physics:body0 = </r/{first}>
-        rel physics:body1 = </r/{second}>
-        uniform token physics:axis = "Z"
-{more}
-    }}
-"""
-
-
-@pytest.fixture
-def read(write, tmp_path):
-    """Read the text of a stage; gives the reading."""
-
-    def reader(text):
-        from urdftool.formats.usd.read import read
-
-        return read(write("s.usda", text), mesh_folder=tmp_path / "meshes")
-
-    return reader
 
 
 def test_units_are_converted(read):

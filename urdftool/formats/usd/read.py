@@ -38,8 +38,8 @@ def read(
         file: The file, if it has been read.
         packages: Finder of image files; None creates one.
         workspace: Access to files; None creates a new one.
-        articulation: Path of the prim of a robot; required if the stage has several.
-        mesh_folder: Folder for the meshes of the stage, which become STL files; None is a folder
+        articulation: Path of the prim of a robot; empty for the default prim.
+        mesh_folder: Folder for the meshes of the stage, as STL and OBJ files; None is a folder
             in the user's cache.
 
     Raises:
@@ -50,24 +50,27 @@ def read(
     if not is_installed("pxr"):
         raise make_missing_error("pxr", "a USD file")
     from .read_mesh import MeshFolder
-    from .read_places import Layers
+    from .read_open import convert_errors, open_stage
     from .read_shapes import add_shapes
-    from .read_stage import Context, open_stage
+    from .read_stage import Context
     from .read_tree import add_tree
+    from .read_unread import report_unread
 
     workspace = workspace or Workspace()
     file = file or read_file(path, workspace)
     losses = Losses()
-    stage = open_stage(file, losses)
-    layers = Layers(stage, file, workspace)
-    context = Context(stage, layers, losses, articulation)
-    written = Written(context.get_place(context.top))
-    robot = Robot(written, context.robot_name, format="usd")
-    finder = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
-    root = Element("robot", {"name": robot.name}, None, file, 0)
-    robot.source = Description(str(path), Document(file, root, []), layers.list_files(), finder)
-    add_tree(context, robot)
-    folder = Path(mesh_folder) if mesh_folder is not None else cache_folder("usd-meshes")
-    add_shapes(context, robot, MeshFolder(folder))
+    with convert_errors(file):
+        stage, layers = open_stage(file, losses, workspace)
+        context = Context(stage, layers, losses, articulation)
+        robot = Robot(Written(context.get_place(context.top)), context.robot_name, format="usd")
+        source = None if file.path == STDIN else file.path
+        finder = packages or Packages(source, workspace=workspace)
+        root = Element("robot", {"name": robot.name}, None, file, 0)
+        document = Document(file, root, [])
+        robot.source = Description(str(path), document, layers.list_files(), finder)
+        add_tree(context, robot)
+        report_unread(context)
+        folder = Path(mesh_folder) if mesh_folder is not None else cache_folder("usd-meshes")
+        add_shapes(context, robot, MeshFolder(folder))
     robot.unread = losses.make_findings()
     return Reading(robot, robot.unread)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from pxr import Usd, UsdPhysics
@@ -10,7 +11,7 @@ from pxr import Usd, UsdPhysics
 from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Mimic, Vector
 from ...model.mechanism import JointActuator
-from .read_stage import Context, convert_float, get_targets, get_value, has_schema
+from .read_stage import Context, convert_float, get_targets, has_schema
 
 _AXES: dict[str, Vector] = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
@@ -32,20 +33,21 @@ def find_kind(context: Context, prim: Usd.Prim) -> JointKind:
     if prim.IsA(UsdPhysics.SphericalJoint):
         return JointKind("ball")
     if prim.IsA(UsdPhysics.RevoluteJoint):
-        axis = _AXES[str(UsdPhysics.RevoluteJoint(prim).GetAxisAttr().Get())]
-        lower, upper = _read_bounds(prim)
+        axis = _read_axis(context, prim)
+        lower, upper = _read_bounds(context, prim)
         limited = math.isfinite(lower) or math.isfinite(upper)
         return JointKind("revolute" if limited else "continuous", axis)
     if prim.IsA(UsdPhysics.PrismaticJoint):
-        return JointKind(
-            "prismatic", _AXES[str(UsdPhysics.PrismaticJoint(prim).GetAxisAttr().Get())]
-        )
-    free = [name for name in _FREEDOMS if not _is_locked(prim, name)]
+        return JointKind("prismatic", _read_axis(context, prim))
+    free = [name for name in _FREEDOMS if not _is_locked(context, prim, name)]
     if not free:
         return JointKind("fixed")
     if len(free) == 1:
-        axis = _AXES[free[0][-1]]
-        return JointKind("prismatic" if free[0].startswith("trans") else "revolute", axis, free[0])
+        axis, bounds = _AXES[free[0][-1]], _read_bounds(context, prim, free[0])
+        if free[0].startswith("trans"):
+            return JointKind("prismatic", axis, free[0])
+        kind = "revolute" if any(math.isfinite(bound) for bound in bounds) else "continuous"
+        return JointKind(kind, axis, free[0])
     if len(free) == 6:
         return JointKind("floating")
     turns = [name for name in free if name.startswith("rot")]
@@ -57,81 +59,173 @@ def find_kind(context: Context, prim: Usd.Prim) -> JointKind:
     return JointKind("fixed")
 
 
-def _is_locked(prim: Usd.Prim, name: str) -> bool:
-    low = get_value(prim, f"limit:{name}:physics:low")
-    high = get_value(prim, f"limit:{name}:physics:high")
+def _read_axis(context: Context, prim: Usd.Prim) -> Vector:
+    """Return the axis of a revolute or prismatic joint in the frame of the joint.
+
+    Raises:
+        ModelError: It is none of X, Y and Z.
+    """
+    axis = str(prim.GetAttribute("physics:axis").Get())
+    if axis not in _AXES:
+        raise context.make_error(prim, "physics:axis", f"must be X, Y or Z, but is {axis}")
+    return _AXES[axis]
+
+
+def _is_locked(context: Context, prim: Usd.Prim, name: str) -> bool:
+    low = context.get_value(prim, f"limit:{name}:physics:low")
+    high = context.get_value(prim, f"limit:{name}:physics:high")
     return low is not None and high is not None and low > high
 
 
-def _read_bounds(prim: Usd.Prim) -> tuple[float, float]:
-    lower, upper = get_value(prim, "physics:lowerLimit"), get_value(prim, "physics:upperLimit")
+def _read_bounds(context: Context, prim: Usd.Prim, freedom: str = "") -> tuple[float, float]:
+    """Return the lower and upper limit; those of one freedom of a joint without a fixed type."""
+    names = (
+        (f"limit:{freedom}:physics:low", f"limit:{freedom}:physics:high")
+        if freedom
+        else ("physics:lowerLimit", "physics:upperLimit")
+    )
+    lower, upper = (context.get_value(prim, name) for name in names)
     return -math.inf if lower is None else lower, math.inf if upper is None else upper
 
 
-def add_motion(context: Context, prim: Usd.Prim, joint: Joint) -> None:
-    """Add limits, dynamics, mimic and drive of a joint with one position."""
+@dataclass(frozen=True)
+class _Units:
+    """Names and units of the attributes of a joint.
+
+    Attributes:
+        name: Instance of the schemas of drives and axes: ``angular``, ``linear`` or ``rotX``.
+        position: Radians or meters in a unit of position.
+        force: Newton meters or newtons in a unit of force.
+        inertia: Kilogram square meters or kilograms in a unit of armature.
+        rate: Factor of a value per unit of velocity to one per rad/s or m/s.
+        by_radian: The same for attributes of MuJoCo, which are not per degree.
+    """
+
+    name: str
+    position: float
+    force: float
+    inertia: float
+    rate: float
+    by_radian: float
+
+
+def _find_units(context: Context, joint: Joint, freedom: str) -> _Units:
+    torque = context.mass * context.length * context.length
+    if joint.type == "prismatic":
+        force = context.mass * context.length
+        rate = force / context.length
+        return _Units(freedom or "linear", context.length, force, context.mass, rate, rate)
+    rate = torque * math.degrees(1.0)
+    return _Units(freedom or "angular", math.radians(1.0), torque, torque, rate, torque)
+
+
+def add_motion(context: Context, prim: Usd.Prim, joint: Joint, freedom: str) -> None:
+    """Add limits, dynamics, mimic and drive of a joint with one position.
+
+    Args:
+        context: State of reading.
+        prim: Prim of the joint.
+        joint: Receives the values.
+        freedom: Name of the only free axis of a joint without a fixed type; empty for others.
+    """
     if joint.type not in ("revolute", "continuous", "prismatic"):
         return
-    angular = joint.type != "prismatic"
-    unit = math.radians(1.0) if angular else context.length
-    force = context.mass * context.length * (context.length if angular else 1.0)
-    kind = "angular" if angular else "linear"
-    lower, upper = _read_bounds(prim)
-    effort = get_value(prim, f"drive:{kind}:physics:maxForce")
-    velocity = get_value(
+    units = _find_units(context, joint, freedom)
+    lower, upper = _read_bounds(context, prim, freedom)
+    effort = _read_effort(context, prim, units)
+    velocity = context.get_value(
         prim,
         "newton:velocityLimit",
-        f"physxJointAxis:{kind}:maxJointVelocity",
+        f"physxJointAxis:{units.name}:maxJointVelocity",
         "physxJoint:maxJointVelocity",
     )
     limit = Limit(
         context.get_written(prim, "physics:lowerLimit"),
-        convert_float(lower, unit) if math.isfinite(lower) else None,
-        convert_float(upper, unit) if math.isfinite(upper) else None,
-        convert_float(effort, force) if effort is not None and math.isfinite(effort) else None,
-        convert_float(velocity, unit) if velocity is not None and math.isfinite(velocity) else None,
+        _convert_bound(lower, units.position),
+        _convert_bound(upper, units.position),
+        _convert_bound(effort, units.force),
+        _convert_bound(velocity, units.position),
     )
     if any(value is not None for value in (limit.lower, limit.upper, limit.effort, limit.velocity)):
         joint.limit = limit
-    joint.dynamics = _read_dynamics(context, prim, kind, force)
-    joint.mimic = _read_mimic(context, prim, unit)
+    joint.dynamics = _read_dynamics(context, prim, units)
+    joint.mimic = _read_mimic(context, prim, units)
 
 
-def _read_dynamics(context: Context, prim: Usd.Prim, kind: str, force: float) -> Dynamics | None:
-    per = math.degrees(1.0) if kind == "angular" else 1.0 / context.length
-    damping = get_value(prim, "newton:damping", f"physxJointAxis:{kind}:viscousFrictionCoefficient")
-    friction = get_value(prim, "newton:friction", f"physxJointAxis:{kind}:staticFrictionEffort")
-    armature = get_value(
-        prim, "newton:armature", f"physxJointAxis:{kind}:armature", "physxJoint:armature"
+def _convert_bound(value: float | None, unit: float) -> float | None:
+    """Convert a limit; None for one that is absent or infinite."""
+    return convert_float(value, unit) if value is not None and math.isfinite(value) else None
+
+
+def _read_effort(context: Context, prim: Usd.Prim, units: _Units) -> float | None:
+    """Return the largest force or torque, of the drive or of MuJoCo; None without a limit."""
+    effort = context.get_value(prim, f"drive:{units.name}:physics:maxForce")
+    lower, upper = (
+        context.get_value(prim, f"mjc:actuatorfrcrange:{end}") or 0.0 for end in ("min", "max")
+    )
+    limited = prim.GetAttribute("mjc:actuatorfrclimited")
+    if effort is not None or lower >= upper or (limited and limited.Get() == "false"):
+        return effort
+    return max(abs(lower), abs(upper))
+
+
+def _read_dynamics(context: Context, prim: Usd.Prim, units: _Units) -> Dynamics | None:
+    axis = f"physxJointAxis:{units.name}"
+
+    def read(others: tuple[str, ...], unit: float, mujoco: str, unit_there: float) -> float | None:
+        value = context.get_value(prim, *others)
+        if value is not None:
+            return convert_float(value, unit)
+        value = context.get_value(prim, mujoco)
+        return None if value is None else convert_float(value, unit_there)
+
+    damping = read(
+        ("newton:damping", f"{axis}:viscousFrictionCoefficient"),
+        *(units.rate, "mjc:damping", units.by_radian),
+    )
+    friction = read(
+        ("newton:friction", f"{axis}:staticFrictionEffort"),
+        *(units.force, "mjc:frictionloss", units.force),
+    )
+    armature = read(
+        ("newton:armature", f"{axis}:armature", "physxJoint:armature"),
+        *(units.inertia, "mjc:armature", units.inertia),
     )
     if damping is None and friction is None and armature is None:
         return None
-    inertia = force if kind == "angular" else context.mass
-    return Dynamics(
-        context.get_written(prim),
-        None if damping is None else convert_float(damping, force * per),
-        None if friction is None else convert_float(friction, force),
-        None if armature is None else convert_float(armature, inertia),
-    )
+    return Dynamics(context.get_written(prim), damping, friction, armature)
 
 
-def _read_mimic(context: Context, prim: Usd.Prim, unit: float) -> Mimic | None:
-    """Return what a joint follows; attributes of Newton are read before those of PhysX."""
-    if has_schema(prim, "NewtonMimicAPI"):
-        targets = get_targets(prim, "newton:mimicJoint")
-        factor, offset = get_value(prim, "newton:mimicCoef1"), get_value(prim, "newton:mimicCoef0")
+def _read_mimic(context: Context, prim: Usd.Prim, units: _Units) -> Mimic | None:
+    """Return what a joint follows; Newton comes before PhysX, which comes before MuJoCo."""
+    if has_schema(prim, "NewtonMimicAPI") and get_targets(prim, "newton:mimicJoint"):
+        enabled = prim.GetAttribute("newton:mimicEnabled")
+        if enabled and enabled.Get() is False:
+            context.report_loss("mimic", "joints whose mimic is disabled are independent", prim)
+            return None
+        factor = context.get_value(prim, "newton:mimicCoef1")
+        offset = context.get_value(prim, "newton:mimicCoef0") or 0.0
         scale = 1.0 if factor is None else convert_float(factor)
-        return _follow(context, prim, targets, scale, convert_float(offset or 0.0, unit))
-    for axis in ("rotX", "rotY", "rotZ"):
+        targets = get_targets(prim, "newton:mimicJoint")
+        return _follow(context, prim, targets, scale, convert_float(offset, units.position))
+    for axis in ("rotX", "rotY", "rotZ", "transX", "transY", "transZ"):
         name = f"physxMimicJoint:{axis}"
         if has_schema(prim, f"PhysxMimicJointAPI:{axis}"):
-            targets = get_targets(prim, f"{name}:referenceJoint")
-            gearing, offset = get_value(prim, f"{name}:gearing"), get_value(prim, f"{name}:offset")
-            if offset:
+            gearing = context.get_value(prim, f"{name}:gearing")
+            offset = context.get_value(prim, f"{name}:offset") or 0.0
+            if offset and axis.startswith("rot"):
                 text = "offsets of PhysxMimicJointAPI, whose unit is not documented, are degrees"
                 context.report_loss("mimic-offset", text, prim, Severity.INFO)
-            scale = -(1.0 if gearing is None else gearing)
-            return _follow(context, prim, targets, scale, -convert_float(offset or 0.0, unit))
+            scale = -(1.0 if gearing is None else convert_float(gearing))
+            targets = get_targets(prim, f"{name}:referenceJoint")
+            return _follow(context, prim, targets, scale, -convert_float(offset, units.position))
+    if has_schema(prim, "MjcEqualityJointAPI"):
+        targets = get_targets(prim, "newton:mimicJoint") or get_targets(prim, "mjc:target")
+        factor = context.get_value(prim, "newton:mimicCoef1", "mjc:coef1")
+        offset = context.get_value(prim, "mjc:coef0") or 0.0
+        scale = 1.0 if factor is None else convert_float(factor)
+        unit = context.length if units.name == "linear" else 1.0
+        return _follow(context, prim, targets, scale, convert_float(offset, unit))
     return None
 
 
@@ -146,25 +240,30 @@ def _follow(
     return Mimic(context.get_written(prim), str(stored or leader.GetName()), factor, offset)
 
 
-def read_actuator(context: Context, prim: Usd.Prim, joint: Joint) -> JointActuator | None:
+def read_actuator(
+    context: Context, prim: Usd.Prim, joint: Joint, freedom: str
+) -> JointActuator | None:
     """Return the drive of a joint as an actuator; None if its gains are zero."""
-    angular = joint.type != "prismatic"
-    kind = "angular" if angular else "linear"
-    stiffness = get_value(prim, f"drive:{kind}:physics:stiffness") or 0.0
-    damping = get_value(prim, f"drive:{kind}:physics:damping") or 0.0
+    if joint.type not in ("revolute", "continuous", "prismatic"):
+        return None
+    units = _find_units(context, joint, freedom)
+    stiffness, damping = (
+        convert_float(context.get_value(prim, f"drive:{units.name}:physics:{gain}") or 0.0, rate)
+        for gain, rate in (("stiffness", units.force / units.position), ("damping", units.rate))
+    )
     if not stiffness and not damping:
         return None
-    force = context.mass * context.length * (context.length if angular else 1.0)
-    factor = force * (math.degrees(1.0) if angular else 1.0 / context.length)
-    mode = "position" if stiffness else "velocity"
-    gain = stiffness if stiffness else damping
+    kind = prim.GetAttribute(f"drive:{units.name}:physics:type")
+    if kind and kind.Get() == UsdPhysics.Tokens.acceleration:
+        text = "drives of accelerations are read as drives of forces, as Newton does"
+        context.report_loss("drive-type", text, prim)
     effort = joint.limit.effort if joint.limit is not None else None
     return JointActuator(
-        context.get_written(prim),
+        context.get_written(prim, f"drive:{units.name}:physics:stiffness"),
         joint.name,
         joint.name,
-        mode,
-        gain=gain * factor,
-        bias=(0.0, -stiffness * factor, -damping * factor),
+        "position" if stiffness else "velocity",
+        gain=stiffness or damping,
+        bias=(0.0, -stiffness, -damping),
         force_range=None if effort is None else (-effort, effort),
     )

@@ -16,8 +16,8 @@ from ...model.elements import (
     Ellipsoid,
     Geometry,
     Link,
-    Material,
     Mesh,
+    Origin,
     Plane,
     Robot,
     Sphere,
@@ -25,7 +25,8 @@ from ...model.elements import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
-from .read_mesh import MeshFolder, read_triangles
+from .read_materials import read_material
+from .read_mesh import MeshFolder, Triangles, read_triangles
 from .read_stage import Context, compute_pose
 
 Array = npt.NDArray[np.float64]
@@ -47,7 +48,7 @@ def add_shapes(context: Context, robot: Robot, folder: MeshFolder) -> None:
         if not prim.IsA(UsdGeom.Gprim):
             continue
         owner = _find_owner(context, prim)
-        collides = prim.HasAPI(UsdPhysics.CollisionAPI)
+        collides = _is_collider(prim)
         imageable = UsdGeom.Imageable(prim)
         drawn = imageable.ComputeVisibility() != UsdGeom.Tokens.invisible
         drawn = drawn and imageable.ComputePurpose() in ("default", "render")
@@ -59,6 +60,13 @@ def add_shapes(context: Context, robot: Robot, folder: MeshFolder) -> None:
         _add_shape(
             context, prim, robot.link[context.names[owner]], owner, folder, (drawn, collides)
         )
+
+
+def _is_collider(prim: Usd.Prim) -> bool:
+    """Tell whether a prim is enabled collision geometry."""
+    if not prim.HasAPI(UsdPhysics.CollisionAPI):
+        return False
+    return UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr().Get() is not False
 
 
 def _find_owner(context: Context, prim: Usd.Prim) -> str | None:
@@ -83,33 +91,90 @@ def _add_shape(
     matrix = context.get_matrix(prim)
     pose = shift.invert() @ frame.invert() @ compute_pose(matrix, context.length)
     linear = np.array([[matrix[row][column] for row in range(3)] for column in range(3)])
-    rigid = np.array(compute_pose(matrix).rotation)
+    residual = np.array(compute_pose(matrix).rotation).T @ linear
     written = context.get_written(prim)
-    geometry, turn = _read_geometry(context, prim, rigid.T @ linear, written, folder)
+    name = str(prim.GetCustomDataByKey("urdf:shape") or "") or None
+    drawn, collides = roles
+    if prim.IsA(UsdGeom.Mesh):
+        _add_mesh(context, prim, link, residual, get_origin_at(pose, written), folder, roles)
+        return
+    for size in ("size", "radius", "height"):
+        if attribute := prim.GetAttribute(size):
+            context.check_finite(prim, size, (attribute.Get(),))
+    geometry, turn = _read_geometry(prim, residual, context.length, written)
     if geometry is None:
         context.report_loss("shape", f"shapes of type {prim.GetTypeName()} are not read", prim)
         return
     origin = get_origin_at(pose @ turn, written)
-    name = str(prim.GetCustomDataByKey("urdf:shape") or "") or None
-    drawn, collides = roles
     if drawn:
-        link.visuals.append(Visual(written, name, origin, geometry, _read_material(context, prim)))
+        material = read_material(context, prim, folder, has_coordinates=False)
+        link.visuals.append(Visual(written, name, origin, geometry, material))
     if collides:
         link.collisions.append(Collision(written, name, origin, geometry))
 
 
+def _add_mesh(
+    context: Context,
+    prim: Usd.Prim,
+    link: Link,
+    residual: Array,
+    origin: Origin,
+    folder: MeshFolder,
+    roles: tuple[bool, bool],
+) -> None:
+    """Add a mesh; subsets of its faces with materials of their own become visuals."""
+    triangles = read_triangles(prim, residual, context.length)
+    written = context.get_written(prim)
+    if triangles is None:
+        context.report_loss("shape", "meshes without faces, or with invalid points, are left out",
+                            prim)  # fmt: skip
+        return
+    name = str(prim.GetCustomDataByKey("urdf:shape") or "") or None
+    start = f"{link.name}_{prim.GetName()}"
+    drawn, collides = roles
+    for part, some in _split_subsets(prim, triangles) if drawn else ():
+        mapped = some.coordinates is not None
+        material = read_material(context, part, folder, has_coordinates=mapped)
+        textured = material is not None and material.texture is not None
+        mesh = Mesh(written, folder.store(some, start, textured=textured))
+        link.visuals.append(Visual(written, name, origin, mesh, material))
+    if collides:
+        _report_approximation(context, prim)
+        mesh = Mesh(written, folder.store(triangles, start, textured=False))
+        link.collisions.append(Collision(written, name, origin, mesh))
+
+
+def _split_subsets(prim: Usd.Prim, triangles: Triangles) -> list[tuple[Usd.Prim, Triangles]]:
+    """Return the parts of a mesh with a material each, and the prims that the materials are of."""
+    parts = []
+    rest = np.ones(len(triangles.faces), dtype=bool)
+    for subset in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets():
+        chosen = np.isin(triangles.faces, np.array(subset.GetIndicesAttr().Get() or [], dtype=int))
+        chosen &= rest
+        rest &= ~chosen
+        if chosen.any():
+            parts.append((subset.GetPrim(), triangles.select(chosen)))
+    if not parts:
+        return [(prim, triangles)]
+    return [*parts, (prim, triangles.select(rest))] if rest.any() else parts
+
+
+def _report_approximation(context: Context, prim: Usd.Prim) -> None:
+    """Report that simulators use another shape than the mesh, unless urdftool wrote the stage."""
+    if context.is_ours or not prim.HasAPI(UsdPhysics.MeshCollisionAPI):
+        return
+    kind = UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr().Get()
+    if kind not in (None, UsdPhysics.Tokens.none):
+        text = "collision meshes that simulators approximate are read as their triangles"
+        context.report_loss("approximation", text, prim, Severity.INFO)
+
+
 def _read_geometry(
-    context: Context, prim: Usd.Prim, residual: Array, written: Written, folder: MeshFolder
+    prim: Usd.Prim, residual: Array, length: float, written: Written
 ) -> tuple[Geometry | None, Pose]:
     """Return the geometry of a prim, and its rotation in the frame of the prim."""
-    scale = np.abs(np.diag(residual)) * context.length
-    sheared = np.abs(residual - np.diag(np.diag(residual))).max() > _EVEN * scale.max()
-    if prim.IsA(UsdGeom.Mesh):
-        triangles = read_triangles(prim, residual, context.length)
-        if triangles is None:
-            return None, IDENTITY
-        return Mesh(written, folder.store(triangles)), IDENTITY
-    if sheared:
+    scale = np.abs(np.diag(residual)) * length
+    if np.abs(residual - np.diag(np.diag(residual))).max() > _EVEN * scale.max():
         return None, IDENTITY
     if prim.IsA(UsdGeom.Cube):
         x, y, z = (float(UsdGeom.Cube(prim).GetSizeAttr().Get()) * scale).tolist()
@@ -143,30 +208,3 @@ def _read_round(prim: Usd.Prim, scale: Array, written: Written) -> tuple[Geometr
         height = float(shape.GetHeightAttr().Get()) * float(scale[along])
         return make(written, radius, height), _TURNS[axis]
     return None, IDENTITY
-
-
-def _read_material(context: Context, prim: Usd.Prim) -> Material | None:
-    """Return the color or texture of a prim; None without one."""
-    bound, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
-    if not bound:
-        return None
-    surface, _, _ = bound.ComputeSurfaceSource()
-    if not surface:
-        return None
-    written, name = context.get_written(bound.GetPrim()), bound.GetPrim().GetName()
-    color = surface.GetInput("diffuseColor")
-    if color and color.HasConnectedSource():
-        context.report_loss("texture", "textures are not read", bound.GetPrim(), Severity.INFO)
-        return None
-    if not color or color.Get() is None:
-        return None
-    opacity = surface.GetInput("opacity")
-    alpha = opacity.Get() if opacity else None
-    red, green, blue = (_encode(float(part)) for part in color.Get())
-    return Material(written, name, (red, green, blue, 1.0 if alpha is None else float(alpha)))
-
-
-def _encode(value: float) -> float:
-    """Convert linear light to a component of an sRGB color."""
-    value = min(max(value, 0.0), 1.0)
-    return 12.92 * value if value <= 0.0031308 else float(1.055 * value ** (1 / 2.4) - 0.055)

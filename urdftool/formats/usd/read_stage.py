@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
-from pathlib import Path
-from tempfile import TemporaryDirectory
+import math
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdUtils
+from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 from ...diagnostic import Severity
 from ...errors import ModelError
-from ...model.pose import Pose, Rotation, rotation_from_quaternion
+from ...model.part import Vector
+from ...model.pose import Pose, Rotation
 from ...model.provenance import Written
-from ...source.document import STDIN
-from ...source.location import Place, SourceFile
-from ..reading import Losses
+from ...source.location import Place
+from ..reading import LARGEST, Losses
 from .read_places import Layers
+
+NO_TURN = (1.0, 0.0, 0.0, 0.0)
+"""Quaternion of the identity."""
+
+_UNSCALED = 1e-6
+"""Difference of the scale from 1 that rounding explains."""
 
 
 class Context:
@@ -30,6 +34,7 @@ class Context:
         top: Prim below which the robot is; the pseudo-root if no prim is the default.
         length: Meters in a unit of length.
         mass: Kilograms in a unit of mass.
+        is_ours: Whether urdftool wrote the stage.
         bodies: Prims of rigid bodies by path, in the order of the stage.
         joints: Prims of enabled joints, in the order of the stage.
         names: Name of the link of each body or frame, by path.
@@ -45,14 +50,16 @@ class Context:
         self.stage, self.losses = stage, losses
         self.layers = layers
         self.top = self._find_top(articulation)
-        self.length = float(UsdGeom.GetStageMetersPerUnit(stage))
-        self.mass = float(UsdPhysics.GetStageKilogramsPerUnit(stage))
+        self.length = self._check_unit("metersPerUnit", UsdGeom.GetStageMetersPerUnit(stage))
+        kilograms = UsdPhysics.GetStageKilogramsPerUnit(stage)
+        self.mass = self._check_unit("kilogramsPerUnit", kilograms)
         self.is_y_up = UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y
+        self.is_ours = bool(self.top.GetCustomDataByKey("urdf:root"))
         self._cache = UsdGeom.XformCache()
         self.bodies: dict[str, Usd.Prim] = {}
         self.joints: list[Usd.Prim] = []
         for prim in self.iterate_prims():
-            if prim.HasAPI(UsdPhysics.RigidBodyAPI):
+            if _is_body(prim):
                 self.bodies[str(prim.GetPath())] = prim
             if prim.IsA(UsdPhysics.Joint):
                 self.joints.append(prim)
@@ -70,6 +77,12 @@ class Context:
             return prim
         default = self.stage.GetDefaultPrim()
         return default if default else self.stage.GetPseudoRoot()
+
+    def _check_unit(self, name: str, value: float) -> float:
+        if not 0 < value < LARGEST:
+            at = self.get_place(self.stage.GetPseudoRoot())
+            raise ModelError(f"{name} must be positive, but is {value:g}", at=at)
+        return float(value)
 
     def iterate_prims(self, below: Usd.Prim | None = None) -> Iterator[Usd.Prim]:
         """Yield the prims of the robot, also those of instances."""
@@ -90,13 +103,85 @@ class Context:
         """Return the provenance of a prim, or of the layer that sets an attribute of it."""
         return Written(self.get_place(prim, attribute))
 
+    def get_value(self, prim: Usd.Prim, *names: str) -> float | None:
+        """Return the value of the first attribute with an authored number; None without one.
+
+        Raises:
+            ModelError: It is not a number, or NaN.
+        """
+        for name in names:
+            attribute = prim.GetAttribute(name)
+            if attribute and attribute.HasAuthoredValue():
+                value = attribute.Get()
+                number = float(value) if isinstance(value, (int, float)) else math.nan
+                if math.isnan(number):
+                    raise self.make_error(prim, name, f"must be a number, but is {value}")
+                return number
+        return None
+
+    def get_vector(
+        self, prim: Usd.Prim, name: str, default: tuple[float, ...]
+    ) -> tuple[float, ...]:
+        """Return the numbers of an attribute; a quaternion as (w, x, y, z).
+
+        Args:
+            prim: The prim.
+            name: The attribute.
+            default: The numbers if it has no value; they give the length.
+
+        Raises:
+            ModelError: It has another number of numbers, or NaN.
+        """
+        attribute = prim.GetAttribute(name)
+        value = attribute.Get() if attribute else None
+        if value is None:
+            return default
+        if isinstance(value, (Gf.Quatf, Gf.Quatd, Gf.Quath)):
+            value = (value.GetReal(), *value.GetImaginary())
+        try:
+            numbers = tuple(float(part) for part in value)
+        except (TypeError, ValueError):
+            numbers = ()
+        if len(numbers) != len(default) or any(math.isnan(part) for part in numbers):
+            raise self.make_error(prim, name, f"must be {len(default)} numbers, but is {value}")
+        return numbers
+
+    def check_finite(self, prim: Usd.Prim, name: str, values: Iterable[float]) -> None:
+        """Check numbers of an attribute.
+
+        Raises:
+            ModelError: One is infinite, NaN, or larger than any of a robot.
+        """
+        for value in values:
+            if not isinstance(value, (int, float)) or not abs(value) < LARGEST:
+                raise self.make_error(prim, name, f"has a number that is {_describe(value)}")
+
+    def make_error(self, prim: Usd.Prim, name: str, what: str) -> ModelError:
+        """Return the error for an attribute with an invalid value."""
+        return ModelError(f"{name} of {prim.GetPath()} {what}", at=self.get_place(prim, name))
+
     def get_matrix(self, prim: Usd.Prim) -> Gf.Matrix4d:
-        """Return the transform of a prim to the stage, as OpenUSD multiplies it (row vectors)."""
-        return self._cache.GetLocalToWorldTransform(prim)
+        """Return the transform of a prim to the stage, as OpenUSD multiplies it (row vectors).
+
+        Raises:
+            ModelError: It has numbers that are not finite, or the scale is zero.
+        """
+        matrix = self._cache.GetLocalToWorldTransform(prim)
+        self.check_finite(prim, "xformOpOrder", (part for row in matrix for part in row))
+        if not matrix.GetDeterminant3():
+            raise self.make_error(prim, "xformOpOrder", "has a scale of zero")
+        return matrix
 
     def get_pose(self, prim: Usd.Prim) -> Pose:
         """Return the pose of a prim in the stage [m], without its scale."""
         return compute_pose(self.get_matrix(prim), self.length)
+
+    def get_scale(self, prim: Usd.Prim) -> Gf.Matrix4d | None:
+        """Return scale and shear of a prim in the stage, as a matrix; None is the identity."""
+        matrix = self.get_matrix(prim)
+        factors = matrix * matrix.RemoveScaleShear().GetInverse()
+        same = Gf.IsClose(factors, Gf.Matrix4d(1.0), _UNSCALED)
+        return None if same else factors
 
     def find_body(self, prim: Usd.Prim) -> str:
         """Return the path of the body that carries a prim; empty if none does."""
@@ -111,36 +196,17 @@ class Context:
         self.losses.add(code, what, prim.GetName(), self.get_place(prim), severity)
 
 
-def open_stage(file: SourceFile, losses: Losses) -> Usd.Stage:
-    """Open a stage with its payloads, and record the warnings of OpenUSD.
-
-    Raises:
-        ModelError: OpenUSD does not open it.
-    """
-    delegate = UsdUtils.CoalescingDiagnosticDelegate()
-    place = Place(file, 0, 0)
-    try:
-        if file.path == STDIN:
-            with TemporaryDirectory(prefix="urdftool-") as folder:
-                copy = Path(folder) / f"stdin{_get_suffix(file.data)}"
-                copy.write_bytes(file.data)
-                stage = Usd.Stage.Open(str(copy), Usd.Stage.LoadAll)
-        else:
-            stage = Usd.Stage.Open(os.path.abspath(file.path), Usd.Stage.LoadAll)
-    except Exception as error:
-        reasons = [str(item.commentary) for item in delegate.TakeUncoalescedDiagnostics()]
-        notes = reasons or [str(error)]
-        raise ModelError("OpenUSD does not open the stage", at=place, notes=notes) from None
-    for item in delegate.TakeUncoalescedDiagnostics():
-        text = " ".join(str(item.commentary).split())
-        losses.add("warning", f"OpenUSD warns: {text}", "", place, Severity.INFO)
-    return stage
+def _is_body(prim: Usd.Prim) -> bool:
+    """Tell whether a prim is a rigid body that moves."""
+    if not prim.HasAPI(UsdPhysics.RigidBodyAPI):
+        return False
+    return UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get() is not False
 
 
-def _get_suffix(data: bytes) -> str:
-    if data.startswith(b"PXR-USDC"):
-        return ".usdc"
-    return ".usdz" if data.startswith(b"PK") else ".usda"
+def _describe(value: object) -> str:
+    if not isinstance(value, (int, float)):
+        return f"missing: {value}"
+    return "not finite" if not math.isfinite(value) else "too large"
 
 
 def compute_pose(matrix: Gf.Matrix4d, length: float = 1.0) -> Pose:
@@ -153,27 +219,16 @@ def compute_pose(matrix: Gf.Matrix4d, length: float = 1.0) -> Pose:
     return Pose(rows, (x * length, y * length, z * length))
 
 
-def compute_joint_pose(position: Gf.Vec3f, rotation: Gf.Quatf, length: float) -> Pose:
-    """Return the pose of a joint frame in its body [m]."""
-    x, y, z = (float(part) * length for part in position)
-    i, j, k = rotation.GetImaginary()
-    four = (float(rotation.GetReal()), float(i), float(j), float(k))
-    return Pose(rotation_from_quaternion(four), (x, y, z))
+def scale_point(scale: Gf.Matrix4d | None, point: Sequence[float]) -> Vector:
+    """Return a point of a prim in its frame without scale."""
+    x, y, z = point if scale is None else scale.Transform(Gf.Vec3d(*point))
+    return float(x), float(y), float(z)
 
 
 def has_schema(prim: Usd.Prim, schema: str) -> bool:
     """Tell whether a schema is applied, also one that is not registered."""
     listed = prim.GetMetadata("apiSchemas")
     return listed is not None and schema in listed.GetAddedOrExplicitItems()
-
-
-def get_value(prim: Usd.Prim, *names: str) -> float | None:
-    """Return the value of the first attribute with an authored number; None without one."""
-    for name in names:
-        attribute = prim.GetAttribute(name)
-        if attribute and attribute.HasAuthoredValue():
-            return float(attribute.Get())
-    return None
 
 
 def convert_float(value: float, factor: float = 1.0) -> float:

@@ -5,16 +5,25 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 
-from pxr import Usd, UsdPhysics
+from pxr import Gf, Usd, UsdPhysics
 
 from ...diagnostic import Severity
 from ...model.elements import Axis, Joint, Link, Robot
-from ...model.mechanism import Base, Closure, ContactExclusion, Frame
-from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at, rotate
+from ...model.mechanism import Base, Closure, Frame
+from ...model.pose import (
+    IDENTITY,
+    Pose,
+    compute_norm,
+    get_origin_at,
+    rotate,
+    rotation_from_quaternion,
+)
 from ...model.world import WORLD
-from .read_joints import JointKind, add_motion, find_kind
+from .read_joints import JointKind, add_motion, find_kind, read_actuator
 from .read_links import read_inertial
-from .read_stage import Context, compute_joint_pose, get_targets
+from .read_pairs import add_pairs
+from .read_robot import choose_bodies
+from .read_stage import NO_TURN, Context, get_targets, scale_point
 
 _NOISE = 1e-7
 """Component of an axis below which it is rounding noise of 32-bit floats."""
@@ -53,9 +62,13 @@ class _Edge:
 
 def add_tree(context: Context, robot: Robot) -> None:
     """Add links, joints, the base, and connections that close loops."""
+    every = [_read_edge(context, prim) for prim in context.joints]
+    found = [edge for edge in every if edge is not None]
+    choose_bodies(context, ((one.first, one.second, one.kind.type == "fixed") for one in found))
+    known = {"", *context.bodies}
+    edges = [edge for edge in found if {edge.first, edge.second} <= known]
     _name_links(context)
-    edges = [_read_edge(context, prim) for prim in context.joints]
-    tree, loops, root = _build_tree(context, [edge for edge in edges if edge is not None])
+    tree, loops, root = _build_tree(context, edges)
     _set_shifts(context, tree)
     taken: set[str] = set()
     frames = _find_frames(context)
@@ -72,8 +85,12 @@ def add_tree(context: Context, robot: Robot) -> None:
         prim = context.stage.GetPrimAtPath(path)
         robot.links.append(Link(context.get_written(prim), context.names[path]))
     for edge in tree:
-        if edge.first or edge.kind.type != "fixed":
-            robot.joints.append(_make_joint(context, edge, frames, taken))
+        if edge.first or "" in context.names:
+            joint = _make_joint(context, edge, frames, taken)
+            robot.joints.append(joint)
+            if actuator := read_actuator(context, edge.prim, joint, edge.kind.freedom):
+                robot.joint_actuators.append(actuator)
+    _join_anchored(context, robot, tree, root, taken)
     _join_frames(context, robot, frames, taken)
     _join_free_bodies(context, robot, root, taken)
     _add_base(context, robot, root, frames)
@@ -84,7 +101,7 @@ def add_tree(context: Context, robot: Robot) -> None:
             robot.frames.append(Frame(written, name, name, "body", origin))
     for edge in loops:
         robot.closures.append(_make_closure(context, edge))
-    _add_pairs(context, robot)
+    add_pairs(context, robot)
 
 
 def _name_links(context: Context) -> None:
@@ -111,19 +128,23 @@ def _find_frames(context: Context) -> dict[str, tuple[str, Pose]]:
 
 
 def _read_edge(context: Context, prim: Usd.Prim) -> _Edge | None:
-    joint = UsdPhysics.Joint(prim)
-    if not joint.GetJointEnabledAttr().Get():
+    if not UsdPhysics.Joint(prim).GetJointEnabledAttr().Get():
         context.report_loss("disabled-joint", "disabled joints are not read", prim, Severity.INFO)
         return None
+    if prim.IsA(UsdPhysics.DistanceJoint):
+        context.report_loss("joint-type", "joints that limit a distance are not read", prim)
+        return None
     ends = []
-    for relation, position, rotation in (
-        ("physics:body0", joint.GetLocalPos0Attr(), joint.GetLocalRot0Attr()),
-        ("physics:body1", joint.GetLocalPos1Attr(), joint.GetLocalRot1Attr()),
-    ):
-        targets = get_targets(prim, relation)
-        pose = compute_joint_pose(position.Get(), rotation.Get(), context.length)
+    for index in (0, 1):
+        targets = get_targets(prim, f"physics:body{index}")
         end = context.stage.GetPrimAtPath(targets[0]) if targets else None
+        if targets and not end:
+            text = "joints of prims that do not exist are not read"
+            context.report_loss("joint-body", text, prim)
+            return None
         body = context.find_body(end) if end else ""
+        scale = context.get_scale(end) if end else None
+        pose = _read_frame(context, prim, index, scale)
         if end and not body:
             pose = context.get_pose(end) @ pose
         elif end and body != targets[0]:
@@ -135,6 +156,19 @@ def _read_edge(context: Context, prim: Usd.Prim) -> _Edge | None:
         return None
     edge = _Edge(prim, find_kind(context, prim), first, second, at_first, at_second)
     return edge if second else edge.reverse()
+
+
+def _read_frame(context: Context, prim: Usd.Prim, index: int, scale: Gf.Matrix4d | None) -> Pose:
+    """Return the frame of a joint in the prim that it connects, without the prim's scale [m]."""
+    names = f"physics:localPos{index}", f"physics:localRot{index}"
+    position = context.get_vector(prim, names[0], (0.0, 0.0, 0.0))
+    quaternion = context.get_vector(prim, names[1], NO_TURN)
+    context.check_finite(prim, names[0], position)
+    context.check_finite(prim, names[1], quaternion)
+    x, y, z = scale_point(scale, position)
+    w, i, j, k = quaternion
+    turn = rotation_from_quaternion((w, i, j, k))
+    return Pose(turn, (x * context.length, y * context.length, z * context.length))
 
 
 def _build_tree(context: Context, edges: list[_Edge]) -> tuple[list[_Edge], list[_Edge], str]:
@@ -202,8 +236,7 @@ def _make_joint(
     context: Context, edge: _Edge, frames: dict[str, tuple[str, Pose]], taken: set[str]
 ) -> Joint:
     prim, written = edge.prim, context.get_written(edge.prim)
-    stored = prim.GetCustomDataByKey("urdf:joint") or prim.GetDisplayName()
-    joint = Joint(written, _take_name(str(stored or prim.GetName()), taken), edge.kind.type)
+    joint = Joint(written, _take_name(_get_joint_name(prim), taken), edge.kind.type)
     parent, at = edge.first, context.shifts[edge.first]
     wanted = prim.GetCustomDataByKey("urdf:parent")
     for path, (body, pose) in frames.items():
@@ -218,7 +251,7 @@ def _make_joint(
         sign = -1.0 if edge.is_reversed else 1.0
         xyz = [0.0 if abs(part) < _NOISE else sign * part for part in (x, y, z)]
         joint.axis = Axis(written, (xyz[0], xyz[1], xyz[2]))
-    add_motion(context, prim, joint)
+    add_motion(context, prim, joint, edge.kind.freedom)
     return joint
 
 
@@ -283,6 +316,33 @@ def _join_free_bodies(context: Context, robot: Robot, root: str, taken: set[str]
         robot.joints.append(joint)
 
 
+def _join_anchored(
+    context: Context, robot: Robot, tree: list[_Edge], root: str, taken: set[str]
+) -> None:
+    """Fix further bodies that are fixed to the world to the base, which is fixed, too."""
+    if "" in context.names:
+        return
+    anchored = [edge for edge in tree if not edge.first]
+    poses = {
+        edge.second: _compute_child_pose(context, edge) @ context.shifts[edge.second]
+        for edge in anchored
+    }
+    for edge in anchored:
+        if edge.second == root or root not in poses:
+            continue
+        text = "bodies that are fixed to the world are fixed to the base"
+        context.report_loss("anchor", text, edge.prim, Severity.INFO)
+        written = context.get_written(edge.prim)
+        joint = Joint(written, _take_name(_get_joint_name(edge.prim), taken), "fixed")
+        joint.parent, joint.child = context.names[root], context.names[edge.second]
+        joint.origin = get_origin_at(poses[root].invert() @ poses[edge.second], written)
+        robot.joints.append(joint)
+
+
+def _get_joint_name(prim: Usd.Prim) -> str:
+    return str(prim.GetCustomDataByKey("urdf:joint") or prim.GetDisplayName() or prim.GetName())
+
+
 def _is_root(context: Context, path: str) -> bool:
     return context.names[path] == str(context.top.GetCustomDataByKey("urdf:root") or "")
 
@@ -327,18 +387,6 @@ def _make_closure(context: Context, edge: _Edge) -> Closure:
     if closure.type not in ("weld", "connect"):
         closure.axis = edge.kind.axis
     return closure
-
-
-def _add_pairs(context: Context, robot: Robot) -> None:
-    """Add pairs of bodies that never collide."""
-    for path, prim in context.bodies.items():
-        for other in get_targets(prim, "physics:filteredPairs"):
-            end = context.stage.GetPrimAtPath(other)
-            body = context.find_body(end) if end else ""
-            if body and body != path:
-                written = context.get_written(prim)
-                pair = ContactExclusion(written, context.names[path], context.names[body])
-                robot.exclusions.append(pair)
 
 
 def _take_name(name: str, taken: set[str]) -> str:

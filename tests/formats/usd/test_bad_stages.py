@@ -1,0 +1,104 @@
+"""Stages that are damaged, incomplete or hostile: one message with its place, exit code 2."""
+
+import random
+from contextlib import suppress
+
+import pytest
+
+from tests.formats.usd.stages import body, stage, turning
+from urdftool.errors import ModelError
+
+pytestmark = pytest.mark.library("pxr")
+
+TWO = body("a"), body("b")
+MASS = "        float physics:mass = 1"
+CENTER = "point3f physics:centerOfMass = (0, 0, 0)"
+REFERENCE = '#usda 1.0\n(\n    defaultPrim = "r"\n)\ndef Xform "r" (\n    prepend {}\n)\n{{\n}}\n'
+
+BAD = {
+    "truncated": ('#usda 1.0\ndef Xform "r"\n{\n', None),
+    "not-text": (b"#usda 1.0\n\xff\xfe\x00", None),
+    "binary": (b"PXR-USDC" + bytes(range(256)), None),
+    "package": (b"PK\x03\x04" + bytes(100), None),
+    "nothing": ("#usda 1.0\n", None),
+    "reference": (REFERENCE.format("references = @./none.usda@"), 'def Xform "r"'),
+    "payload": (REFERENCE.format("payload = @./none.usda@"), 'def Xform "r"'),
+    "prim": (REFERENCE.format("references = </none>"), 'def Xform "r"'),
+    "cycle": (REFERENCE.format("references = @./r.usda@"), 'def Xform "r"'),
+    "layer": ("#usda 1.0\n(\n    subLayers = [@./none.usda@]\n)\n", None),
+    "unit": (stage(*TWO, unit=0), None),
+    "mass": (stage(body("a", mass="nan")), "float physics:mass = nan"),
+    "huge": (stage(body("a", mass=1e38)), "float physics:mass = 1e+38"),
+    "center": (stage(body("a").replace(CENTER, CENTER.replace("(0", "(nan"))), "point3f"),
+    "kind": (stage(body("a").replace(MASS, '        string physics:mass = "1"')), "string"),
+    "place": (stage(body("a", at="(inf, 0, 0)")), "uniform token[] xformOpOrder"),
+    "scale": (
+        stage(body("a").replace("xformOp:translate", "xformOp:scale")),
+        "uniform token[] xformOpOrder",
+    ),
+    "limit": (
+        stage(*TWO, turning("j", "a", "b", "        float physics:lowerLimit = nan")),
+        "float physics:lowerLimit",
+    ),
+    "frame": (
+        stage(*TWO, turning("j", "a", "b", "        point3f physics:localPos1 = (0, nan, 0)")),
+        "point3f physics:localPos1",
+    ),
+    "axis": (stage(*TWO, turning("j", "a", "b").replace('"Z"', '"W"')), "uniform token physics:ax"),
+    "size": (
+        stage(
+            body("a", more='        def Cube "c"\n        {\n            double size = nan\n}\n')
+        ),
+        "double size",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_stage_is_an_error_at_its_place(name, write, tmp_path):
+    from urdftool.formats.usd.read import read
+
+    data, part = BAD[name]
+    text = data.decode("latin-1") if isinstance(data, bytes) else data
+    path = tmp_path / "r.usda"
+    path.write_bytes(data if isinstance(data, bytes) else data.encode())
+    if name in ("binary", "package"):
+        path = path.rename(tmp_path / f"r.usd{'c' if name == 'binary' else 'z'}")
+    with pytest.raises(ModelError) as error:
+        read(path, mesh_folder=tmp_path / "meshes")
+    assert error.value.at.file.path == str(path)
+    if part:
+        assert error.value.line == text[: text.index(part)].count("\n") + 1
+    assert "0x" not in error.value.message
+    assert not (tmp_path / "meshes").exists()
+
+
+def test_export_of_a_bad_stage_writes_nothing(write, urdftool, tmp_path):
+    path = write("r.usda", BAD["mass"][0])
+    out = tmp_path / "out.urdf"
+    result = urdftool("export", "urdf", path, "-o", str(out))
+    assert result.code == 2
+    assert len(result.err.strip().splitlines()) == 1
+    assert result.err.startswith(f"{path}:")
+    assert not out.exists()
+
+
+def test_changed_bytes_of_a_binary_stage_are_an_error_or_another_robot(write, tmp_path):
+    from pxr import Sdf
+
+    from urdftool.errors import UrdftoolError
+    from urdftool.formats.usd.read import read
+
+    start = tmp_path / "start.usdc"
+    Sdf.Layer.FindOrOpen(str(write("r.usda", stage(*TWO, turning("j", "a", "b"))))).Export(
+        str(start)
+    )
+    data, chance = start.read_bytes(), random.Random(1)
+    for number in range(40):
+        changed = bytearray(data)
+        for _ in range(chance.choice((1, 2, 5, 20))):
+            changed[chance.randrange(8, len(data))] = chance.randrange(256)
+        path = tmp_path / f"{number}.usdc"
+        path.write_bytes(bytes(changed))
+        with suppress(UrdftoolError):  # any other exception fails the test
+            read(path, mesh_folder=tmp_path / "meshes")

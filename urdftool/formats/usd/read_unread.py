@@ -1,0 +1,82 @@
+"""Attributes of a stage that the model does not hold."""
+
+from __future__ import annotations
+
+import re
+
+from pxr import Usd, UsdPhysics
+
+from ...diagnostic import Severity
+from .read_stage import Context
+
+_NAMESPACES = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|urdf|omniphysics)$")
+
+_READ = re.compile(
+    r"physics:(mass|centerOfMass|diagonalInertia|principalAxes|rigidBodyEnabled|collisionEnabled|"
+    r"approximation|axis|(lower|upper)Limit|local(Pos|Rot)[01]|jointEnabled|excludeFromArticulation)"
+    r"|newton:(inertia|velocityLimit|damping|friction|armature|mimic(Coef[01]|Enabled))"
+    r"|drive:\w+:physics:(maxForce|stiffness|damping)|limit:\w+:physics:(low|high)"
+    r"|physxJointAxis:\w+:(maxJointVelocity|viscousFrictionCoefficient|armature|"
+    r"(static|dynamic)FrictionEffort)"
+    r"|physxJoint:(maxJointVelocity|armature)|physxMimicJoint:\w+:(gearing|offset)"
+    r"|mjc:(damping|frictionloss|armature|coef[01]|actuatorfrc(range:(min|max)|limited))"
+)
+"""Names of the attributes that the reader uses."""
+
+_HARMLESS = re.compile(
+    r"urdf:.*|state:.*|drive:\w+:physics:(targetPosition|targetVelocity|type)"
+    r"|physics:(startsAsleep|velocity|angularVelocity|simulationOwner|collisionEnabled)"
+    r"|.*([sS]olver|[sS]leep|[sS]tabilization|[iI]teration|[hH]ull|report).*"
+)
+"""Names of settings, and of values that no simulator uses."""
+
+_SELF = re.compile(r"newton:selfCollisionEnabled|physxArticulation:enabledSelfCollisions")
+"""Names of the settings of collisions of a robot with itself."""
+
+
+def report_unread(context: Context) -> None:
+    """Report each attribute of physics that is not read once, with the first prim that has it."""
+    found: dict[str, Usd.Prim] = {}
+    for prim in context.iterate_prims():
+        for attribute in prim.GetAuthoredAttributes():
+            name = attribute.GetName()
+            space, colon, _ = name.partition(":")
+            if colon and _NAMESPACES.match(space) and not _READ.fullmatch(name):
+                found.setdefault(name, prim)
+    for name, prim in found.items():
+        if _is_default(prim, name):
+            continue
+        if _SELF.fullmatch(name):
+            if prim.GetAttribute(name).Get() is False and not context.is_ours:
+                text = "that parts of the robot do not collide with each other is not read"
+                context.report_loss("self-collision", text, prim, Severity.INFO)
+            continue
+        place = context.get_place(prim, name)
+        if _HARMLESS.fullmatch(name):
+            text = "settings, and attributes that no simulator uses, are not read"
+            context.losses.add("setting", text, name, place, Severity.INFO)
+        else:
+            context.losses.add("attribute", "attributes are not read", name, place)
+    for prim in context.bodies.values():
+        if UsdPhysics.RigidBodyAPI(prim).GetKinematicEnabledAttr().Get():
+            context.report_loss("kinematic", "kinematic bodies are read as dynamic ones", prim)
+    _report_variants(context)
+
+
+def _is_default(prim: Usd.Prim, name: str) -> bool:
+    """Tell whether an attribute has the value that it has without being set."""
+    definition = prim.GetPrimDefinition().GetAttributeDefinition(name)
+    return bool(definition) and definition.GetFallbackValue() == prim.GetAttribute(name).Get()
+
+
+def _report_variants(context: Context) -> None:
+    """Report the variants of the robot that are not selected."""
+    sets = context.top.GetVariantSets()
+    for name in sets.GetNames():
+        selected = sets.GetVariantSelection(name) or "none"
+        others = [one for one in sets.GetVariantSet(name).GetVariantNames() if one != selected]
+        if others:
+            text = "variant sets are read as selected"
+            shown = f"{name}: {selected}, not {', '.join(others)}"
+            place = context.get_place(context.top)
+            context.losses.add("variant", text, shown, place, Severity.INFO)
