@@ -12,6 +12,7 @@ from .export_options import add_fix_inertia_option, make_export_options
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
+from .read_other import read_any
 
 _GROUPS = {
     "Output": "output target layers isaaclab isaaclab_version overwrite style",
@@ -119,13 +120,12 @@ def command(
     from ..extras import require
     from ..formats.registry import format_named
     from .export_report import run_export
-    from .read_other import read_any
 
     require("'urdftool export usd'", "pxr")
     from ..formats.usd.options import Options
 
     usd, place = format_named("usd"), output or "-"
-    model = read_any(console, robot, package, package_path)
+    model = read_any(console, robot, package, package_path, quiet=True)
     report_gltf_axes(console, model)
     options = Options(file=Path(place).name if usd.has_suffix(place) else "", **choices)
     if isaaclab is not None and place == "-":

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 
 from ..model.elements import Robot
-from ..source.document import STAGE_HEADS
 from ..source.location import SourceFile
 from ..source.packages import Packages
+from ..source.well_formed import STAGE_HEADS
 from .registry import Format, format_named
 
 _PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)

@@ -9,8 +9,9 @@ from ..diagnostic import Severity
 from ..errors import PackageNotFound, SourceError, UrdftoolError
 from ..finding import Finding
 from ..source.description import Description
-from ..source.document import STAGE_HEADS, Element
+from ..source.document import Element
 from ..source.location import Place, SourceFile
+from ..source.well_formed import STAGE_HEADS
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
 _HEAD = 1024

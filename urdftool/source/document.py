@@ -19,15 +19,12 @@ from ..errors import SourceError, XmlError
 from ..workspace import STDIN as STDIN
 from ..workspace import Workspace
 from .location import Call, Place, SourceFile
-from .well_formed import MAX_DEPTH, run_parser
+from .well_formed import MAX_DEPTH, STAGE_HEADS, run_parser
 
 MAX_BYTES = 32 * 1024 * 1024
 
 MAX_STAGE_BYTES = 1024 * 1024 * 1024
 """Limit of a stage of USD, which contains its meshes."""
-
-STAGE_HEADS = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
-"""First bytes of a stage of USD as text, binary and package."""
 
 
 class Element:

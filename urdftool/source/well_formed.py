@@ -26,6 +26,10 @@ class OpenElement(Protocol):
         """Return the name."""
 
 
+STAGE_HEADS = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
+"""First bytes of a stage of USD as text, binary and package."""
+
+
 def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> None:
     """Parse a file with an expat parser and the common checks.
 
@@ -104,6 +108,8 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     data = file.data
     reason = expat.ErrorString(error.code) or str(error)
     closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
+    if data.startswith(STAGE_HEADS):
+        return "the file is a stage of USD, not a URDF or xacro file", "not-well-formed", "no XML"
     if data.startswith(b"version https://git-lfs"):
         return (
             "the file is a Git LFS pointer, not its content; run 'git lfs pull'",
