@@ -56,6 +56,15 @@ COLLISIONS = {
 }
 """The same for ``collision``; its other outputs are removed."""
 
+STAGES = {
+    "view_stage.png": (
+        "my_robot/urdf/mobile_manipulator.urdf.xacro",
+        *("--pose", "shoulder_joint=0.5", "--pose", "elbow_joint=1.2"),
+        *("--size", "480x360", "--picture"),
+    ),
+}
+"""The same for ``view`` of the stage that ``export usd`` writes; requires usd-core."""
+
 
 def run() -> int:
     """Draw all pictures; return the exit code of the first command that fails."""
@@ -68,6 +77,12 @@ def run() -> int:
         if code:
             return code
     with tempfile.TemporaryDirectory() as folder:
+        for name, (robot, *words) in STAGES.items():
+            stage = str(Path(folder) / "robot.usdc")
+            code = cli.call(["export", "usd", str(ROBOTS / robot), "-o", stage])
+            code = code or cli.call(["view", stage, *words, str(FOLDER / name)])
+            if code:
+                return code
         for name, words in COLLISIONS.items():
             paths = [str(ROBOTS / word) if "/" in word else word for word in words]
             paths[paths.index("-o") + 1] = str(Path(folder) / paths[paths.index("-o") + 1])
