@@ -100,6 +100,7 @@ def main(words: list[str]) -> int:
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--keep", type=Path)
+    parser.add_argument("--converter", default="", help="only this one; keep results of others")
     parser.add_argument("--bullet", action="store_true", help="robots of pybullet_data instead")
     arguments = parser.parse_args(words)
     import_module("newton")  # it registers its schemas, which must precede the first stage
@@ -109,12 +110,14 @@ def main(words: list[str]) -> int:
     found = example_robots() if not arguments.bullet else bullet_robots()
     for path in found:
         name = "/".join(path.parts[-3:])
-        if arguments.only in name and name not in kept:
-            kept[name] = measure(path)
-            print(name, {k: v.get("wrong", v.get("why")) for k, v in kept[name].items()},
-                  file=sys.stderr, flush=True)  # fmt: skip
-            if arguments.keep:
-                arguments.keep.write_text(json.dumps(kept), "utf-8")
+        if arguments.only not in name:
+            continue
+        known = kept.setdefault(name, {})
+        measure(path, known, arguments.converter)
+        print(name, {k: v.get("wrong", v.get("why")) for k, v in known.items()},
+              file=sys.stderr, flush=True)  # fmt: skip
+        if arguments.keep:
+            arguments.keep.write_text(json.dumps(kept), "utf-8")
     text = format_part(kept)
     if arguments.write:
         page = PAGE.read_text("utf-8")
@@ -126,20 +129,20 @@ def main(words: list[str]) -> int:
     return 0
 
 
-def measure(path: Path) -> dict[str, dict[str, Any]]:
-    """Convert a robot with each converter, and compare what Newton imports."""
+def measure(path: Path, results: dict[str, dict[str, Any]], only: str = "") -> None:
+    """Convert a robot with each converter that has no result, and compare what Newton imports."""
     packages = example_folder()
     try:
         robot = urdftool.load(path, package_paths=[packages.parent] if packages else [])
         Mechanics(robot)
         assert len(robot.tree.roots) == 1
     except (UrdftoolError, AssertionError):
-        return {}
-    results = {}
+        return
     for converter in list_converters():
+        if converter.name in results or only not in ("", converter.name):
+            continue
         with TemporaryDirectory(prefix="usd-") as folder:
             results[converter.name] = _measure_one(converter, robot, path, Path(folder))
-    return results
 
 
 def _measure_one(converter: Converter, robot: Robot, path: Path, folder: Path) -> dict[str, Any]:

@@ -15,9 +15,10 @@ from ..source.description import GltfUp
 
 if TYPE_CHECKING:
     from ..finding import Finding
+    from ..formats.common.base import Base
     from ..formats.common.inertia_repair import FixInertia
     from ..formats.mjcf.cut import Cut
-    from ..formats.mjcf.options import Actuators, Base, Exclude
+    from ..formats.mjcf.options import Actuators, Exclude
 
 
 def export_sdf(

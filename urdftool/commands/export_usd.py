@@ -62,7 +62,8 @@ _GROUPS = {
     type=click.Choice(("auto", "fixed", "free")),
     default="auto",
     show_default=True,
-    help="Base of the robot; auto: free if the file or its SRDF defines it so.",
+    help="Base of the robot; auto: free for robots with legs or driven wheels, or if the file "
+    "defines it so.",
 )
 @click.option(
     "--srdf",

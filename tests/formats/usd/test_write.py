@@ -305,3 +305,15 @@ def test_the_api_writes_and_compares(write, tmp_path):
     assert (tmp_path / "r.usdc").read_bytes().startswith(b"PXR-USDC")
     assert is_faithful(written.checks)
     assert ("lossy-inertia-without-mass", "b") in codes(written)
+
+
+def test_a_robot_on_legs_has_a_free_base(write, tmp_path):
+    from tests.formats.mjcf.test_base import quadruped
+
+    written = export(write("legs.urdf", quadruped()), file="r.usda")
+    stage = stage_of(written, tmp_path / "free")
+    assert ("lossy-free-base", "trunk") in codes(written)
+    assert not stage.GetPrimAtPath("/r/joints/root_joint")
+    assert stage.GetPrimAtPath("/r/trunk").HasAPI("PhysicsArticulationRootAPI")
+    fixed = export(write("legs.urdf", quadruped()), file="r.usda", base="fixed")
+    assert stage_of(fixed, tmp_path / "fixed").GetPrimAtPath("/r/joints/root_joint")

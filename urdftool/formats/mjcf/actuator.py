@@ -14,9 +14,9 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ..common.actuator_config import JointSettings
+from ..common.drives import get_plugin_drives
 from ..written import Written
 from .digits import format_numbers_text, number_text
-from .drives import get_plugin_drives
 from .equality import follows
 from .joint import get_effort
 from .options import Actuators

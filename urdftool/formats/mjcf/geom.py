@@ -7,20 +7,14 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ...model.elements import (
-    Box,
-    Capsule,
     Collision,
-    Cylinder,
-    Ellipsoid,
     Link,
     Mesh,
-    Sphere,
-    UnknownShape,
     Visual,
 )
-from ...model.read import number
 from ...model.shapes import get_shape_name
 from ..common.naming import UniqueNames
+from ..common.shape_box import get_shape_size
 from ..written import Written
 from .digits import format_numbers_text
 from .frame import set_origin
@@ -53,37 +47,6 @@ def list_collision_geoms(
             for name, value in friction.items():
                 geom.set(name, value)
             yield geom
-
-
-def get_shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
-    """Return MuJoCo's type and half sizes [m] of a primitive; None for other geometry."""
-    if isinstance(shape, Box):
-        return "box", tuple(edge / 2 for edge in shape.size)
-    if isinstance(shape, Cylinder):
-        return "cylinder", (shape.radius, shape.length / 2)
-    if isinstance(shape, Capsule):
-        return "capsule", (shape.radius, shape.length / 2)
-    if isinstance(shape, Sphere):
-        return "sphere", (shape.radius,)
-    if isinstance(shape, Ellipsoid):
-        return "ellipsoid", shape.radii
-    if isinstance(shape, UnknownShape):
-        return _get_drake_size(shape)
-    return None
-
-
-def _get_drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
-    """Return type and half sizes [m] of Drake's extra shapes; None for others."""
-    if shape.xml is None:
-        return None
-    read = {
-        name: number(shape.element.get(name)) or 0.0 for name in ("a", "b", "c", "radius", "length")
-    }
-    if shape.element.tag == "drake:ellipsoid":
-        return "ellipsoid", (read["a"], read["b"], read["c"])
-    if shape.element.tag == "drake:capsule":
-        return "capsule", (read["radius"], read["length"] / 2)
-    return None
 
 
 def _list_geoms(

@@ -12,10 +12,10 @@ from ...model.kinematics import check_positions, find_movable_joints, link_poses
 from ...model.pose import Pose, make_pose
 from ...model.read import number, parse_numbers
 from ...model.start import compute_allowed_range, start_positions
+from ..common.shape_box import ShapeBoxes
 from ..common.srdf import Srdf
+from ..common.standing import measure_ground
 from ..written import Written
-from .shape_box import ShapeBoxes
-from .standing import measure_ground
 from .structure import Structure
 
 NAMES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Literal
 
 from ...model.elements import Robot
+from ..common.base import Base
 from ..common.inertia_repair import FixInertia
 from .cut import Cutter
 
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]
-Base = Literal["auto", "fixed", "free"]
 Exclude = Literal["touching", "adjacent", "none"]
 
 Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]

@@ -9,12 +9,12 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Vector
 from ..common.naming import UniqueNames
+from ..common.shape_box import ShapeBoxes
+from ..common.standing import Ground, measure_ground
 from ..written import Written
 from .digits import number_text
 from .document import serialize
 from .home import Home
-from .shape_box import ShapeBoxes
-from .standing import Ground, measure_ground
 from .structure import Structure
 
 FLUSH = 1e-3

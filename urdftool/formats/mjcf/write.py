@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,24 +12,22 @@ from ...errors import SourceError
 from ...finding import Finding
 from ...lint.validate import validate
 from ...model.elements import Robot
-from ...rules.gazebo.keywords import is_true
 from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
+from ..common.base import decide_base
 from ..common.directory import mark
 from ..common.naming import replace_file_name
+from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
 from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL, make_defect, refuse, report_defects, report_taken_world
 from ..written import Written
-from .drives import drive_plugins
 from .home import choose_home_positions, place_home
 from .inertials import compute_inertials
 from .meshes import create_mesh_assets
 from .model import build_model_text
-from .options import Base, Options
+from .options import Options
 from .scene import create_scene_file
-from .shape_box import ShapeBoxes
-from .standing import explain_free_base
 from .structure import Structure, create_structure
 
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
@@ -75,7 +73,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     boxes = ShapeBoxes(robot)
     positions = choose_home_positions(structure, options.pose, options.state, srdf, written)
     virtual_joint = srdf.virtual_joint if srdf else None
-    structure = decide_base(structure, options.base, virtual_joint, boxes, positions, written)
+    free, reason = decide_base(structure, options.base, virtual_joint, boxes, positions, written)
+    structure = replace(structure, free=free, reason=reason)
     home = place_home(structure, boxes, positions)
     found += _find_too_deep(structure)
     masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
@@ -117,66 +116,6 @@ def _find_too_deep(structure: Structure) -> list[Finding]:
             text = f"link '{link}' is below {depth} others; MuJoCo reads at most {MAX_DEPTH}"
             return [make_defect("too-deep", text, structure.robot.link[link].place, "link", link)]
     return []
-
-
-def decide_base(
-    structure: Structure,
-    base: Base,
-    virtual_joint: str | None,
-    boxes: ShapeBoxes,
-    home: Mapping[str, float],
-    written: Written,
-) -> Structure:
-    """Decide whether the root is free, and return the structure with the decision.
-
-    Args:
-        structure: The kinematic tree.
-        base: ``fixed``, ``free``, or ``auto``, which uses the description and the support of the
-            robot.
-        virtual_joint: Type of the SRDF's virtual joint, if there is one.
-        boxes: Boxes of the robot's shapes.
-        home: Joint positions at home [rad, m].
-        written: Receives a note if the root is free because of what supports the robot.
-    """
-    free, reason = _decide(structure, base, virtual_joint)
-    if not reason:
-        standing = explain_free_base(structure, boxes, home)
-        free, reason = (
-            standing is not None,
-            standing or "the description has no sign of a mobile base",
-        )
-        if free:
-            written.report_loss(
-                "free-base",
-                (
-                    f"root link '{structure.root.name}' has a free base: {reason}; --base fixed "
-                    "fixes "
-                    "it to the world"
-                ),
-                structure.root.place,
-                kind="link",
-                name=structure.root.name,
-                severity=Severity.INFO,
-            )
-    return replace(structure, free=free, reason=reason)
-
-
-def _decide(structure: Structure, base: Base, virtual_joint: str | None) -> tuple[bool, str]:
-    """Return whether the root is free, and why; without a reason if nothing defines it."""
-    robot = structure.robot
-    if structure.in_world:
-        return False, "the root link is the world"
-    if base != "auto":
-        return base == "free", f"--base {base}"
-    if robot.base is not None:
-        return robot.base.is_free, "the base of the source"
-    if any(is_true(block.get_value("static")) for block in robot.extensions.get(None, ())):
-        return False, "<gazebo> says static"
-    if virtual_joint is not None:
-        return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
-    for plugin in drive_plugins(robot):
-        return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
-    return False, ""
 
 
 def offer_srdf(robot: Robot, written: Written) -> None:

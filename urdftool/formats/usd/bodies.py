@@ -15,10 +15,11 @@ from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose, compute_norm, make_pose
+from ...model.start import start_positions
+from ..common.base import Base, decide_base
+from ..common.rigid_tree import group_rigid_links
+from ..common.shape_box import ShapeBoxes
 from ..written import Written
-from .options import Base
-
-WORLD = "world"
 
 _MOVING = frozenset(("revolute", "continuous", "prismatic", "planar", "floating")) | BALL_TYPES
 
@@ -102,7 +103,7 @@ def make_bodies(robot: Robot, base: Base, virtual_joint: str | None, written: Wr
         written: Receives what is not as in the description.
     """
     root = robot.tree.roots[0]
-    free = _is_free(robot, root, base, virtual_joint)
+    free = _is_free(robot, root, base, virtual_joint, written)
     carrier: dict[str, str] = {}
     pose: dict[str, Pose] = {}
     for name in robot.tree.order:
@@ -116,14 +117,16 @@ def make_bodies(robot: Robot, base: Base, virtual_joint: str | None, written: Wr
     return plan if has_mass(root) else _choose_massive_base(plan, root, written)
 
 
-def _is_free(robot: Robot, root: Link, base: Base, virtual_joint: str | None) -> bool:
+def _is_free(
+    robot: Robot, root: Link, base: Base, virtual_joint: str | None, written: Written
+) -> bool:
+    """Tell whether the base is free; a massless root with one floating joint is the world."""
     children = robot.tree.get_child_joints(root.name)
-    floats = not has_mass(root) and len(children) == 1 and children[0].type == "floating"
-    if floats or base != "auto":
-        return floats or base == "free"
-    if robot.base is not None:
-        return robot.base.is_free
-    return root.name != WORLD and virtual_joint in ("floating", "planar")
+    if not has_mass(root) and len(children) == 1 and children[0].type == "floating":
+        return True
+    tree = group_rigid_links(robot, is_movable)
+    home, _ = start_positions(robot)
+    return decide_base(tree, base, virtual_joint, ShapeBoxes(robot), home, written)[0]
 
 
 def _choose_massive_base(plan: Bodies, root: Link, written: Written) -> Bodies:

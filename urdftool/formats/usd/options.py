@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from ..common.base import Base
 from ..common.inertia_repair import FixInertia
 
 Target = Literal["both", "newton", "isaac"]
-Base = Literal["auto", "fixed", "free"]
 Layers = Literal["single", "payload"]
 Approximation = Literal["hull", "mesh"]
 

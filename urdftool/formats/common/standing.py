@@ -11,9 +11,8 @@ from ...model.elements import Joint
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, make_pose, rotate
 from .drives import get_commanded_joints
-from .joint import get_axis
-from .shape_box import Box, ShapeBoxes
-from .structure import Structure
+from .rigid_tree import RigidTree
+from .shape_box import Bounds, ShapeBoxes
 
 LEVEL = 0.05
 """Height above the lowest point, relative to the size, up to which a rigid body is a support."""
@@ -52,8 +51,8 @@ class Ground:
         feet: Lowest link of each rigid body, by its topmost link.
     """
 
-    box: Box
-    boxes: Mapping[str, list[Box]]
+    box: Bounds
+    boxes: Mapping[str, list[Bounds]]
     feet: Mapping[str, str]
 
     @property
@@ -78,7 +77,7 @@ class Ground:
 
 
 def measure_ground(
-    structure: Structure,
+    tree: RigidTree,
     boxes: ShapeBoxes,
     positions: Mapping[str, float],
     root: Pose | None = None,
@@ -86,21 +85,21 @@ def measure_ground(
     """Measure the collision geometry, or the visual geometry if there is none; None without both.
 
     Args:
-        structure: The kinematic tree.
+        tree: The rigid bodies.
         boxes: Boxes of its shapes.
         positions: Joint positions [rad, m].
         root: Pose of the root; the identity by default.
     """
-    poses = link_poses(structure.robot, positions)
-    collides = any(link.collisions for link in structure.robot.links)
-    found: dict[str, list[Box]] = {}
+    poses = link_poses(tree.robot, positions)
+    collides = any(link.collisions for link in tree.robot.links)
+    found: dict[str, list[Bounds]] = {}
     lows: dict[str, tuple[float, str]] = {}
-    for link in structure.robot.links:
+    for link in tree.robot.links:
         pose = poses[link.name] if root is None else root @ poses[link.name]
         for shape in link.collisions if collides else link.visuals:
             box = boxes.compute_box(shape, pose)
             if box is not None:
-                body = structure.group[link.name]
+                body = tree.group[link.name]
                 found.setdefault(body, []).append(box)
                 lows[body] = min(lows.get(body, (math.inf, "")), (box[0][2], link.name))
     if not found:
@@ -110,7 +109,7 @@ def measure_ground(
 
 
 def explain_free_base(
-    structure: Structure, boxes: ShapeBoxes, positions: Mapping[str, float]
+    tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]
 ) -> str | None:
     """Describe the support of a robot with a floating base; None for a fixed base.
 
@@ -120,61 +119,61 @@ def explain_free_base(
     collision geometry has a fixed base.
 
     Args:
-        structure: The kinematic tree.
+        tree: The rigid bodies.
         boxes: Boxes of its shapes.
         positions: Joint positions at home [rad, m].
     """
-    if not any(link.collisions for link in structure.robot.links):
+    if not any(link.collisions for link in tree.robot.links):
         return None  # it would fall through the floor
-    commanded = get_commanded_joints(structure.robot)
-    branches = [j for j in structure.moving if structure.group[j.parent] == structure.root.name]
+    commanded = get_commanded_joints(tree.robot)
+    branches = [j for j in tree.moving if tree.group[j.parent] == tree.root.name]
     if not commanded and len(branches) < 2:
         return None
-    ground = measure_ground(structure, boxes, positions)
+    ground = measure_ground(tree, boxes, positions)
     if ground is None:
         return None
     stands = ground.get_near(LEVEL)
     wheels = [
         joint.name
-        for joint in structure.moving
+        for joint in tree.moving
         if joint.child in stands and joint.type == "continuous"
-        if _is_wheel(structure, joint, positions, ground)
+        if _is_wheel(tree, joint, positions, ground)
     ]
     driven = [name for name in wheels if name in commanded]
     if driven:
         return f"it has driven wheels {_format_listed(driven)}"
     if len(wheels) > 1:
         return f"it stands on wheels {_format_listed(wheels)}"
-    return _describe_feet(structure, positions, ground, stands) or _describe_legs(structure)
+    return _describe_feet(tree, positions, ground, stands) or _describe_legs(tree)
 
 
 def _describe_feet(
-    structure: Structure, positions: Mapping[str, float], ground: Ground, stands: list[str]
+    tree: RigidTree, positions: Mapping[str, float], ground: Ground, stands: list[str]
 ) -> str | None:
-    if structure.root.name in ground.get_near(CLEARANCE):
+    if tree.root.name in ground.get_near(CLEARANCE):
         return None
-    stands = [body for body in stands if body != structure.root.name]
-    chains = {body: _get_chain(structure, body) for body in stands}
+    stands = [body for body in stands if body != tree.root.name]
+    chains = {body: _get_chain(tree, body) for body in stands}
     stands = [body for body in stands if not _is_hand(chains[body])]
     if len({chains[body][0] for body in stands}) < 2:
         return None
     feet = (
         box for body in stands for box in ground.boxes[body] if box[0][2] <= _compute_top(ground)
     )
-    if not _is_above(structure, positions, *_get_around(feet)):
+    if not _is_above(tree, positions, *_get_around(feet)):
         return None
     lasts = [b for b in stands if not any(b in chains[other][:-1] for other in stands)]
     return f"it stands on {_format_listed([ground.feet[body] for body in lasts])}"
 
 
-def _describe_legs(structure: Structure) -> str | None:
+def _describe_legs(tree: RigidTree) -> str | None:
     """Describe the legs of a robot, by the names of its links, independent of the pose."""
-    inner = {structure.group[joint.parent] for joint in structure.moving}
+    inner = {tree.group[joint.parent] for joint in tree.moving}
     legs: dict[str, str] = {}
-    for body, members in structure.members.items():
+    for body, members in tree.members.items():
         words = {word for link in members for word in _split_words(link.name)}
         if body not in inner and words & FEET:
-            legs.setdefault(_get_chain(structure, body)[0], body)
+            legs.setdefault(_get_chain(tree, body)[0], body)
     return f"it has legs: {_format_listed(list(legs.values()))}" if len(legs) > 1 else None
 
 
@@ -183,11 +182,11 @@ def _compute_top(ground: Ground) -> float:
 
 
 def _is_wheel(
-    structure: Structure, joint: Joint, positions: Mapping[str, float], ground: Ground
+    tree: RigidTree, joint: Joint, positions: Mapping[str, float], ground: Ground
 ) -> bool:
     """Tell whether a joint rotates a round body about a horizontal axis through its center."""
-    pose = link_poses(structure.robot, positions)[joint.child]
-    x, y, z = rotate(pose.rotation, get_axis(joint))
+    pose = link_poses(tree.robot, positions)[joint.child]
+    x, y, z = rotate(pose.rotation, joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     length = math.hypot(x, y, z)
     low, high = _get_around(ground.boxes[joint.child])
     height = high[2] - low[2]
@@ -198,14 +197,14 @@ def _is_wheel(
     return centered and abs(z) <= UPRIGHT * length and (is_round or not is_aligned)
 
 
-def _get_chain(structure: Structure, body: str) -> list[str]:
+def _get_chain(tree: RigidTree, body: str) -> list[str]:
     """Return the topmost links of the rigid bodies from the root (excluded) to a rigid body."""
     chain: list[str] = []
-    while body != structure.root.name:
+    while body != tree.root.name:
         chain.insert(0, body)
-        joint = structure.robot.tree.get_parent_joint(body)
+        joint = tree.robot.tree.get_parent_joint(body)
         assert joint is not None
-        body = structure.group[joint.parent]
+        body = tree.group[joint.parent]
     return chain
 
 
@@ -220,16 +219,16 @@ def _split_words(name: str) -> list[str]:
 
 
 def _is_above(
-    structure: Structure,
+    tree: RigidTree,
     positions: Mapping[str, float],
     low: Iterable[float],
     high: Iterable[float],
 ) -> bool:
     """Tell whether the center of mass is above a box; true for a robot without mass."""
-    poses = link_poses(structure.robot, positions)
+    poses = link_poses(tree.robot, positions)
     masses = [
         (link.mass, (poses[link.name] @ make_pose(link.inertial.origin)).translation)
-        for link in structure.robot.links
+        for link in tree.robot.links
         if link.inertial is not None and link.mass > 0
     ]
     total = sum(mass for mass, _ in masses)
@@ -240,7 +239,7 @@ def _is_above(
     return a <= x <= c and b <= y <= d
 
 
-def _get_around(boxes: Iterable[Box]) -> Box:
+def _get_around(boxes: Iterable[Bounds]) -> Bounds:
     """Return the bounding box of boxes."""
     lows, highs = zip(*boxes, strict=True)
     low, high = ([pick(axis) for axis in zip(*corners, strict=True)]

@@ -7,11 +7,23 @@ from math import hypot
 
 from ...errors import SourceError
 from ...geometry.convex_points import ConvexPoints, read_convex_points
-from ...model.elements import Collision, Mesh, Robot, Vector, Visual
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Ellipsoid,
+    Mesh,
+    Robot,
+    Sphere,
+    UnknownShape,
+    Vector,
+    Visual,
+)
 from ...model.pose import Pose, make_pose
-from .geom import get_shape_size
+from ...model.read import number
 
-Box = tuple[Vector, Vector]
+Bounds = tuple[Vector, Vector]
 """Minimum and maximum corner [m]."""
 
 
@@ -23,7 +35,7 @@ class ShapeBoxes:
         self._robot = robot
         self._outlines: dict[str, ConvexPoints | None] = {}
 
-    def compute_box(self, shape: Visual | Collision, frame: Pose) -> Box | None:
+    def compute_box(self, shape: Visual | Collision, frame: Pose) -> Bounds | None:
         """Compute the bounding box of a shape.
 
         Args:
@@ -75,3 +87,34 @@ def _compute_reach(kind: str, size: tuple[float, ...], way: Vector) -> float:
     if kind == "capsule":
         return size[0] + size[1] * abs(z)
     return size[0]
+
+
+def get_shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
+    """Return MuJoCo's type and half sizes [m] of a primitive; None for other geometry."""
+    if isinstance(shape, Box):
+        return "box", tuple(edge / 2 for edge in shape.size)
+    if isinstance(shape, Cylinder):
+        return "cylinder", (shape.radius, shape.length / 2)
+    if isinstance(shape, Capsule):
+        return "capsule", (shape.radius, shape.length / 2)
+    if isinstance(shape, Sphere):
+        return "sphere", (shape.radius,)
+    if isinstance(shape, Ellipsoid):
+        return "ellipsoid", shape.radii
+    if isinstance(shape, UnknownShape):
+        return _get_drake_size(shape)
+    return None
+
+
+def _get_drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
+    """Return type and half sizes [m] of Drake's extra shapes; None for others."""
+    if shape.xml is None:
+        return None
+    read = {
+        name: number(shape.element.get(name)) or 0.0 for name in ("a", "b", "c", "radius", "length")
+    }
+    if shape.element.tag == "drake:ellipsoid":
+        return "ellipsoid", (read["a"], read["b"], read["c"])
+    if shape.element.tag == "drake:capsule":
+        return "capsule", (read["radius"], read["length"] / 2)
+    return None

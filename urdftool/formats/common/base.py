@@ -1,0 +1,72 @@
+"""Whether the base of a robot is free or fixed to the world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from ...diagnostic import Severity
+from ...model.world import WORLD
+from ...rules.gazebo.keywords import is_true
+from ..written import Written
+from .drives import drive_plugins
+from .rigid_tree import RigidTree
+from .shape_box import ShapeBoxes
+from .standing import explain_free_base
+
+Base = Literal["auto", "fixed", "free"]
+
+
+def decide_base(
+    tree: RigidTree,
+    base: Base,
+    virtual_joint: str | None,
+    boxes: ShapeBoxes,
+    home: Mapping[str, float],
+    written: Written,
+) -> tuple[bool, str]:
+    """Decide whether the root is free, and why.
+
+    Args:
+        tree: The kinematic tree.
+        base: ``fixed``, ``free``, or ``auto``, which uses the description and the support of the
+            robot.
+        virtual_joint: Type of the SRDF's virtual joint, if there is one.
+        boxes: Boxes of the robot's shapes.
+        home: Joint positions at home [rad, m].
+        written: Receives a note if the root is free because of what supports the robot.
+    """
+    free, reason = _find_defined(tree, base, virtual_joint)
+    if reason:
+        return free, reason
+    standing = explain_free_base(tree, boxes, home)
+    if standing is None:
+        return False, "the description has no sign of a mobile base"
+    written.report_loss(
+        "free-base",
+        f"root link '{tree.root.name}' has a free base: {standing}; --base fixed fixes it to the "
+        "world",
+        tree.root.place,
+        kind="link",
+        name=tree.root.name,
+        severity=Severity.INFO,
+    )
+    return True, standing
+
+
+def _find_defined(tree: RigidTree, base: Base, virtual_joint: str | None) -> tuple[bool, str]:
+    """Return whether the root is free, and why; without a reason if nothing defines it."""
+    robot = tree.robot
+    if tree.root.name == WORLD:
+        return False, "the root link is the world"
+    if base != "auto":
+        return base == "free", f"--base {base}"
+    if robot.base is not None:
+        return robot.base.is_free, "the base of the source"
+    if any(is_true(block.get_value("static")) for block in robot.extensions.get(None, ())):
+        return False, "<gazebo> says static"
+    if virtual_joint is not None:
+        return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
+    for plugin in drive_plugins(robot):
+        return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
+    return False, ""
