@@ -29,9 +29,17 @@ import numpy as np
 
 import urdftool
 from urdftool.errors import UrdftoolError
+from urdftool.formats.common.shape_box import ShapeBoxes
 from urdftool.formats.mechanics import Mechanics, get_origin_matrix
-from urdftool.model.elements import Link, Robot
-from urdftool.model.kinematics import add_mimic_positions, get_limits
+from urdftool.model.elements import Joint, Link, Mesh, Robot
+from urdftool.model.kinematics import (
+    add_mimic_positions,
+    find_movable_joints,
+    follow_mimic_chain,
+    get_limits,
+    link_poses,
+)
+from urdftool.model.pose import rotation_from_quaternion
 
 from .robots import bullet_robots, example_folder, example_robots, resolved
 
@@ -48,9 +56,12 @@ tests.benchmarks.usd --write`; urdftool runs with `--fix-inertia lift --force`, 
 scikit-robot with a fixed base. The machine was busy, so the times are only comparable.
 """
 ROWS = ("mass", "center", "inertia", "frames", "joints", "limits", "effort", "velocity",
-        "friction, damping", "mimic", "colliders")  # fmt: skip
+        "friction, damping", "mimic", "colliders", "shapes")  # fmt: skip
 TOLERANCE = 1e-5
 """Relative; poses and centers of mass in meters, for a link below n others n times as much."""
+
+HULL = 0.05
+"""Relative to the size, of colliders with meshes: hulls of at most 64 vertices are smaller."""
 
 
 class Converter(NamedTuple):
@@ -245,6 +256,7 @@ def _compare_all(
     expected = sum(c.geometry is not None for link in robot.links for c in link.collisions)
     read = sum(shape["collides"] for shape in answer["shapes"])
     note("colliders", abs(expected - read))
+    _compare_shapes(robot, answer, links, note)
     return {row: (bad, count) for row, (bad, count) in counts.items()}
 
 
@@ -342,8 +354,63 @@ def _compare_joints(
         damping = (dynamics.damping if dynamics else 0.0) or 0.0
         both = ((friction, found["friction"]), (damping, found["damping"]))
         note("friction, damping", max(_measure_difference(one, two) for one, two in both))
-        follows = joint.mimic is not None and joint.mimic.joint in robot.joint
-        note("mimic", float(follows != (found["mimic"] is not None)))
+        note("mimic", _compare_mimic(robot, joint, found["mimic"], names))
+
+
+def _compare_mimic(
+    robot: Robot, joint: Joint, read: tuple[str, float, float] | None, names: dict[str, str]
+) -> float:
+    movable = find_movable_joints(robot)
+    if joint.mimic is None or joint.mimic.joint not in movable:
+        return float(read is not None)
+    if read is None:
+        return 1.0
+    leader, factor, offset = follow_mimic_chain(joint, movable)
+    if names.get(read[0]) != leader:
+        return 1.0
+    return max(_measure_difference(factor, read[1]), _measure_difference(offset, read[2]))
+
+
+def _compare_shapes(
+    robot: Robot, answer: dict[str, Any], links: dict[str, str], note: Callable[[str, float], None]
+) -> None:
+    """Compare the bounding box of the colliders of each rigid body, along the body's axes."""
+    group, boxes = robot.tree.bodies, ShapeBoxes(robot)
+    poses = link_poses(robot)
+    here: dict[str, list[Any]] = {}
+    there: dict[str, list[Any]] = {}
+    exact: dict[str, bool] = {}
+    for link in robot.links:
+        top = group[link.name]
+        frame = poses[top].invert() @ poses[link.name]
+        for shape in link.collisions:
+            box = boxes.compute_box(shape, frame)
+            exact[top] = exact.get(top, True) and not isinstance(shape.geometry, Mesh)
+            if box is not None:
+                here.setdefault(top, []).append(box)
+    for shape in answer["shapes"]:
+        link = links.get(shape["body"])
+        if shape["collides"] and shape["bounds"] and link is not None:
+            frame = poses[group[link]].invert() @ poses[link]
+            turn, shift = np.array(frame.rotation), np.array(frame.translation)
+            low, high = np.array(shape["bounds"])
+            if np.allclose(np.abs(turn).round(), np.abs(turn), atol=1e-9):
+                ends = np.array([turn @ low, turn @ high]) + shift
+                there.setdefault(group[link], []).append((ends.min(0), ends.max(0)))
+            else:
+                there.setdefault(group[link], []).append(None)
+    for top, found in here.items():
+        got = there.get(top, [])
+        if any(box is None for box in got):
+            continue  # a box along other axes does not tell the shape
+        if not got:
+            note("shapes", 1.0)
+            continue
+        one, two = (np.array([np.min([b[0] for b in many], 0), np.max([b[1] for b in many], 0)])
+                    for many in (found, got))  # fmt: skip
+        size = max(1e-9, float(np.ptp(one, axis=0).max()))
+        allowed = TOLERANCE if exact[top] else HULL
+        note("shapes", float(np.abs(one - two).max()) / size * TOLERANCE / allowed)
 
 
 def _measure_difference(one: float, two: float) -> float:
@@ -353,14 +420,9 @@ def _measure_difference(one: float, two: float) -> float:
 
 
 def _make_matrix(row: list[float]) -> Any:
-    x, y, z, w = np.array(row[3:]) / np.linalg.norm(row[3:])
     found = np.eye(4)
-    found[:3, 3] = row[:3]
-    found[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
+    x, y, z, w = row[3:]
+    found[:3, 3], found[:3, :3] = row[:3], rotation_from_quaternion((w, x, y, z))
     return found
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ...model.pose import rotation_from_quaternion
+
 
 def read_stage(path: str, configurations: Sequence[dict[str, float]]) -> dict[str, Any]:
     """Import a stage on the processor.
@@ -85,12 +87,37 @@ def _list_shapes(builder: Any) -> list[dict[str, Any]]:
             "type": str(getattr(builder.shape_type[index], "name", builder.shape_type[index])),
             "scale": [float(part) for part in builder.shape_scale[index]],
             "pose": [float(part) for part in builder.shape_transform[index]],
+            "bounds": _compute_bounds(builder, index),
             "collides": bool(builder.shape_flags[index] & 2),
         }
         for index, (label, body) in enumerate(
             zip(builder.shape_label, builder.shape_body, strict=True)
         )
     ]
+
+
+def _compute_bounds(builder: Any, index: int) -> list[list[float]] | None:
+    """Return the corners [m] of the bounding box of a shape along the axes of its body."""
+    import numpy as np
+
+    kind = getattr(builder.shape_type[index], "name", str(builder.shape_type[index]))
+    a, b, c = (float(part) for part in builder.shape_scale[index])
+    pose = np.array([float(part) for part in builder.shape_transform[index]])
+    x, y, z, w = pose[3:].tolist()
+    turn = np.array(rotation_from_quaternion((w, x, y, z)))
+    mesh = builder.shape_source[index]
+    if kind in ("MESH", "CONVEX_MESH") and mesh is not None:
+        points = np.asarray(mesh.vertices, dtype=np.float64) * (a, b, c) @ turn.T
+        return [(points.min(0) + pose[:3]).tolist(), (points.max(0) + pose[:3]).tolist()]
+    along, across = np.abs(turn[:, 2]), np.hypot(turn[:, 0], turn[:, 1])
+    reach = {
+        "BOX": np.abs(turn) @ (a, b, c),
+        "SPHERE": np.full(3, a),
+        "ELLIPSOID": np.linalg.norm(turn * (a, b, c), axis=1),
+        "CYLINDER": a * across + b * along,
+        "CAPSULE": a + b * along,
+    }.get(kind)
+    return None if reach is None else [(pose[:3] - reach).tolist(), (pose[:3] + reach).tolist()]
 
 
 def _compute_poses(

@@ -15,6 +15,7 @@ from ...errors import UrdftoolError
 from ...isolated import IsolatedProcess
 from ...model.elements import Joint
 from ...model.kinematics import add_mimic_positions, get_limits
+from ...model.pose import rotation_from_quaternion
 from ..check import Check
 from ..mechanics import Mechanics
 from .verify_pair import (
@@ -226,14 +227,9 @@ def _count_depth(pair: Pair, link: str) -> int:
 
 def _make_matrix(row: list[float]) -> Array:
     """Return the 4 × 4 matrix of a position and a quaternion ``(x, y, z, w)``."""
-    x, y, z, w = np.array(row[3:]) / np.linalg.norm(row[3:])
     found = np.eye(4)
-    found[:3, 3] = row[:3]
-    found[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
+    x, y, z, w = row[3:]
+    found[:3, 3], found[:3, :3] = row[:3], rotation_from_quaternion((w, x, y, z))
     return found
 
 
