@@ -105,6 +105,11 @@ def test_newton_reads_the_same(write):
     written.files["r.usda"] = written.files["r.usda"].replace(b"maxForce = 33.5", b"maxForce = 30")
     rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
     assert rows["Newton: joint values"].differing == ["effort of joint 'j'"]
+    place = b"xformOp:scale = (0.1, 0.2, 0.3)"
+    written.files["r.usda"] = written.files["r.usda"].replace(place, place.replace(b"0.3", b"0.31"))
+    rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
+    assert rows["Newton: shapes"].verdict == "differs"
+    assert rows["Newton: colliders"].verdict == "equal"
 
 
 @pytest.mark.parametrize("name", ["arm.usdc", "arm.usdz"])

@@ -18,6 +18,7 @@ from ...model.kinematics import add_mimic_positions, get_limits
 from ...model.pose import rotation_from_quaternion
 from ..check import Check
 from ..mechanics import Mechanics
+from .verify_newton_shapes import compare_colliders
 from .verify_pair import (
     CONFIGURATIONS,
     FLOAT,
@@ -78,7 +79,7 @@ def compare_newton(pair: Pair, path: Path) -> list[Check]:
         *_compare_bodies(pair, bodies),
         *_compare_joints(pair, moving, joints),
         _compare_frames(pair, answer["poses"], links),
-        _compare_colliders(pair, answer["shapes"], links),
+        *compare_colliders(pair, answer["shapes"], links),
     ]
 
 
@@ -231,24 +232,3 @@ def _make_matrix(row: list[float]) -> Array:
     x, y, z, w = row[3:]
     found[:3, 3], found[:3, :3] = row[:3], rotation_from_quaternion((w, x, y, z))
     return found
-
-
-def _compare_colliders(pair: Pair, shapes: list[dict[str, Any]], links: Mapping[str, str]) -> Check:
-    """Compare the number of colliders of each body, with those of the frames that it carries."""
-    check = Check("Newton: colliders", "number of collision shapes of each body", 0.0)
-    expected: dict[str, int] = {}
-    for link in pair.source.links:
-        name = pair.body.get(link.name, "")
-        expected[name] = expected.get(name, 0) + sum(
-            c.geometry is not None for c in link.collisions
-        )
-    read: dict[str, int] = {}
-    for shape in shapes:
-        if shape["collides"]:
-            name = links.get(shape["body"], "")
-            read[name] = read.get(name, 0) + 1
-    for name, count in expected.items():
-        lost = pair.losses.has_any("lossy-shape", "mesh-not-found", "corrupt-mesh")
-        found = read.get(name, 0)
-        check.compare(float(found != count), f"link '{name}'", known=lost)
-    return check
