@@ -21,6 +21,7 @@ def export_usd(
     base: Literal["auto", "fixed", "free"] = "auto",
     srdf: str | Path | None = None,
     self_collision: bool | None = None,
+    actuator_config: str | Path | None = None,
     approximation: Literal["hull", "mesh"] = "hull",
     fix_inertia: FixInertia = "none",
     force: bool = False,
@@ -37,6 +38,8 @@ def export_usd(
         base: Whether the root is fixed to the world; ``"auto"`` uses the description.
         srdf: A MoveIt SRDF, for pairs of links that never collide.
         self_collision: Whether links collide with each other; None with an SRDF.
+        actuator_config: A TOML file with gains, armature, damping, friction and force range of
+            joints.
         approximation: Collision geometry of a mesh: its convex hull, or its triangles.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
         force: Whether to continue past errors if a robot remains.
@@ -62,6 +65,7 @@ def export_usd(
         layers,
         None if srdf is None else Path(srdf),
         self_collision,
+        None if actuator_config is None else Path(actuator_config),
         approximation,
         fix_inertia,
         force,

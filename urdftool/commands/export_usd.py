@@ -16,7 +16,7 @@ from .read_other import read_any
 
 _GROUPS = {
     "Output": "output target layers isaaclab isaaclab_version overwrite style",
-    "Robot": "base srdf self_collision approximation fix_inertia",
+    "Robot": "base srdf self_collision actuator_config approximation fix_inertia",
     "Verification": "verified strict force",
 }
 
@@ -75,6 +75,13 @@ _GROUPS = {
     "--self-collision/--no-self-collision",
     default=None,
     help="Whether links collide with each other.  [default: with --srdf or <self_collide>]",
+)
+@click.option(
+    "--actuator-config",
+    metavar="FILE",
+    type=Path,
+    help="TOML file with kp, kd, armature, damping, friction and force-range under "
+    '[joints."NAME or PATTERN"].',
 )
 @click.option(
     "--approximation",

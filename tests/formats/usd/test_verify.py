@@ -125,3 +125,15 @@ def test_a_binary_file_of_the_user_is_kept(write, name):
     urdftool.export_usd(model, place, overwrite=True)
     urdftool.export_usd(model, place)
     assert place.read_bytes() != b"mine"
+
+
+def test_gains_of_an_actuator_file_are_compared(write):
+    path = write("arm.urdf", ARM)
+    config = Path(write("gains.toml", "[joints.j]\nkp = 120\nkd = 3\narmature = 0.1\n"))
+    written = export(path, file="r.usda", actuator_config=config)
+    checks = checks_of(path, written, newton=False, file="r.usda", actuator_config=config)
+    assert is_faithful(checks)
+    plain = export(path, file="r.usda")
+    checks = checks_of(path, plain, newton=False, file="r.usda", actuator_config=config)
+    wrong = {check.name for check in checks if check.verdict == "differs"}
+    assert wrong == {"drives", "friction, damping"}

@@ -1,6 +1,7 @@
 """Stages as the simulators need them: each case was a silent error of a converter."""
 
 import math
+from pathlib import Path
 
 import pytest
 
@@ -317,3 +318,71 @@ def test_a_robot_on_legs_has_a_free_base(write, tmp_path):
     assert stage.GetPrimAtPath("/r/trunk").HasAPI("PhysicsArticulationRootAPI")
     fixed = export(write("legs.urdf", quadruped()), file="r.usda", base="fixed")
     assert stage_of(fixed, tmp_path / "fixed").GetPrimAtPath("/r/joints/root_joint")
+
+
+CONFIG = """[joints."*"]
+kp = 120
+kd = 3
+armature = 0.02
+force-range = 40
+"""
+
+
+def test_an_actuator_file_sets_the_gains_of_the_drives(stage, write):
+    parts = (link("a"), joint("j", "a", "b", "revolute", LIMIT), link("b"))
+    plain, written = stage(*parts)
+    drive = plain.GetPrimAtPath("/r/joints/j")
+    assert value(drive, "drive:angular:physics:stiffness") == 0
+    assert ("lossy-gains", "") in codes(written)
+    made, written = stage(*parts, actuator_config=Path(write("gains.toml", CONFIG)), target="isaac")
+    drive = made.GetPrimAtPath("/r/joints/j")
+    assert value(drive, "drive:angular:physics:stiffness") == pytest.approx(math.radians(120))
+    assert value(drive, "drive:angular:physics:damping") == pytest.approx(math.radians(3))
+    assert value(drive, "drive:angular:physics:maxForce") == 40
+    assert value(drive, "newton:armature") == pytest.approx(0.02)
+    assert value(drive, "physxJoint:maxJointVelocity") == pytest.approx(math.degrees(3))
+    assert {code for code, _ in codes(written)} >= {"lossy-actuator-config"}
+    assert ("lossy-gains", "") not in codes(written)
+
+
+def test_joints_with_a_position_interface_are_named(stage):
+    control = (
+        '<ros2_control name="c" type="system"><joint name="j">'
+        '<command_interface name="position"/></joint></ros2_control>'
+    )
+    parts = (link("a"), joint("j", "a", "b", "revolute", LIMIT), link("b"), control)
+    _, written = stage(*parts)
+    (gains,) = [loss for loss in written.losses if loss.code == "lossy-gains"]
+    assert "'j' have a position" in gains.message
+
+
+@pytest.mark.parametrize(
+    ("kinds", "gearing", "offset"),
+    [
+        (("revolute", "revolute"), 1.5, math.degrees(-0.2)),
+        (("revolute", "prismatic"), math.degrees(1.5), math.degrees(-0.2)),
+        (("prismatic", "revolute"), math.radians(1.5), -0.2),
+    ],
+)
+def test_a_mimic_joint_of_isaac_is_in_degrees(stage, kinds, gearing, offset):
+    follower, leader = kinds
+    mimic = '<mimic joint="j" multiplier="-1.5" offset="0.2"/>'
+    parts = (
+        link("a"), joint("j", "a", "b", leader, LIMIT), link("b"),
+        joint("m", "a", "c", follower, LIMIT + mimic), link("c"),
+    )  # fmt: skip
+    made, _ = stage(*parts, target="isaac")
+    prim = made.GetPrimAtPath("/r/joints/m")
+    assert value(prim, "physxMimicJoint:rotX:gearing") == pytest.approx(gearing)
+    assert value(prim, "physxMimicJoint:rotX:offset") == pytest.approx(offset)
+    both, _ = stage(*parts)
+    assert not both.GetPrimAtPath("/r/joints/m").HasAttribute("physxMimicJoint:rotX:gearing")
+
+
+def test_a_mimic_joint_without_limits_is_reported_for_physx(stage):
+    parts = (
+        link("a"), joint("j", "a", "b", "continuous"), link("b"),
+        joint("m", "a", "c", "revolute", LIMIT + '<mimic joint="j"/>'), link("c"),
+    )  # fmt: skip
+    assert ("lossy-physx-mimic", "m") in codes(stage(*parts)[1])
+    assert ("lossy-physx-mimic", "m") not in codes(stage(*parts, target="newton")[1])

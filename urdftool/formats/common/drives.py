@@ -19,6 +19,9 @@ PLUGINS = (
 """Words in the names of Gazebo plugins that drive a robot over the ground."""
 
 
+INTERFACES = ("position", "velocity", "effort")
+
+
 def drive_plugins(robot: Robot) -> list[Plugin]:
     """Return the plugins that drive a robot over the ground."""
     found = []
@@ -53,3 +56,28 @@ def get_commanded_joints(robot: Robot) -> set[str]:
     for block in robot.ros2_controls:
         names |= {joint.name for joint in block.joints if joint.command_interfaces}
     return (names & set(robot.joint)) | set(get_plugin_drives(robot))
+
+
+def get_actuator_kind(interfaces: list[str]) -> str:
+    """Return the actuator kind for hardware interfaces; the first known interface counts."""
+    for name in interfaces:
+        for interface in INTERFACES:
+            if interface in name.lower().rpartition("/")[2]:
+                return "motor" if interface == "effort" else interface
+    return "motor"
+
+
+def list_servo_joints(robot: Robot) -> list[str]:
+    """Return the joints with a position or velocity interface, which need gains, in file order."""
+    kinds = get_plugin_drives(robot)
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            names = [*joint.hardware_interfaces]
+            names += [name for part in transmission.actuators for name in part.hardware_interfaces]
+            kinds[joint.name] = get_actuator_kind(names)
+    for block in robot.ros2_controls:
+        for component in block.joints:
+            names = [interface.name for interface in component.command_interfaces]
+            if names:
+                kinds[component.name] = get_actuator_kind(names)
+    return [joint.name for joint in robot.joints if kinds.get(joint.name, "motor") != "motor"]

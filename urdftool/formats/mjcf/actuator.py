@@ -14,15 +14,13 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ..common.actuator_config import JointSettings
-from ..common.drives import get_plugin_drives
+from ..common.drives import get_actuator_kind, get_plugin_drives
 from ..written import Written
 from .digits import format_numbers_text, number_text
 from .equality import follows
 from .joint import get_effort
 from .options import Actuators
 from .structure import Structure, get_bounds, get_locked_at
-
-INTERFACES = ("position", "velocity", "effort")
 
 
 @dataclass(frozen=True)
@@ -155,7 +153,7 @@ def _list_described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple
                 continue
             names = [*joint.hardware_interfaces]
             names += [name for a in transmission.actuators for name in a.hardware_interfaces]
-            kind = _get_kind(names)
+            kind = get_actuator_kind(names)
             if "simple" not in transmission.type.lower() and transmission.type:
                 written.report_loss(
                     "transmission",
@@ -170,16 +168,7 @@ def _list_described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple
         for component in block.joints:
             names = [interface.name for interface in component.command_interfaces]
             if names and component.name in robot.joint:
-                yield component.name, (_get_kind(names), 1.0)
-
-
-def _get_kind(interfaces: list[str]) -> str:
-    """Return the actuator kind for hardware interfaces; the first known interface counts."""
-    for name in interfaces:
-        for interface in INTERFACES:
-            if interface in name.lower().rpartition("/")[2]:
-                return "motor" if interface == "effort" else interface
-    return "motor"
+                yield component.name, (get_actuator_kind(names), 1.0)
 
 
 def _build_element(

@@ -5,19 +5,21 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from ...model.elements import Joint, Robot
-from ...model.kinematics import add_mimic_positions, get_limits, link_poses
+from ...model.kinematics import link_poses
+from ...model.start import start_positions
 from ..common.directory import mark_usda, write_beside
 from ..common.extent import get_shape_points
 from ..common.srdf import read_srdf
 from ..written import Written
 from .bodies import Bodies, is_movable, make_bodies
 from .contacts import is_self_colliding
+from .joint_values import JointValues, choose_joint_values
 from .names import Names, make_names
 from .options import Options
 
@@ -62,7 +64,8 @@ def write_config(
     if options.srdf is not None:
         virtual_joint = read_srdf(options.srdf, robot, Written(""), None).virtual_joint
     bodies = make_bodies(robot, options.base, virtual_joint, Written(""))
-    config = _Config(robot, bodies, names, version)
+    values = choose_joint_values(bodies, options.actuator_config, Written(""))
+    config = _Config(robot, bodies, names, values, version)
     path = os.path.relpath(stage.resolve(), file.resolve().parent)
     text = config.format(Path(path).as_posix(), self_collision=is_self_colliding(robot, options))
     source = Path(robot.source.path).name if robot.source is not None else "a robot"
@@ -79,8 +82,16 @@ class _Config:
         assumptions: Sentences on values that the description does not have.
     """
 
-    def __init__(self, robot: Robot, bodies: Bodies, names: Names, version: int) -> None:
+    def __init__(
+        self,
+        robot: Robot,
+        bodies: Bodies,
+        names: Names,
+        values: Mapping[str, JointValues],
+        version: int,
+    ) -> None:
         self._robot, self._bodies, self._names, self._version = robot, bodies, names, version
+        self._values = values
         self.assumptions: list[str] = []
         movable = ("revolute", "continuous", "prismatic")
         joints = [j for j in bodies.joints if j.type in movable and is_movable(j)]
@@ -136,7 +147,7 @@ class _Config:
         if not self._bodies.free:
             return 0.0
         lowest = 0.0
-        poses = link_poses(self._robot)
+        poses = link_poses(self._robot, start_positions(self._robot)[0])
         for link in self._robot.links:
             pose = poses.get(link.name)
             for shape in link.collisions:
@@ -148,16 +159,10 @@ class _Config:
         return round(-lowest, 6) + 0.0
 
     def _format_positions(self) -> Iterator[str]:
-        clipped = []
-        positions: dict[str, float] = {}
-        for joint in self._joints:
-            lower, upper = get_limits(joint)
-            positions[joint.name] = min(max(0.0, lower), upper) if lower <= upper else 0.0
-            if positions[joint.name]:
-                clipped.append(joint.name)
-        positions = add_mimic_positions(self._robot, positions)
+        positions, moved = start_positions(self._robot)
+        clipped = [joint.name for joint in self._joints if joint.name in moved]
         for joint in (*self._joints, *self._followers):
-            value = positions[joint.name]
+            value = positions.get(joint.name, 0.0)
             yield f"            {json.dumps(self._names.joint[joint.name])}: {value!r},"
         if clipped:
             shown = ", ".join(f"'{name}'" for name in clipped)
@@ -166,7 +171,7 @@ class _Config:
     def _format_actuators(self) -> Iterator[str]:
         groups: dict[tuple[object, ...], list[Joint]] = {}
         for joint in self._joints:
-            groups.setdefault((_find_stem(joint.name), *_get_values(joint)), []).append(joint)
+            groups.setdefault((_find_stem(joint.name), *self._list_values(joint)), []).append(joint)
         taken: dict[str, int] = {}
         for (stem, *_), joints in groups.items():
             taken[str(stem)] = taken.get(str(stem), 0) + 1
@@ -181,11 +186,23 @@ class _Config:
                 f"{len(groups)} groups of actuators, by equal limits, damping, friction and "
                 "armature, and by name"
             )
-        if not self._robot.joint_actuators:
+        if not any(self._values[joint.name].kp or self._values[joint.name].kd
+                   for joint in self._joints):  # fmt: skip
             self.assumptions.append("stiffness and damping are those of the stage, which are zero")
 
+    def _list_values(self, joint: Joint) -> tuple[float | None, ...]:
+        """Return effort, velocity, friction, damping and armature of a joint."""
+        values = self._values[joint.name]
+        return (
+            values.effort,
+            values.velocity,
+            values.friction,
+            values.damping,
+            values.armature,
+        )
+
     def _format_group(self, label: str, joints: list[Joint]) -> Iterator[str]:
-        effort, velocity, friction, damping, armature = _get_values(joints[0])
+        effort, velocity, friction, damping, armature = self._list_values(joints[0])
         names = ", ".join(json.dumps(self._names.joint[joint.name]) for joint in joints)
         limits = _FIELDS[self._version]
         yield f"        {json.dumps(label)}: ImplicitActuatorCfg("
@@ -231,15 +248,3 @@ def _find_stem(name: str) -> str:
     """Return a name without sides, numbers and the word joint."""
     words = [word for word in re.split(r"[\W_]+", _SIDES.sub(" ", name.replace("_", " "))) if word]
     return "_".join(words).lower() or "joints"
-
-
-def _get_values(joint: Joint) -> tuple[float | None, ...]:
-    """Return effort, velocity, friction, damping and armature of a joint."""
-    limit, dynamics = joint.limit, joint.dynamics
-    return (
-        limit.effort if limit is not None else None,
-        limit.velocity if limit is not None else None,
-        dynamics.friction if dynamics is not None else None,
-        dynamics.damping if dynamics is not None else None,
-        dynamics.armature if dynamics is not None else None,
-    )

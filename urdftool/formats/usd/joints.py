@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pxr import Gf, Sdf, Usd, UsdPhysics
@@ -21,8 +22,10 @@ from ...model.pose import (
 )
 from ..written import Written
 from .bodies import Bodies
+from .joint_values import JointValues
 from .names import Names
 from .options import Options
+from .physx import write_physx_mimic, write_physx_values
 from .stage import (
     PHYSICS,
     PHYSX,
@@ -48,6 +51,7 @@ class JointWriter:
         bodies: Bodies of the robot.
         names: Prim names.
         options: Options of the export.
+        values: Values of the joints with one degree of freedom.
         written: Receives the losses.
     """
 
@@ -55,6 +59,7 @@ class JointWriter:
     bodies: Bodies
     names: Names
     options: Options
+    values: Mapping[str, JointValues]
     written: Written
 
     def get_path(self, joint: str) -> Sdf.Path:
@@ -97,7 +102,7 @@ class JointWriter:
         _set_frames(usd, self.bodies.compute_parent_frame(joint) @ turn, turn)
         if joint.type in ("revolute", "continuous", "prismatic") and self.bodies.is_movable(joint):
             self._write_limits(prim, joint)
-            self._get_dynamics(prim, joint)
+            self._write_dynamics(prim, joint)
 
     def _create_prim(self, joint: Joint, axis: str) -> Usd.Prim:
         """Create the prim of a joint with its type and axis."""
@@ -135,26 +140,15 @@ class JointWriter:
                 set_value(prim, f"physics:{name}", "float", convert_position(joint, bound))
         drive = UsdPhysics.DriveAPI.Apply(prim, drive_name(joint))
         drive.CreateTypeAttr("force")
-        stiffness, damping = self._compute_gains(joint)
-        drive.CreateStiffnessAttr(convert_gain(joint, stiffness))
-        drive.CreateDampingAttr(convert_gain(joint, damping))
-        effort = joint.limit.effort if joint.limit is not None else None
-        if effort is not None and math.isfinite(effort):
-            drive.CreateMaxForceAttr(abs(effort))
+        values = self.values[joint.name]
+        drive.CreateStiffnessAttr(convert_gain(joint, values.kp))
+        drive.CreateDampingAttr(convert_gain(joint, values.kd))
+        if values.effort is not None:
+            drive.CreateMaxForceAttr(values.effort)
 
-    def _compute_gains(self, joint: Joint) -> tuple[float, float]:
-        """Return stiffness and damping of the actuators of a joint [per rad or m]."""
-        stiffness = damping = 0.0
-        for actuator in self.bodies.robot.joint_actuators:
-            if actuator.joint == joint.name:
-                square = actuator.gear * actuator.gear
-                stiffness -= actuator.bias[1] * square
-                damping -= actuator.bias[2] * square
-        return max(stiffness, 0.0), max(damping, 0.0)
-
-    def _get_dynamics(self, prim: Usd.Prim, joint: Joint) -> None:
+    def _write_dynamics(self, prim: Usd.Prim, joint: Joint) -> None:
         """Write velocity limit, friction, damping and armature for Newton and PhysX."""
-        values = _get_dynamics(joint)
+        values = _convert_values(joint, self.values[joint.name])
         if joint.limit is not None and joint.limit.velocity == 0:
             self.written.report_loss(
                 "velocity",
@@ -170,7 +164,9 @@ class JointWriter:
             set_value(prim, f"newton:{name}", "float", value)
         if self.options.has_physx and values:
             with self.builder.edit_layer(PHYSX):
-                _set_physx(prim, joint, values)
+                write_physx_values(
+                    prim, drive_name(joint), values, old_names=self.options.target == "isaac"
+                )
 
     def write_mimic(self, joint: Joint, leader: str, factor: float, offset: float) -> None:
         """Write that a joint follows another: position = factor · leader + offset.
@@ -197,6 +193,32 @@ class JointWriter:
             set_targets(prim, "newton:mimicJoint", [self.get_path(leader)])
             set_value(prim, "newton:mimicCoef0", "float", convert_position(joint, offset))
             set_value(prim, "newton:mimicCoef1", "float", factor)
+        if self.options.has_physx:
+            self._write_physx_mimic(prim, joint, self.bodies.robot.joint[leader], factor, offset)
+
+    def _write_physx_mimic(
+        self, prim: Usd.Prim, joint: Joint, leader: Joint, factor: float, offset: float
+    ) -> None:
+        """Write a mimic joint of PhysX, and report joints whose missing limits prevent it."""
+        endless = [part.name for part in (joint, leader) if is_angular(part)
+                   and not all(map(math.isfinite, get_limits(part)))]  # fmt: skip
+        if endless:
+            names = " and ".join(f"'{name}'" for name in endless)
+            self.written.report_loss(
+                "physx-mimic",
+                f"PhysX ignores <mimic> of joint '{joint.name}': a rotating joint in it needs "
+                f"limits, which {names} lacks; Newton reads it",
+                joint.place,
+                kind="joint",
+                name=joint.name,
+            )
+        if self.options.target == "isaac":
+            ratio = 1.0
+            if is_angular(joint) != is_angular(leader):
+                ratio = math.degrees(1.0) if is_angular(joint) else math.radians(1.0)
+            with self.builder.edit_layer(PHYSX):
+                path = self.get_path(leader.name)
+                write_physx_mimic(prim, path, -factor * ratio, -convert_position(joint, offset))
 
 
 def report_unwritten_spring(joint: Joint, written: Written) -> None:
@@ -232,37 +254,15 @@ def convert_gain(joint: Joint, value: float) -> float:
     return math.radians(value) if is_angular(joint) else value
 
 
-def _get_dynamics(joint: Joint) -> dict[str, float]:
-    """Return the values of Newton's schema that a joint has, by name."""
-    values: dict[str, float] = {}
-    velocity = joint.limit.velocity if joint.limit is not None else None
-    if velocity and math.isfinite(velocity):
-        values["velocityLimit"] = convert_position(joint, abs(velocity))
-    dynamics = joint.dynamics
-    if dynamics is None:
-        return values
-    if dynamics.friction:
-        values["friction"] = max(dynamics.friction, 0.0)
-    if dynamics.damping:
-        values["damping"] = convert_gain(joint, max(dynamics.damping, 0.0))
-    if dynamics.armature:
-        values["armature"] = max(dynamics.armature, 0.0)
-    return values
-
-
-def _set_physx(prim: Usd.Prim, joint: Joint, values: dict[str, float]) -> None:
-    """Write values of Newton's schema in the schema of PhysX."""
-    kind = drive_name(joint)
-    apply(prim, f"PhysxJointAxisAPI:{kind}")
-    names = {
-        "velocityLimit": ("maxJointVelocity",),
-        "friction": ("staticFrictionEffort", "dynamicFrictionEffort"),
-        "damping": ("viscousFrictionCoefficient",),
-        "armature": ("armature",),
+def _convert_values(joint: Joint, values: JointValues) -> dict[str, float]:
+    """Return the values of Newton's schema that a joint has, by name, in its units."""
+    found = {
+        "velocityLimit": convert_position(joint, values.velocity or 0.0),
+        "friction": values.friction,
+        "damping": convert_gain(joint, values.damping),
+        "armature": values.armature,
     }
-    for name, value in values.items():
-        for physx in names[name]:
-            set_value(prim, f"physxJointAxis:{kind}:{physx}", "float", value)
+    return {name: value for name, value in found.items() if value}
 
 
 def choose_joint_frame(joint: Joint) -> tuple[Pose, str]:

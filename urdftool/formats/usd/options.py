@@ -28,6 +28,7 @@ class Options:
         srdf: A MoveIt SRDF, for pairs of links that never collide.
         self_collision: Whether links of the robot collide with each other; None if an SRDF is
             given or the description requests it.
+        actuator_config: TOML file with gains, armature, damping, friction and force range.
         approximation: Collision geometry of a mesh: its convex hull, or its triangles.
         fix_inertia: Repair method for physically inconsistent tensors.
         force: Continue in spite of defects of the source if a robot remains.
@@ -39,6 +40,7 @@ class Options:
     layers: Layers = "single"
     srdf: Path | None = None
     self_collision: bool | None = None
+    actuator_config: Path | None = None
     approximation: Approximation = "hull"
     fix_inertia: FixInertia = "none"
     force: bool = False
@@ -47,7 +49,7 @@ class Options:
     @property
     def input_files(self) -> tuple[Path, ...]:
         """Return the files that are read in addition to the robot."""
-        return () if self.srdf is None else (self.srdf,)
+        return tuple(path for path in (self.srdf, self.actuator_config) if path is not None)
 
     @property
     def has_newton(self) -> bool:

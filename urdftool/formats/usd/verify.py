@@ -21,6 +21,7 @@ from ...model.kinematics import get_limits
 from ...model.world import add_world
 from ...source.document import read_file
 from ..check import Check
+from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.directory import write_export
 from ..common.losses import DeclaredLosses
 from ..mechanics import Mechanics
@@ -35,7 +36,10 @@ from .verify_pair import (
     TREE_LOSSES,
     Pair,
     compare_poses,
+    get_effort,
+    get_gains,
     get_inertial,
+    get_resistance,
     is_below_changed_joint,
     resolve_mimic,
 )
@@ -63,7 +67,8 @@ def verify_copy(
         reading = read(path, file=read_file(path), mesh_folder=Path(folder) / "meshes")
         losses = DeclaredLosses.from_findings(written.losses)
         positions = list(_make_configurations(robot))
-        pair = Pair(robot, reading.robot, losses, positions, _find_bodies(path))
+        settings = _read_settings(robot, options)
+        pair = Pair(robot, reading.robot, losses, positions, _find_bodies(path), settings)
         checks = compare(pair, options)
         if is_installed("newton") if newton is None else newton:
             from .verify_newton import compare_newton
@@ -166,36 +171,49 @@ def _compare_frames(pair: Pair) -> Check:
     return check
 
 
+def _read_settings(robot: Robot, options: Options) -> dict[str, JointSettings]:
+    """Read what the actuator file sets of each joint."""
+    names = [joint.name for joint in robot.joints if _has_position(joint)]
+    if options.actuator_config is None:
+        return dict.fromkeys(names, JointSettings())
+    return read_actuator_config(options.actuator_config).match_joints(names)
+
+
 def _compare_joints(pair: Pair) -> list[Check]:
     rows = [
-        (Check("limits", "lower and upper limit of each joint [rad, m]", FLOAT), get_limits, ()),
-        (Check("effort", "effort limit of each joint, relative", FLOAT), _get_effort, ()),
-        (
-            Check("velocity", "velocity limit of each joint, relative", FLOAT),
-            _get_velocity,
-            ("lossy-velocity",),
-        ),
-        (Check("friction, damping", "of each joint, relative", FLOAT), _get_dynamics, ()),
-        (Check("mimic", "leader, factor and offset", FLOAT), resolve_mimic, ("lossy-mimic",)),
+        Check("limits", "lower and upper limit of each joint [rad, m]", FLOAT),
+        Check("effort", "effort limit of each joint, relative", FLOAT),
+        Check("velocity", "velocity limit of each joint, relative", FLOAT),
+        Check("friction, damping", "of each joint, and armature, relative", FLOAT),
+        Check("drives", "stiffness and damping of the drive of each joint, relative", FLOAT),
+        Check("mimic", "leader, factor and offset", FLOAT),
     ]
+    codes = {"velocity": ("lossy-velocity",), "mimic": ("lossy-mimic",)}
     for joint, other in pair.joints:
         if not _has_position(joint) or pair.losses.has_for(("lossy-joint-type",), joint.name):
             continue
-        for check, values, codes in rows:
-            known = pair.losses.has_for(codes, joint.name)
-            robots = (pair.source, pair.made)
-            ours, theirs = ([*_get_values(values, part, robot)] for part, robot in
-                            zip((joint, other), robots, strict=True))  # fmt: skip
-            for one, two in zip(ours, theirs, strict=True):
+        ours = _list_values(pair.source, joint, pair.settings[joint.name])
+        theirs = _list_values(pair.made, other, JointSettings())
+        for check in rows:
+            known = pair.losses.has_for(codes.get(check.name, ()), joint.name)
+            for one, two in zip(ours[check.name], theirs[check.name], strict=True):
                 check.compare(_compute_distance(one, two), f"joint '{joint.name}'", known=known)
-    return [check for check, _, _ in rows]
+    return rows
 
 
-def _get_values(function: object, joint: Joint, robot: Robot) -> Iterator[float | str]:
-    if function is resolve_mimic:
-        yield from resolve_mimic(joint, robot)
-    else:
-        yield from function(joint)  # type: ignore[operator]
+def _list_values(
+    robot: Robot, joint: Joint, settings: JointSettings
+) -> dict[str, tuple[float | str, ...]]:
+    """Return the values of a joint by the name of their row."""
+    velocity = joint.limit.velocity if joint.limit is not None else None
+    return {
+        "limits": get_limits(joint),
+        "effort": (get_effort(joint, settings),),
+        "velocity": (np.inf if velocity is None else abs(velocity),),
+        "friction, damping": get_resistance(joint, settings),
+        "drives": get_gains(robot, joint, settings),
+        "mimic": resolve_mimic(joint, robot),
+    }
 
 
 def _compute_distance(one: float | str, other: float | str) -> float:
@@ -208,23 +226,6 @@ def _compute_distance(one: float | str, other: float | str) -> float:
 
 def _has_position(joint: Joint) -> bool:
     return joint.type in ("revolute", "continuous", "prismatic")
-
-
-def _get_effort(joint: Joint) -> tuple[float, ...]:
-    effort = joint.limit.effort if joint.limit is not None else None
-    return (np.inf if effort is None else abs(effort),)
-
-
-def _get_velocity(joint: Joint) -> tuple[float, ...]:
-    velocity = joint.limit.velocity if joint.limit is not None else None
-    return (np.inf if velocity is None else abs(velocity),)
-
-
-def _get_dynamics(joint: Joint) -> tuple[float, ...]:
-    dynamics = joint.dynamics
-    if dynamics is None:
-        return 0.0, 0.0, 0.0
-    return dynamics.friction or 0.0, dynamics.damping or 0.0, dynamics.armature or 0.0
 
 
 def _compare_pairs(pair: Pair, options: Options) -> Check:

@@ -17,6 +17,7 @@ from ...model.elements import Joint
 from ...model.kinematics import add_mimic_positions, get_limits
 from ...model.pose import rotation_from_quaternion
 from ..check import Check
+from ..common.actuator_config import JointSettings
 from ..mechanics import Mechanics
 from .verify_newton_shapes import compare_colliders
 from .verify_pair import (
@@ -26,7 +27,10 @@ from .verify_pair import (
     MASS_LOSSES,
     Pair,
     compare_poses,
+    get_effort,
+    get_gains,
     get_inertial,
+    get_resistance,
     is_below_changed_joint,
     resolve_mimic,
 )
@@ -134,7 +138,9 @@ def _compare_joints(
 ) -> list[Check]:
     freedoms = Check("Newton: joints", "types and degrees of freedom", 0.0)
     values = Check(
-        "Newton: joint values", "limits, effort, velocity, friction, damping, armature", 1e-6
+        "Newton: joint values",
+        "limits, effort, velocity, friction, damping, armature, drives",
+        1e-6,
     )
     mimic = Check("Newton: mimic", "leader, factor and offset", 1e-6)
     for joint in pair.source.joints:
@@ -149,7 +155,7 @@ def _compare_joints(
         freedoms.compare(float(read["freedoms"] != expected), label, known=known)
         if expected != 1 or read["freedoms"] != 1:
             continue
-        for name, (ours, theirs) in _get_values(joint, read).items():
+        for name, (ours, theirs) in _get_values(pair, joint, read).items():
             lost = ("lossy-velocity",) if name == "velocity" else ()
             excused = known or pair.losses.has_for(lost, joint.name)
             values.compare(_measure_difference(ours, theirs), f"{name} of {label}", known=excused)
@@ -160,22 +166,24 @@ def _compare_joints(
 _FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "ball": 3, "spherical": 3}
 
 
-def _get_values(joint: Joint, read: Mapping[str, float]) -> dict[str, tuple[float, float]]:
+def _get_values(
+    pair: Pair, joint: Joint, read: Mapping[str, float]
+) -> dict[str, tuple[float, float]]:
     lower, upper = get_limits(joint)
-    limit, dynamics = joint.limit, joint.dynamics
-    effort = limit.effort if limit is not None else None
-    velocity = limit.velocity if limit is not None else None
+    settings = pair.settings.get(joint.name, JointSettings())
+    velocity = joint.limit.velocity if joint.limit is not None else None
+    friction, damping, armature = get_resistance(joint, settings)
+    kp, kd = get_gains(pair.source, joint, settings)
     return {
         "lower limit": (_bound(lower), _bound(read["limit_lower"])),
         "upper limit": (_bound(upper), _bound(read["limit_upper"])),
-        "effort": (math.inf if effort is None else abs(effort), _bound(read["effort_limit"])),
-        "velocity": (
-            _NO_VELOCITY if velocity is None else abs(velocity),
-            read["velocity_limit"],
-        ),
-        "friction": ((dynamics.friction if dynamics else None) or 0.0, read["friction"]),
-        "damping": ((dynamics.damping if dynamics else None) or 0.0, read["damping"]),
-        "armature": ((dynamics.armature if dynamics else None) or 0.0, read["armature"]),
+        "effort": (get_effort(joint, settings), _bound(read["effort_limit"])),
+        "velocity": (_NO_VELOCITY if velocity is None else abs(velocity), read["velocity_limit"]),
+        "friction": (friction, read["friction"]),
+        "damping": (damping, read["damping"]),
+        "armature": (armature, read["armature"]),
+        "stiffness of the drive": (kp, read["target_ke"]),
+        "damping of the drive": (kd, read["target_kd"]),
     }
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...model.elements import Joint, Link, Robot
+from ..common.actuator_config import JointSettings
 from ..common.losses import DeclaredLosses
 from ..mechanics import get_origin_matrix
 
@@ -41,6 +42,7 @@ class Pair:
         losses: What the export reported.
         configurations: Joint positions [rad or m] by joint of the source; the first is zero.
         body: Link with mass that carries each link, by name; empty for the world.
+        settings: Values of joints from an actuator file, by name.
     """
 
     source: Robot
@@ -48,6 +50,7 @@ class Pair:
     losses: DeclaredLosses
     configurations: list[dict[str, float]]
     body: dict[str, str]
+    settings: Mapping[str, JointSettings]
 
     @property
     def links(self) -> Iterator[tuple[Link, Link]]:
@@ -76,6 +79,35 @@ def get_inertial(link: Link) -> tuple[float, Array, Array]:
         local = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         tensor = frame[:3, :3] @ local @ frame[:3, :3].T
     return part.mass, frame[:3, 3], tensor
+
+
+def get_effort(joint: Joint, settings: JointSettings) -> float:
+    """Return the effort limit of a joint; infinity without one."""
+    if settings.force_range is not None:
+        return max(map(abs, settings.force_range))
+    effort = joint.limit.effort if joint.limit is not None else None
+    return np.inf if effort is None else abs(effort)
+
+
+def get_resistance(joint: Joint, settings: JointSettings) -> tuple[float, float, float]:
+    """Return friction, damping and armature of a joint."""
+    dynamics = joint.dynamics
+    own = JointSettings() if dynamics is None else JointSettings(
+        friction=dynamics.friction, damping=dynamics.damping, armature=dynamics.armature
+    )  # fmt: skip
+    chosen = settings.override(own)
+    return chosen.friction or 0.0, chosen.damping or 0.0, chosen.armature or 0.0
+
+
+def get_gains(robot: Robot, joint: Joint, settings: JointSettings) -> tuple[float, float]:
+    """Return stiffness and damping of the drives of a joint [per rad or m]."""
+    drives = [a for a in robot.joint_actuators if a.joint == joint.name]
+    own = JointSettings(
+        kp=max(-sum(a.bias[1] * a.gear**2 for a in drives), 0.0),
+        kd=max(-sum(a.bias[2] * a.gear**2 for a in drives), 0.0),
+    )
+    chosen = settings.override(own)
+    return chosen.kp or 0.0, chosen.kd or 0.0
 
 
 def is_below_changed_joint(pair: Pair, link: str) -> bool:

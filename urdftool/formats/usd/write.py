@@ -16,6 +16,7 @@ from .contacts import write_pairs, write_self_collision
 from .files import make_layered_files, make_single_file
 from .inertials import make_inertias
 from .isaac import write_isaac
+from .joint_values import choose_joint_values
 from .joints import JointWriter, report_unwritten_spring
 from .links import LinkWriter
 from .loops import write_closures, write_frames
@@ -77,7 +78,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     shapes = ShapeWriter(links, meshes, materials, written)
     for link in robot.links:
         shapes.write(link)
-    joints = JointWriter(builder, bodies, names, options, written)
+    values = choose_joint_values(bodies, options.actuator_config, written)
+    joints = JointWriter(builder, bodies, names, options, values, written)
     _write_joints(joints, links, options, srdf)
     _report_names(bodies, names, written)
     _finish(builder, robot, options, written)

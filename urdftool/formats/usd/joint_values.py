@@ -1,0 +1,148 @@
+"""Values of joints as they are written: those of the description, and of an actuator file."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...diagnostic import Severity
+from ...model.elements import Joint
+from ..common.actuator_config import JointSettings, read_actuator_config
+from ..common.drives import list_servo_joints
+from ..written import Written
+from .bodies import Bodies
+
+
+@dataclass(frozen=True)
+class JointValues:
+    """Values of a joint in SI units, per radian for an angle; None for no limit.
+
+    Attributes:
+        effort: Largest force of the drive.
+        velocity: Largest velocity.
+        friction: Dry friction.
+        damping: Viscous damping, which the largest force of the drive does not limit.
+        armature: Rotor inertia at the joint.
+        kp: Stiffness of the drive.
+        kd: Damping of the drive.
+    """
+
+    effort: float | None = None
+    velocity: float | None = None
+    friction: float = 0.0
+    damping: float = 0.0
+    armature: float = 0.0
+    kp: float = 0.0
+    kd: float = 0.0
+
+
+def choose_joint_values(
+    bodies: Bodies, config: Path | None, written: Written
+) -> dict[str, JointValues]:
+    """Choose the values of each joint with one degree of freedom, by name.
+
+    Args:
+        bodies: Bodies of the robot.
+        config: An actuator file, or None.
+        written: Receives a note on missing gains, and changes of values of the description.
+
+    Raises:
+        ConfigError: The file is not valid, or has settings for a joint that does not move.
+    """
+    kinds = ("revolute", "continuous", "prismatic")
+    joints = [j for j in bodies.joints if j.type in kinds and bodies.is_movable(j)]
+    names = [joint.name for joint in joints]
+    settings = dict.fromkeys(names, JointSettings())
+    if config is not None:
+        settings = read_actuator_config(config).match_joints(names)
+    found = {joint.name: _choose(bodies, joint, settings[joint.name], written) for joint in joints}
+    _report_missing_gains(bodies, joints, found, written)
+    return found
+
+
+def _choose(bodies: Bodies, joint: Joint, settings: JointSettings, written: Written) -> JointValues:
+    kp, kd = _compute_gains(bodies, joint)
+    limit, dynamics = joint.limit, joint.dynamics
+    effort = limit.effort if limit is not None else None
+    velocity = limit.velocity if limit is not None else None
+    plain = JointValues(
+        effort=None if effort is None or not math.isfinite(effort) else abs(effort),
+        velocity=None if not velocity or not math.isfinite(velocity) else abs(velocity),
+        friction=max((dynamics.friction if dynamics else None) or 0.0, 0.0),
+        damping=max((dynamics.damping if dynamics else None) or 0.0, 0.0),
+        armature=max((dynamics.armature if dynamics else None) or 0.0, 0.0),
+        kp=kp,
+        kd=kd,
+    )
+    force = settings.force_range
+    own = JointSettings(kp, kd, plain.armature, plain.damping, plain.friction)
+    chosen = settings.override(own)
+    values = JointValues(
+        plain.effort if force is None else max(map(abs, force)),
+        plain.velocity,
+        chosen.friction or 0.0,
+        chosen.damping or 0.0,
+        chosen.armature or 0.0,
+        chosen.kp or 0.0,
+        chosen.kd or 0.0,
+    )
+    _report_changes(joint, plain, values, written)
+    return values
+
+
+def _compute_gains(bodies: Bodies, joint: Joint) -> tuple[float, float]:
+    """Return stiffness and damping of the actuators of a joint [per rad or m]."""
+    stiffness = damping = 0.0
+    for actuator in bodies.robot.joint_actuators:
+        if actuator.joint == joint.name:
+            square = actuator.gear * actuator.gear
+            stiffness -= actuator.bias[1] * square
+            damping -= actuator.bias[2] * square
+    return max(stiffness, 0.0), max(damping, 0.0)
+
+
+def _report_changes(
+    joint: Joint, before: JointValues, after: JointValues, written: Written
+) -> None:
+    """Report values of the description that the actuator file replaces."""
+    changed = [
+        f"{name} {new:g} instead of {'none' if old is None else f'{old:g}'}"
+        for name in ("effort", "friction", "damping")
+        if (old := getattr(before, name)) != (new := getattr(after, name))
+    ]
+    if changed:
+        written.report_loss(
+            "actuator-config",
+            f"joint '{joint.name}' has {', '.join(changed)}, from the actuator file",
+            joint.place,
+            kind="joint",
+            name=joint.name,
+            severity=Severity.INFO,
+        )
+
+
+def _report_missing_gains(
+    bodies: Bodies, joints: list[Joint], values: dict[str, JointValues], written: Written
+) -> None:
+    """Report that drives have no gains; those of followers never have."""
+    robot = bodies.robot
+    open_ = [j.name for j in joints if j.mimic is None
+             and not (values[j.name].kp or values[j.name].kd)]  # fmt: skip
+    if not open_:
+        return
+    servos = [name for name in list_servo_joints(robot) if name in open_]
+    text = (
+        f"the drives of {len(open_)} joints have stiffness and damping 0, since the description "
+        "has no gains: they apply the commanded effort"
+    )
+    if servos:
+        more = f" and {len(servos) - 3} more" if len(servos) > 3 else ""
+        shown = ", ".join(f"'{name}'" for name in servos[:3])
+        text += f"; {shown}{more} have a position or velocity interface, which needs gains"
+    written.report_loss(
+        "gains",
+        f"{text}; --actuator-config sets kp and kd",
+        robot.place,
+        severity=Severity.INFO,
+    )

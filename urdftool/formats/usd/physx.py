@@ -1,0 +1,64 @@
+"""Attributes of PhysX on joints, in the units of its schemas.
+
+Angular velocities are per degree, and so is viscous friction. A mimic joint of PhysX satisfies
+``position + gearing · leader + offset = 0``, with the offset in degrees
+(``InternalMimicJoint.cpp`` of NVIDIA-Omniverse/PhysX).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from pxr import Sdf, Usd
+
+from .stage import apply, set_targets, set_value
+
+_AXIS_NAMES = {
+    "velocityLimit": ("maxJointVelocity",),
+    "friction": ("staticFrictionEffort", "dynamicFrictionEffort"),
+    "damping": ("viscousFrictionCoefficient",),
+    "armature": ("armature",),
+}
+"""Attributes of ``PhysxJointAxisAPI`` for each of ``NewtonJointAPI``."""
+
+_JOINT_NAMES = {"velocityLimit": "maxJointVelocity", "armature": "armature"}
+"""Attributes of ``PhysxJointAPI``, which releases before ``PhysxJointAxisAPI`` read."""
+
+
+def write_physx_values(
+    prim: Usd.Prim, drive: str, values: Mapping[str, float], *, old_names: bool
+) -> None:
+    """Write values of Newton's schema in the schemas of PhysX.
+
+    Args:
+        prim: A joint.
+        drive: ``angular`` or ``linear``.
+        values: Values by names of Newton's schema.
+        old_names: Whether to write ``PhysxJointAPI`` too.
+    """
+    apply(prim, f"PhysxJointAxisAPI:{drive}")
+    for name, value in values.items():
+        for physx in _AXIS_NAMES[name]:
+            set_value(prim, f"physxJointAxis:{drive}:{physx}", "float", value)
+    found = {_JOINT_NAMES[n]: value for n, value in values.items() if n in _JOINT_NAMES}
+    if old_names and found:
+        apply(prim, "PhysxJointAPI")
+        for name, value in found.items():
+            set_value(prim, f"physxJoint:{name}", "float", value)
+
+
+def write_physx_mimic(prim: Usd.Prim, leader: Sdf.Path, gearing: float, offset: float) -> None:
+    """Write a mimic joint for releases of PhysX that do not read ``NewtonMimicAPI``.
+
+    Args:
+        prim: The follower, with one degree of freedom, so that any axis names it.
+        leader: Path of the leader.
+        gearing: Factor, with its sign changed; per degree if only one of the joints is angular.
+        offset: Offset [degree or m], with its sign changed.
+    """
+    apply(prim, "PhysxMimicJointAPI:rotX")
+    prefix = "physxMimicJoint:rotX"
+    set_targets(prim, f"{prefix}:referenceJoint", [leader])
+    set_value(prim, f"{prefix}:referenceJointAxis", "token", "rotX", uniform=True)
+    set_value(prim, f"{prefix}:gearing", "float", gearing)
+    set_value(prim, f"{prefix}:offset", "float", offset)
