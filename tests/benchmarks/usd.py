@@ -60,7 +60,7 @@ ROWS = ("mass", "center", "inertia", "frames", "joints", "limits", "effort", "ve
 TOLERANCE = 1e-5
 """Relative; poses and centers of mass in meters, for a link below n others n times as much."""
 
-HULL = 0.05
+HULL = 0.1
 """Relative to the size, of colliders with meshes: hulls of at most 64 vertices are smaller."""
 
 
