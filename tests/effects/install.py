@@ -1,8 +1,9 @@
 """Install further versions of readers: ``python -m tests.effects.install FOLDER``.
 
-Sentences that name a version are checked in it: MuJoCo 3.3 beside the one of this environment, and
-urdfdom 4 and 6 beside Debian's urdfdom 3. ``URDFTOOL_READERS=FOLDER`` lets the table find them.
-Debian's packages are liburdfdom-dev, liburdfdom-tools, libsdformat-dev, libkdl-parser-dev and g++.
+Sentences that name a version are checked in it: MuJoCo 3.3 beside the one of this environment,
+urdfdom 4 and 6 beside Debian's urdfdom 3, and Newton. ``URDFTOOL_READERS=FOLDER`` lets the table
+find them. Debian's packages are liburdfdom-dev, liburdfdom-tools, libsdformat-dev,
+libkdl-parser-dev and g++.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ PREFIXES = {
     "urdfdom-4.0.1": ("cmeel-urdfdom==4.0.1", "cmeel-tinyxml2<11", "cmeel-urdfdom-headers==1.1.2"),
     "urdfdom-6.0.0": ("cmeel-urdfdom==6.0.0", "cmeel-urdfdom-headers==3.0.0"),
 }
-ENVIRONMENTS = {"mujoco-3.3.7": ("mujoco==3.3.7",)}
+ENVIRONMENTS = {"mujoco-3.3.7": ("mujoco==3.3.7",), "newton-1.8.0": ("newton[importers]==1.8.0",)}
 
 
 def install(folder: Path) -> None:

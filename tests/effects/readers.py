@@ -116,6 +116,16 @@ def _mujoco(version: str) -> Reader:
     )
 
 
+def _newton(version: str) -> Reader:
+    python = more_readers() / f"newton-{version}" / "bin" / "python"
+    return Reader(
+        "newton",
+        "Newton",
+        lambda: version if python.exists() else None,
+        lambda: [str(python), str(PROBES / "read_newton.py")],
+    )
+
+
 def _debian(package: str) -> Callable[[], str | None]:
     """The version of an installed package, without what Debian adds to it."""
 
@@ -210,6 +220,7 @@ READERS = {
         _module("pybullet", "PyBullet", "pybullet"),
         _module("pinocchio", "pinocchio", "pin"),
         _module("drake", "Drake", "drake"),
+        _newton("1.8.0"),
         Reader("xacro", "xacro", _module("xacro", "xacro", "xacro").version, _xacro_command),
         Reader(
             "xacro --inorder",
@@ -235,7 +246,7 @@ def read(reader: str, robot: Robot) -> Facts:
     """
     with tempfile.TemporaryDirectory(prefix="urdftool-effects-") as temporary:
         file = robot.written_to(Path(temporary) / "robot")
-        if file.suffix == ".xacro" and not reader.startswith("xacro"):
+        if file.suffix == ".xacro" and not reader.startswith(("xacro", "newton")):
             try:
                 file = _expand(file)
             except subprocess.CalledProcessError:

@@ -276,7 +276,7 @@ def test_a_binary_stl_by_another_ending_is_renamed(write):
     path = write("r.urdf", robot(f'<link name="a">{shape.format("a.stlb")}</link>'))
     found = one(path, "unsupported-mesh-format", targets=["gz"])
     assert found.message.endswith("rename it to .stl")
-    assert found.effects.keys() == {"pybullet"}
+    assert found.effects.keys() == {"pybullet", "isaac"}
 
 
 def test_json_has_no_control_character():

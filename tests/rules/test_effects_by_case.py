@@ -155,7 +155,8 @@ def test_mimic_dof_mismatch(tmp_path, controlled):
         HEAVY, kind="fixed", limit='<mimic joint="turn"/>', first=block if controlled else ""
     )
     finding = found(tmp_path, "mimic-dof-mismatch", robot)
-    assert finding.effects.keys() == ({"moveit", "ros2_control"} if controlled else {"moveit"})
+    keys = {"moveit", "newton", *["ros2_control"] * controlled}
+    assert finding.effects.keys() == keys
     assert finding.severity.label == ("error" if controlled else "info")
 
 

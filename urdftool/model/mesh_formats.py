@@ -9,6 +9,7 @@ READ_BY = {
     "gz": ("dae", "stl", "obj", "gltf", "glb", "fbx"),
     "ros1": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
     "ros2": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
+    "isaac": ("obj", "stl", "dae"),
 }
 
 COLLISIONS_READ_BY = {

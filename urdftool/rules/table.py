@@ -340,6 +340,10 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "newton-raised-inertia",
             "isaac-drops-dynamics",
             "usd-name",
+            "newton-capsule-length",
+            "newton-fixes-root",
+            "isaac-mimic-without-limits",
+            "usd-importers-no-xacro",
         ),
     },
     "moveit": {

@@ -163,6 +163,7 @@ def _report_massless_pairs(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
         "mujoco": "rejects the file",
         "pybullet, urdfdom, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
+        "newton": "warns, and takes 0 kg",
     },
     formats=ANY_FORMAT,
 )

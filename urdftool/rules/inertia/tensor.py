@@ -43,6 +43,7 @@ _NOT_GAZEBO = ("mujoco", "pybullet", "urdfdom, KDL, pinocchio", "drake")
         "pybullet": "uses its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
+        "newton": "warns, and raises the moments",
     },
     formats=ANY_FORMAT,
 )
@@ -64,7 +65,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
             f"inertia of link '{link.name}' has a negative principal moment "
             f"({_format_moments(moments)}); all three must be positive{remedy}",
             at=_find_component(inertial, six, min(six[0], six[3], six[5])),
-            effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
+            effects=[*_NOT_GAZEBO, "newton", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             data={"moments": list(moments)},
         )
 
@@ -77,6 +78,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
         "pybullet": "uses its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
+        "newton": "warns, and raises the moments",
     },
     formats=ANY_FORMAT,
 )
@@ -111,7 +113,7 @@ def inertia_triangle_inequality(
             f"{shown[0]} is larger than {shown[1]} + {shown[2]}"
             f"{describe_remedy(link, inertial, six)}",
             at=_find_component(inertial, six, max(six[0], six[3], six[5])),
-            effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
+            effects=[*_NOT_GAZEBO, "newton", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             data={"moments": list(moments)},
         )
 

@@ -41,6 +41,7 @@ _SYNONYMS = {
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint has no known type",
         "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet load 'spherical'",
+        "newton": "rejects the robot",
     },
     formats=ANY_FORMAT,
 )
@@ -108,6 +109,7 @@ _PLANAR = {
         "treats floating as fixed; the planar joint has two prismatic axes and a revolute one"
     ),
     "mujoco": "loads both; a floating joint must be at the root",
+    "newton": "loads a floating joint; moves a planar joint along two axes, without rotation",
     "drake (one damping)": "rejects the file: it requires three damping values for a planar joint",
 }
 

@@ -25,7 +25,7 @@ from ..xml.vocabulary_table import find_misspelled_attributes, find_misspelled_c
     ERROR,
     effects={
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
-        "mujoco, drake": "load the joint without limits",
+        "mujoco, drake, newton": "load the joint without limits",
     },
     group="robot",
 )
@@ -164,6 +164,7 @@ _WITHOUT_BOUNDS = {
     "pybullet (upper missing)": "takes -1",
     "drake (lower missing)": "takes it as unlimited on that side",
     "drake (upper missing)": "takes it as unlimited on that side",
+    "newton": "takes a missing bound as unlimited",
 }
 
 
@@ -193,10 +194,10 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
         if len(missing) == 2:
             case = "both missing"
             or_type = ", or make the joint continuous" if joint.type == "revolute" else ""
-            what = "neither lower nor upper: ROS and Gazebo lock it at 0, MuJoCo, PyBullet and "
-            what += f"Drake leave it without limits; write both{or_type}"
+            what = "neither lower nor upper: ROS and Gazebo lock it at 0, MuJoCo, PyBullet, "
+            what += f"Drake and Newton leave it without limits; write both{or_type}"
         elif missing[0] == "lower":
-            what = "no lower: readers other than Drake take 0; write it"
+            what = "no lower: readers other than Drake and Newton take 0; write it"
         else:
             what = "no upper: ROS, Gazebo and MuJoCo take 0, PyBullet -1; write it"
         severity = WARNING if len(missing) == 2 or _is_empty(limit) else INFO
@@ -237,6 +238,7 @@ def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | Non
         "gz, gazebo-classic, pybullet, pinocchio": "ignore the bounds",
         "urdfdom, drake": "keep them",
         "mujoco": "3.3 enforces them unless both are 0, 4.0 ignores them",
+        "newton": "limits the joint to them",
     },
 )
 def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:

@@ -30,6 +30,7 @@ APPLIES_TO = ("mimic",)
         "drake": "rejects the file",
         "ros2_control": "stops with an exception where the joint is in <ros2_control>",
         "pybullet": "does not read <mimic>",
+        "newton": "drops the constraint with a warning",
     },
     group="robot",
     formats=ANY_FORMAT,
@@ -103,6 +104,7 @@ def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | N
         "moveit": "ignores every mimic joint of the robot",
         "mujoco": "3.3 ignores it; 4.0 couples the two joints twice",
         "drake": "couples the two joints twice; rejects a joint that mimics itself",
+        "newton": "rejects the robot",
     },
     formats=ANY_FORMAT,
 )
@@ -268,16 +270,17 @@ def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | 
     effects={
         "moveit": "ignores it: the degrees of freedom differ",
         "ros2_control": "stops with an exception for a fixed joint",
+        "newton": "rejects the robot for a fixed joint",
     },
     formats=URDF_AND_SDF,
 )
-def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
+def mimic_dof_mismatch(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A mimic joint or its leader does not have exactly one axis, or the multiplier is 0.
 
     A fixed joint has no position, a floating or planar joint has several. With a multiplier of 0
     the joint never moves. Fixed mimic joints are one finding, and so are all mimic joints of one
-    leader. For a fixed mimic joint that is not in ``<ros2_control>`` the finding is an info: it
-    does not move, as its type says.
+    leader. For a fixed mimic joint that is not in ``<ros2_control>`` the finding is an info, unless
+    Newton is a target: it does not move, as its type says.
     """
     controlled = {one.name for block in robot.ros2_controls for one in block.joints}
     alike: dict[tuple[str, str], list[tuple[Joint, Mimic]]] = {}
@@ -311,11 +314,14 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
             keys.add("moveit")
         if kind == "fixed" and any(joint.name in controlled for joint, _ in found):
             keys.add("ros2_control")
+        if kind == "fixed":
+            keys.add("newton")
+        is_harmless = kind == "fixed" and not leading and "ros2_control" not in keys
         yield Problem(
             joint,
             f"joint {what}; <mimic> requires joints with one axis",
             at=mimic,
-            severity=INFO if kind == "fixed" and not leading and keys <= {"moveit"} else None,
+            severity=INFO if is_harmless and "newton" not in targets else None,
             effects=keys,
             data={"type": kind, "joints": [joint.name for joint, _ in found]},
         )

@@ -38,6 +38,7 @@ _NOT_OPENED = "urdfdom, gz, gazebo-classic"
         "pybullet, drake (nowhere)": "reject the robot",
         "drake (above)": "rejects the robot",
         "mujoco": "rejects the robot",
+        "newton": "drops the shape with a warning",
         "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
     formats=URDF_AND_SDF,

@@ -40,6 +40,7 @@ _OF_FORMAT = {
     "pybullet (not read)": "rejects the file: invalid mesh filename extension",
     "drake (collision)": "rejects the file: it computes convex hulls of OBJ, VTK and glTF only",
     "pinocchio (collision in PLY)": "reads all formats of assimp, including PLY",
+    "isaac (not read)": "drops the shape with a warning",
 }
 
 
@@ -54,8 +55,9 @@ def unsupported_mesh_format(
     """A mesh is in a format that a target does not read.
 
     MuJoCo reads STL, OBJ and its own MSH, and by default only for collisions; PyBullet OBJ, STL
-    and part of COLLADA; Gazebo COLLADA, STL and OBJ, and new Gazebo also glTF and FBX. The targets
-    that are configured decide what is reported. Convert the file.
+    and part of COLLADA; Gazebo COLLADA, STL and OBJ, and new Gazebo also glTF and FBX; the importer
+    of Isaac Sim OBJ, STL and COLLADA. The targets that are configured decide what is reported.
+    Convert the file.
     """
     seen: set[tuple[str, str]] = set()
     for use in _get_first_uses(robot, description):
@@ -92,6 +94,8 @@ def _select_effects(ending: str, collides: bool) -> list[str]:
     keys = [key for key in _OF_FORMAT if key.partition(" (")[0] in rejecting]
     if ending == "ply" and collides:
         keys.append("pinocchio (collision in PLY)")
+    if ending not in READ_BY["isaac"]:
+        keys.append("isaac (not read)")
     return keys
 
 

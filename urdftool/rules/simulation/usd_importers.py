@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
 from ...mechanics.spatial_inertia import link_inertia
 from ...mechanics.tensor import compute_principal_moments
-from ...model.elements import Robot
+from ...model.elements import Capsule, Robot
+from ...model.kinematics import get_limits
+from ...source.description import Description
+from ..gazebo.contact import get_contact_role
 from ..rule import INFO, WARNING, Problem, rule
 
 _LEAST_MOMENT = 1e-10  # [kg·m²]
@@ -93,8 +97,8 @@ def isaac_drops_dynamics(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     INFO,
-    on=("newton", "isaac"),
-    effects={"newton": "has another name"},
+    on=("isaac",),
+    effects={"isaac": "has another name"},
 )
 def usd_name(robot: Robot) -> Iterator[Problem]:
     """A name is not valid for a prim of USD, so the part is renamed.
@@ -111,3 +115,106 @@ def usd_name(robot: Robot) -> Iterator[Problem]:
                     "digits and underscores",
                     data={"name": part.name},
                 )
+
+
+@rule(
+    WARNING,
+    on=("newton",),
+    effects={"newton": "reads an attribute height instead, and takes 1 m without it"},
+)
+def newton_capsule_length(robot: Robot) -> Iterator[Problem]:
+    """A capsule has another length in Newton, which does not read the attribute.
+
+    ``add_urdf`` of Newton 1.8 reads ``height`` where URDF 1.1 has ``length``, and takes 1 m for a
+    missing one. ``urdftool export usd`` keeps the length.
+    """
+    for link, shape in robot.shapes:
+        capsule = shape.geometry
+        if not isinstance(capsule, Capsule) or capsule.element.get("height") is not None:
+            continue
+        if capsule.length != 1.0:
+            yield Problem(
+                link,
+                f"capsule of link '{link.name}' has a length of {capsule.length:g} m, for which "
+                "Newton takes 1 m; add the attribute height, or use 'urdftool export usd'",
+                at=capsule,
+                data={"length": capsule.length},
+            )
+
+
+@rule(
+    INFO,
+    on=("newton",),
+    effects={"newton": "fixes the root to the world"},
+)
+def newton_fixes_root(robot: Robot) -> Iterator[Problem]:
+    """Newton fixes the root of a robot on wheels or legs to the world.
+
+    ``add_urdf`` of Newton 1.8 adds a fixed joint above the root unless it is called with
+    ``floating=True``. ``urdftool export usd`` writes a free base for robots that stand on legs or
+    wheels.
+    """
+    root = robot.tree.root
+    if root is None or root.name == "world" or len(robot.links) < 2:
+        return
+    below = robot.tree.get_child_joints(root.name)
+    if len(below) == 1 and below[0].type == "floating":
+        return
+    roles = {get_contact_role(robot, link) for link in robot.links}
+    if roles & {"wheel", "caster", "foot"}:
+        yield Problem(
+            root,
+            f"Newton fixes root link '{root.name}' to the world; for a free base call "
+            "add_urdf(floating=True), or use 'urdftool export usd'",
+        )
+
+
+@rule(
+    WARNING,
+    on=("isaac",),
+    effects={"isaac": "ignores the mimic joint, with an error in its log"},
+)
+def isaac_mimic_without_limits(robot: Robot) -> Iterator[Problem]:
+    """A mimic joint or its leader rotates without limits, which PhysX rejects.
+
+    PhysX requires finite limits of both rotating joints for ``NewtonMimicAPI`` and for
+    ``PhysxMimicJointAPI``, and otherwise ignores the relation.
+    """
+    for joint in robot.joints:
+        leader = robot.joint.get(joint.mimic.joint) if joint.mimic is not None else None
+        if leader is None:
+            continue
+        endless = [part for part in (joint, leader) if part.type in ("revolute", "continuous")
+                   and not all(map(math.isfinite, get_limits(part)))]  # fmt: skip
+        if endless:
+            names = " and ".join(f"'{part.name}'" for part in endless)
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' mimics '{leader.name}', but {names} has no limits, so PhysX "
+                "ignores the relation; write limits",
+                at=joint.mimic,
+                data={"unlimited": [part.name for part in endless]},
+            )
+
+
+@rule(
+    INFO,
+    on=("newton", "isaac"),
+    effects={
+        "newton": "takes it for a URDF: macros and expressions are not expanded",
+        "isaac": "reads only files that end in .urdf",
+    },
+)
+def usd_importers_no_xacro(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A description for Newton or Isaac Sim is a xacro file, which their importers do not expand.
+
+    Newton 1.8 reads the text as a URDF, so that it stops at the first expression in a number, and
+    has no part that a macro makes. ``urdftool expand`` writes a URDF, and ``urdftool export usd``
+    reads xacro.
+    """
+    if description.path.endswith(".xacro"):
+        yield Problem(
+            robot,
+            "Newton and Isaac Sim do not expand xacro; write a URDF with 'urdftool expand', or use "
+            "'urdftool export usd'",
+        )

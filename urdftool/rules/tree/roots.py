@@ -240,7 +240,7 @@ def _format_cycle(cycle: list[Link]) -> str:
             "reject the model, which then has the link twice; a link that is fixed to both is "
             "lumped (sdformat 12.3)"
         ),
-        "mujoco, pinocchio, drake": "reject the robot",
+        "mujoco, pinocchio, drake, newton": "reject the robot",
         "pybullet": "crashes",
     },
     formats=ANY_FORMAT,

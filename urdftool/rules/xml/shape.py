@@ -89,6 +89,7 @@ def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
         ),
         "mujoco": "takes a box before a cylinder before a sphere, and drops the others",
         "drake": "takes a box before a sphere before a cylinder, and drops the others",
+        "newton": "takes all of them",
     },
 )
 def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
