@@ -14,6 +14,7 @@ from urdftool.formats.urdf.options import Options as UrdfOptions
 from urdftool.formats.verify.compare import compare_robots
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
+from urdftool.model.world import weld_base
 
 OPTIONS = {
     "sdf": SdfOptions(folder="robot", uri="relative", force=True),
@@ -48,7 +49,7 @@ def load_robot(path: Path) -> Robot:
 
 def export(robot: Robot, name: str, folder: Path) -> tuple[Path, set[str]]:
     """Export a robot; return the file, and the names of links and joints with a loss."""
-    written = format_named(name).write(robot, OPTIONS.get(name, UrdfOptions(force=True)))
+    written = format_named(name).write(weld_base(robot), OPTIONS.get(name, UrdfOptions(force=True)))
     write_directory(folder, written.files, main=written.main)
     lost = {loss.name for loss in written.losses if loss.code not in ("lossy-limit",)}
     return folder / written.main, lost

@@ -48,7 +48,7 @@ def add_shapes(context: Context, robot: Robot) -> None:
         name = row["name"] or None
         collides = row["contype"] or row["conaffinity"] or row["paired"]
         material, alpha = _read_material(context, row, written)
-        visible = row["group"] < _HIDDEN_FROM and alpha > 0
+        visible = row["group"] < _HIDDEN_FROM and (alpha > 0 or not collides)
         if visible:
             link.visuals.append(Visual(written, name, origin, geometry, material))
         if collides:

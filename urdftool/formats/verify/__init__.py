@@ -6,6 +6,7 @@
 - ``bodies``: rigid bodies that links connected by fixed joints form;
 - ``names``: names of joints in one robot for those in the other;
 - ``matching``: joints without a common name, matched by the structure of the tree;
-- ``frames``: frames of one robot in the other;
+- ``frames``, ``origins``: frames and origins of joints of one robot in the other;
+- ``pair``: both robots, with the names of the parts of one in the other;
 - ``joints``, ``inertia``, ``shapes``, ``dynamics``: comparison of each property.
 """

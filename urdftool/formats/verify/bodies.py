@@ -50,12 +50,15 @@ class Bodies:
         is_free: Whether the root moves freely; None if the description does not specify it.
     """
 
-    def __init__(self, robot: Robot, welded: Collection[str] = ()) -> None:
+    def __init__(
+        self, robot: Robot, welded: Collection[str] = (), *, kept: Collection[str] = ()
+    ) -> None:
         """Find the bodies.
 
         Args:
             robot: The robot.
             welded: Names of joints that count as fixed, at their lower limit.
+            kept: Names of fixed joints whose child is a body of its own.
 
         Raises:
             ModelError: The links do not form a tree.
@@ -69,7 +72,10 @@ class Bodies:
         self.body_of: dict[str, str] = {}
         for name in robot.tree.order:
             joint = robot.tree.get_parent_joint(name)
-            if joint is not None and (joint.is_fixed or joint.name in welded):
+            is_fixed = joint is not None and (
+                (joint.is_fixed and joint.name not in kept) or joint.name in welded
+            )
+            if joint is not None and is_fixed:
                 body = self.by_name[self.body_of[joint.parent]]
                 at = get_origin_matrix(joint.origin)
                 if not joint.is_fixed:

@@ -9,16 +9,23 @@ import numpy as np
 
 from ...model.elements import Joint, Robot
 from ..mechanics import Array
-from .bodies import Bodies, Body, compute_axis, find_locked_joints
+from .bodies import Body, compute_axis
 from .difference import Comparison, Difference
 from .dynamics import compare_dynamics
-from .frames import describe_motion, describe_pose, invert, measure_largest, measure_pose
+from .frames import describe_motion, describe_pose, invert, measure_largest
 from .inertia import compare_inertia
 from .joints import JointMatch, compare_joint, compare_mimic, get_kind
 from .matching import list_below, match_children
 from .mesh_measure import MeshMeasures
-from .names import EMPTY, NameMap, match_names
-from .pair import Match, Pair, add_presence, locate
+from .names import EMPTY, NameMap
+from .origins import (
+    choose_parent_frame,
+    compute_parent_frame,
+    describe_origin,
+    find_least_offset,
+    has_same_parent,
+)
+from .pair import Match, Pair, add_presence, locate, make_pair
 from .rows import ROWS, Row
 from .shapes import compare_shapes
 
@@ -66,7 +73,7 @@ def compare_robots(
     Raises:
         ModelError: The links of a robot do not form a tree.
     """
-    walk = _Walk(_make_pair(a, b, names, meshes or MeshMeasures()), Comparison(tuple(rows)))
+    walk = _Walk(make_pair(a, b, names, meshes or MeshMeasures()), Comparison(tuple(rows)))
     pair, comparison = walk.pair, walk.comparison
     one, two = pair.a.by_name[pair.a.root], pair.b.by_name[pair.b.root]
     _compare_base(pair, comparison)
@@ -76,25 +83,16 @@ def compare_robots(
     _compare_tree(walk, Match(one, two, frame))
     for name, other in list(pair.joints.items()):
         if name not in walk.compared:  # its parent has no counterpart
-            joints = pair.a.joints[name], pair.b.joints[other]
-            _compare_child(walk, *joints, np.eye(4), parent_is_known=False)
+            x, y = pair.a.joints[name], pair.b.joints[other]
+            same = has_same_parent(pair, x, y)
+            frame = compute_parent_frame(pair, x, y) if same else np.eye(4)
+            _compare_child(walk, x, y, frame, parent_is_known=same)
     for name, other in pair.joints.items():
         joints = pair.a.joints[name], pair.b.joints[other]
         compare_mimic(pair, *joints, walk.signs, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)
     return comparison
-
-
-def _make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
-    """Return both robots as bodies; a locked joint that the other lacks counts as fixed."""
-    moving, moving2 = ({j.name for j in robot.joints if not j.is_fixed} for robot in (a, b))
-    one = Bodies(a, {n for n in find_locked_joints(a) if names.joints.get(n, n) not in moving2})
-    back = {new: old for old, new in names.joints.items()}
-    two = Bodies(b, {n for n in find_locked_joints(b) if back.get(n, n) not in moving})
-    joints = match_names(list(one.joints), list(two.joints), names.joints)
-    links = match_names(list(a.link), list(b.link), names.links)
-    return Pair(one, two, joints, links, meshes)
 
 
 def _compare_base(pair: Pair, comparison: Comparison) -> None:
@@ -145,13 +143,22 @@ def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
         if other is not None and pair.b.body_of[other.parent] == two.name:
             poses = pair.a.compute_joint_pose(joint), pair.b.compute_joint_pose(other)
             candidates.append(poses[0] @ invert(poses[1]))
-    return _choose(walk, one, two, candidates)
+    has_same_root = pair.links.get(one.name, one.name) == two.name
+    return _choose(walk, one, two, candidates, prefers_first=has_same_root)
 
 
-def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array:
+def _choose(
+    walk: _Walk, one: Body, two: Body, candidates: list[Array], *, prefers_first: bool
+) -> Array:
     """Return the pose with the fewest differences of two bodies.
 
-    It is the first one, unless that causes several differences and another at most half of them.
+    Args:
+        walk: State.
+        one: Body of the first robot.
+        two: Body of the second.
+        candidates: Poses of the second body in the first, 4 × 4.
+        prefers_first: Whether to choose the first one, unless that causes several differences and
+            another at most half of them.
     """
     different: list[Array] = []
     for pose in candidates:
@@ -161,7 +168,7 @@ def _choose(walk: _Walk, one: Body, two: Body, candidates: list[Array]) -> Array
         return different[0]
     counts = [_count(walk, Match(one, two, pose)) for pose in different]
     least = min(counts)
-    is_better = 2 * least <= counts[0] and counts[0] >= _MANY
+    is_better = not prefers_first or (2 * least <= counts[0] and counts[0] >= _MANY)
     return different[counts.index(least)] if is_better else different[0]
 
 
@@ -174,11 +181,11 @@ def _count(walk: _Walk, match: Match) -> int:
         other = _find_joint(pair, joint)
         if other is not None and pair.b.body_of[other.parent] == match.two.name:
             pose = pair.a.compute_joint_pose(joint)
-            frame = _choose_parent_frame(pair, joint, other, match.frame)
+            frame = choose_parent_frame(pair, joint, other, match.frame)
             offset = invert(pose) @ frame @ pair.b.compute_joint_pose(other)
             trial.worst["frames"] = 0.0
             if measure_largest(offset) > trial.tolerances["frames"]:
-                trial.add(_describe_origin(pair, joint, other, offset, match.frame))
+                trial.add(describe_origin(pair, joint, other, offset, match.frame))
     return len({(d.row, d.title) for d in trial.differences})
 
 
@@ -221,7 +228,7 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
         if y not in sides[1] or (x in match.one.members and y in match.two.members):
             continue
         other, there = sides[1][y]
-        offset = _find_least_offset(pair, match, pose, there)
+        offset = find_least_offset(pair, match, pose, there)
         comparison.add(
             Difference(
                 "frames",
@@ -235,18 +242,6 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
                 describe_motion(offset),
             )
         )
-
-
-def _find_least_offset(pair: Pair, match: Match, one: Array, two: Array) -> Array:
-    """Return the offset of a frame, in the body or relative to the link that leaves the least.
-
-    A link that moved with the frame is a difference of its own.
-    """
-    offsets = [invert(one) @ match.frame @ two]
-    for x, y in pair.match_members(match.one, match.two):
-        local = match.one.members[x] @ invert(match.two.members[y])
-        offsets.append(invert(one) @ local @ two)
-    return min(offsets, key=measure_largest)
 
 
 def _is_moved(match: Match, x: str, y: str) -> bool:
@@ -274,7 +269,8 @@ def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Compari
     owner = match.one.name
     if above[0] is not None and above[1] is not None and measure_largest(offset) > 1e-9:
         parents = above[0].parent, above[1].parent
-        if parents in pair.match_members(match.one, match.two):
+        on_top = parents == (match.one.name, match.two.name)
+        if not on_top and parents in pair.match_members(match.one, match.two):
             local = invert(match.one.members[parents[0]]) @ one
             other = invert(match.two.members[parents[1]]) @ match.two.members[y]
             if measure_largest(invert(local) @ other) < measure_largest(offset):
@@ -303,8 +299,9 @@ def _compare_tree(walk: _Walk, match: Match) -> None:
     while todo:
         match = todo.pop()
         pair = walk.pair
+        if match.two.name not in pair.links.values():
+            pair.links.setdefault(match.one.name, match.two.name)
         _compare_content(pair, match, walk.comparison)
-        pair.links.setdefault(match.one.name, match.two.name)
         pairs = [(j, other) for j in match.one.joints if (other := _find_joint(pair, j))]
         known = set(pair.joints.values())
         left = [j for j in match.one.joints if j.name not in pair.joints]
@@ -317,10 +314,12 @@ def _compare_tree(walk: _Walk, match: Match) -> None:
                 if joint.name not in (pair.joints, set(pair.joints.values()))[side]:
                     _add_unmatched(walk, side, joint, match)
         for x, y in pairs:
-            same = pair.b.body_of[y.parent] == match.two.name
-            if not same:
+            frame, same = match.frame, pair.b.body_of[y.parent] == match.two.name
+            if not same and has_same_parent(pair, x, y):  # a joint above is fixed in one robot
+                frame, same = compute_parent_frame(pair, x, y), True
+            if not same and not _has_unmatched_parent(pair, y):
                 _add_other_parent(walk, x, y)
-            todo += _compare_child(walk, x, y, match.frame, parent_is_known=same, walk_on=False)
+            todo += _compare_child(walk, x, y, frame, parent_is_known=same, walk_on=False)
 
 
 def _add_unmatched(walk: _Walk, side: int, joint: Joint, match: Match) -> None:
@@ -333,6 +332,12 @@ def _add_unmatched(walk: _Walk, side: int, joint: Joint, match: Match) -> None:
     add_presence(
         walk.comparison, "tree", "joint", "existence", side, joint, joint.name, text, other=other
     )
+
+
+def _has_unmatched_parent(pair: Pair, joint: Joint) -> bool:
+    """Tell whether the joint above one of the second robot has no counterpart."""
+    above = pair.b.by_name[pair.b.body_of[joint.parent]].joint
+    return above is not None and above.name not in pair.joints.values()
 
 
 def _add_other_parent(walk: _Walk, x: Joint, y: Joint) -> None:
@@ -369,11 +374,11 @@ def _compare_child(
     one, two = pair.a.get_child(x), pair.b.get_child(y)
     child = np.eye(4)
     if parent_is_known:
-        frame = _choose_parent_frame(pair, x, y, frame)
+        frame = choose_parent_frame(pair, x, y, frame)
         offset = invert(pair.a.compute_joint_pose(x)) @ frame @ pair.b.compute_joint_pose(y)
         if measure_largest(offset) > min(1e-6, comparison.tolerances.get("frames", 1e-6)):
             child = _choose_child_frame(walk, x, y, offset, frame)
-        difference = _describe_origin(pair, x, y, invert(child) @ offset, frame)
+        difference = describe_origin(pair, x, y, invert(child) @ offset, frame)
         comparison.add(difference)
     match = Match(one, two, child)
     walk.signs[x.name] = compare_joint(pair, JointMatch(x, y, child[:3, :3]), comparison)
@@ -381,22 +386,6 @@ def _compare_child(
         _compare_tree(walk, match)
         return []
     return [match]
-
-
-def _choose_parent_frame(pair: Pair, x: Joint, y: Joint, frame: Array) -> Array:
-    """Return the pose of the second parent body in the first for the origin of a joint.
-
-    It is that of the parent links if they have the same name and the origins are closer then: a
-    link that moved in its body is a difference of its own.
-    """
-    if pair.links.get(x.parent, x.parent) != y.parent:
-        return frame
-    one = pair.a.by_name[pair.a.body_of[x.parent]]
-    two = pair.b.by_name[pair.b.body_of[y.parent]]
-    local = one.members[x.parent] @ invert(two.members[y.parent])
-    poses = pair.a.compute_joint_pose(x), pair.b.compute_joint_pose(y)
-    sizes = [measure_largest(invert(poses[0]) @ f @ poses[1]) for f in (frame, local)]
-    return local if sizes[1] < sizes[0] - 1e-9 else frame
 
 
 def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array, frame: Array) -> Array:
@@ -429,23 +418,6 @@ def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array, frame: A
     poses = "identity", describe_pose(offset)
     _add_frame_convention(walk.comparison, "frames", pair, match, poses)
     return offset
-
-
-def _describe_origin(pair: Pair, x: Joint, y: Joint, offset: Array, frame: Array) -> Difference:
-    """Return the difference of the origins of a joint."""
-    poses = pair.a.compute_joint_pose(x), frame @ pair.b.compute_joint_pose(y)
-    distance, angle = measure_pose(offset)
-    return Difference(
-        "frames",
-        "joint",
-        (x.name, y.name),
-        "origin",
-        (describe_pose(poses[0]), describe_pose(poses[1])),
-        "m, rad",
-        max(distance, angle),
-        (locate(x.origin, x), locate(y.origin, y)),
-        describe_motion(offset),
-    )
 
 
 def _add_frame_convention(

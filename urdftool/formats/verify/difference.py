@@ -88,6 +88,12 @@ class Comparison:
         if not amount <= tolerance:
             self.differences.append(difference)
 
+    def merge(self, other: Comparison) -> None:
+        """Record what another comparison found in the compared rows."""
+        for row in other.worst.keys() & self.tolerances.keys():
+            self.worst[row] = max(self.worst.get(row, 0.0), other.worst[row])
+        self.differences += [d for d in other.differences if d.row in self.tolerances]
+
     def record_not_comparable(self, what: str) -> None:
         """Record a property that one of the formats does not have."""
         if what not in self.not_comparable:

@@ -16,43 +16,149 @@ from .pair import Match, Pair, locate
 
 Properties = tuple[float, Array, Array]
 
+_MASSLESS = 1e-9
+"""Mass [kg] of a link up to which it is a placeholder, which simulators require."""
+
 
 def compare_inertia(pair: Pair, match: Match, comparison: Comparison) -> None:
-    """Compare mass, center of mass and tensor: link by link, or of the whole body.
+    """Compare mass, center of mass and tensor: link by link, or of several links together.
 
-    Links without a counterpart that has mass are combined with the body, so that merged links
-    cause no difference.
+    Links that differ, or have no counterpart with mass, are combined on each side: links that were
+    merged into one, or mass that was moved from one to another, cause no difference.
     """
     one, two = (
         _list_massive(pair.a, match.one, np.eye(4)),
         _list_massive(pair.b, match.two, match.frame),
     )
-    names = {x: pair.links.get(x, x) for x in one}
-    if set(names.values()) == set(two):
-        for x, y in names.items():
-            links = pair.a.robot.link[x], pair.b.robot.link[y]
-            frames = match.one.members[x], match.frame @ match.two.members[y]
-            _compare_properties(links, frames, (one[x], two[y]), comparison)
+    names = {x: y for x in one if (y := pair.links.get(x, x)) in two}
+    trials = {
+        x: _compare_links(pair, match, (x, y), (one[x], two[y]), comparison)
+        for x, y in names.items()
+    }
+    rest = {x: part for x, part in one.items() if x not in trials or not trials[x].is_equal}
+    equal = {names[x] for x in trials if x not in rest}
+    rest2 = {y: part for y, part in two.items() if y not in equal}
+    for x, trial in trials.items():
+        if x not in rest:
+            comparison.merge(trial)
+    if not rest and not rest2:
         return
-    total = _combine(one), _combine(two)
-    top = pair.a.robot.link[match.one.name], pair.b.robot.link[match.two.name]
+    common = [x for x in names if x in rest]
+    merged = _find_merged(pair, match, names, (rest, rest2), comparison)
+    for x in common:
+        if merged is not None and x != merged:
+            comparison.merge(trials[x])
+    if merged is not None:
+        return
+    total = _compare_rest(pair, match, common, rest, rest2, comparison)
+    if total.is_equal or _is_merged(common, names, rest, rest2):
+        comparison.merge(total)
+        return
+    whole = _compare_whole(pair, match, (one, two), (rest, rest2), comparison)
+    if whole is not None:
+        comparison.merge(whole)
+        return
     before = len(comparison.differences)
-    trial = Comparison(comparison.rows)
-    origin = np.eye(4)
-    _compare_properties(top, (origin, origin), total, trial)
-    if trial.is_equal:
-        comparison.worst |= {
-            row: max(worst, comparison.worst.get(row, 0.0)) for row, worst in trial.worst.items()
-        }
-        return
-    for x, y in names.items():
-        if y in two:
-            links = pair.a.robot.link[x], pair.b.robot.link[y]
-            frames = match.one.members[x], match.frame @ match.two.members[y]
-            _compare_properties(links, frames, (one[x], two[y]), comparison)
+    for x in common:
+        comparison.merge(trials[x])
     _add_unmatched(pair, match, one, two, comparison)
     if len(comparison.differences) == before:
-        _compare_properties(top, (origin, origin), total, comparison)
+        comparison.merge(total)
+
+
+def _find_merged(
+    pair: Pair,
+    match: Match,
+    names: dict[str, str],
+    rest: tuple[dict[str, Properties], dict[str, Properties]],
+    comparison: Comparison,
+) -> str | None:
+    """Return the only common link into which the links without a counterpart were merged."""
+    common = [x for x in names if x in rest[0]]
+    others = [
+        {name: part for name, part in side.items() if name not in known}
+        for side, known in zip(rest, (common, [names[x] for x in common]), strict=True)
+    ]
+    if not (others[0] or others[1]):
+        return None
+    for x in common:
+        one, two = {x: rest[0][x], **others[0]}, {names[x]: rest[1][names[x]], **others[1]}
+        total = _compare_rest(pair, match, [x], one, two, comparison)
+        if total.is_equal:
+            comparison.merge(total)
+            return x
+    return None
+
+
+def _compare_rest(
+    pair: Pair,
+    match: Match,
+    common: list[str],
+    one: dict[str, Properties],
+    two: dict[str, Properties],
+    comparison: Comparison,
+) -> Comparison:
+    """Compare links together, at their only common link or at the body."""
+    names = (
+        (common[0], pair.links.get(common[0], common[0]))
+        if len(common) == 1
+        else (match.one.name, match.two.name)
+    )
+    total = Comparison(comparison.rows)
+    links = pair.a.robot.link[names[0]], pair.b.robot.link[names[1]]
+    frames = match.one.members[names[0]], match.frame @ match.two.members[names[1]]
+    _compare_properties(links, frames, (_combine(one), _combine(two)), total)
+    return total
+
+
+def _compare_whole(
+    pair: Pair,
+    match: Match,
+    every: tuple[dict[str, Properties], dict[str, Properties]],
+    rest: tuple[dict[str, Properties], dict[str, Properties]],
+    comparison: Comparison,
+) -> Comparison | None:
+    """Compare both bodies as a whole; None unless light links were merged into heavy ones.
+
+    The mass that differs in the links is then in another link, where it is below the tolerance.
+    """
+    totals, rests = [_combine(part) for part in every], [_combine(part) for part in rest]
+    if abs(totals[0][0] - totals[1][0]) > 0.1 * abs(rests[0][0] - rests[1][0]):
+        return None
+    whole = _compare_rest(pair, match, [], *every, comparison)
+    return whole if whole.is_equal else None
+
+
+def _is_merged(
+    common: list[str],
+    names: dict[str, str],
+    one: dict[str, Properties],
+    two: dict[str, Properties],
+) -> bool:
+    """Tell whether links without a counterpart were merged into the only common link.
+
+    The masses then differ less together than those of the common link.
+    """
+    if len(common) != 1 or len(one) == len(two) == 1:
+        return False
+    mass, mass2 = one[common[0]][0], two[names[common[0]]][0]
+    return abs(_combine(one)[0] - _combine(two)[0]) < abs(mass - mass2)
+
+
+def _compare_links(
+    pair: Pair,
+    match: Match,
+    names: tuple[str, str],
+    values: tuple[Properties, Properties],
+    comparison: Comparison,
+) -> Comparison:
+    """Compare a link of both bodies that has mass in both."""
+    x, y = names
+    trial = Comparison(comparison.rows)
+    links = pair.a.robot.link[x], pair.b.robot.link[y]
+    frames = match.one.members[x], match.frame @ match.two.members[y]
+    _compare_properties(links, frames, values, trial)
+    return trial
 
 
 def _add_unmatched(
@@ -87,7 +193,7 @@ def _list_massive(bodies: Bodies, body: Body, frame: Array) -> dict[str, Propert
     found = {}
     for name, pose in body.members.items():
         properties = compute_mass_properties(bodies.robot.link[name], frame @ pose)
-        if properties is not None:
+        if properties is not None and (properties[0] > _MASSLESS or not properties[0]):
             found[name] = properties
     return found
 

@@ -13,6 +13,9 @@ from ...geometry.load import load_mesh
 from ...model.elements import Mesh, Robot
 from ..mechanics import Array
 
+_HEAD = 4096
+"""Bytes of an OBJ in which its file of materials is named."""
+
 
 @dataclass(frozen=True)
 class Measure:
@@ -62,6 +65,11 @@ class MeshMeasures:
         if str(path) not in self._digests:
             self._digests[str(path)] = sha256(path.read_bytes()).hexdigest()
         return self._digests[str(path)]
+
+    def names_materials(self, path: Path) -> bool:
+        """Tell whether an OBJ names a file of materials at its beginning."""
+        with path.open("rb") as file:
+            return b"mtllib" in file.read(_HEAD)
 
     def measure(self, robot: Robot, meshes: list[tuple[Mesh, Array]]) -> Measure | None:
         """Measure the union of meshes at poses; None if one of them cannot be read."""

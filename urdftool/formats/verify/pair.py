@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...model.elements import Link
+from ...model.elements import Link, Robot
 from ...model.part import Part
 from ...model.provenance import NOWHERE
 from ...source.location import Place
 from ..detect import format_of
 from ..mechanics import Array
-from .bodies import Bodies, Body
+from .bodies import Bodies, Body, find_locked_joints
 from .difference import Comparison, Difference
 from .mesh_measure import MeshMeasures
+from .names import NameMap, match_names
 
 
 @dataclass
@@ -42,6 +43,48 @@ class Pair:
         """Return the links of two bodies that have equal or mapped names."""
         pairs = [(name, self.links.get(name, name)) for name in one.members]
         return [(x, y) for x, y in pairs if y in two.members]
+
+
+def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
+    """Return both robots as bodies; a locked joint that the other lacks counts as fixed."""
+    moving, moving2 = ({j.name for j in robot.joints if not j.is_fixed} for robot in (a, b))
+    welded = {n for n in find_locked_joints(a) if names.joints.get(n, n) not in moving2}
+    back = {new: old for old, new in names.joints.items()}
+    welded2 = {n for n in find_locked_joints(b) if back.get(n, n) not in moving}
+    one, two = Bodies(a, welded), Bodies(b, welded2)
+    joints = match_names(list(one.joints), list(two.joints), names.joints)
+    links = match_names(list(a.link), list(b.link), names.links)
+    _match_children(a, b, joints, links)
+    fixed = _find_fixed_in_one(one, two, joints, links)
+    if fixed:
+        one = Bodies(a, welded, kept=fixed.keys())
+        two = Bodies(b, welded2, kept=fixed.values())
+        joints |= fixed
+    return Pair(one, two, joints, links, meshes)
+
+
+def _match_children(a: Robot, b: Robot, joints: dict[str, str], links: dict[str, str]) -> None:
+    """Match links without a counterpart whose joints have equal names."""
+    known = set(links.values())
+    for x in a.joints:
+        y = b.joint.get(joints.get(x.name, x.name))
+        if y is not None and x.child not in links and y.child not in known:
+            links[x.child] = y.child
+
+
+def _find_fixed_in_one(
+    one: Bodies, two: Bodies, joints: dict[str, str], links: dict[str, str]
+) -> dict[str, str]:
+    """Return joints between the same links that are fixed in one robot and move in the other."""
+    by_links = {(j.parent, j.child): j for j in two.robot.joints}
+    known, found = set(joints.values()), dict[str, str]()
+    for x in one.robot.joints:
+        y = by_links.get((links.get(x.parent, ""), links.get(x.child, "")))
+        if y is None or x.name in joints or y.name in known:
+            continue
+        if (x.name in one.joints and y.is_fixed) or (y.name in two.joints and x.is_fixed):
+            found[x.name] = y.name
+    return found
 
 
 @dataclass
@@ -84,6 +127,7 @@ def add_presence(
     value: object,
     *,
     other: Part | None = None,
+    counterpart: str = "",
 ) -> None:
     """Record a part that only one robot has.
 
@@ -97,9 +141,10 @@ def add_presence(
         name: Name of its link or joint.
         value: Description of the part.
         other: The part of the other robot that should have it.
+        counterpart: Name of that part, if it exists.
     """
     here, there = locate(part, None), locate(other, None)
-    names = (name, "") if side == 0 else ("", name)
+    names = (name, counterpart) if side == 0 else (counterpart, name)
     values = (value, None) if side == 0 else (None, value)
     places = (here, there) if side == 0 else (there, here)
     comparison.add(Difference(row, kind, names, what, values, "", float("inf"), places))

@@ -76,7 +76,7 @@ def compare_shapes(pair: Pair, match: Match, comparison: Comparison) -> None:
         state = _Comparing(pair, row, comparison, one, two)
         _match_equal(state)
         _match_capsules(state)
-        _match_unions(state)
+        _match_unions(state, match)
         _match_others(state, kind, match)
 
 
@@ -189,64 +189,66 @@ def _round_off(measures: tuple[Measure, Measure]) -> float:
     return max(0.0, distance - 2e-6 * max(measure.size for measure in measures))
 
 
-def _match_unions(state: _Comparing) -> None:
-    """Remove the remaining meshes of both bodies if their union is equal.
+def _match_unions(state: _Comparing, match: Match) -> None:
+    """Remove the remaining meshes of a link, or of both bodies, if their union is equal.
 
     Converters split a file by material, or join files.
     """
-    one, two = (
-        [p for p in side if isinstance(p.geometry, Mesh)] for side in (state.one, state.two)
-    )
+    for x, y in state.pair.match_members(match.one, match.two):
+        _match_union(
+            state,
+            [p for p in state.one if p.link.name == x],
+            [p for p in state.two if p.link.name == y],
+        )
+    _match_union(state, state.one, state.two)
+
+
+def _match_union(state: _Comparing, one: list[Placed], two: list[Placed]) -> None:
+    """Remove the meshes among some shapes if their union is equal."""
+    one, two = ([p for p in side if isinstance(p.geometry, Mesh)] for side in (one, two))
     if not one or not two or len(one) == len(two) == 1:
         return
     measures = _measure_union(state, one, two)
     if measures is None or _round_off(measures) > state.tolerance:
         return
     _add(state, one[0], two[0], _round_off(measures), "")
-    state.one = [p for p in state.one if not isinstance(p.geometry, Mesh)]
-    state.two = [p for p in state.two if not isinstance(p.geometry, Mesh)]
+    state.one = [p for p in state.one if not _contains(one, p)]
+    state.two = [p for p in state.two if not _contains(two, p)]
 
 
 def _match_capsules(state: _Comparing) -> None:
-    """Remove each capsule that is a cylinder and two spheres in the other body.
-
-    URDF has no capsules; its writers form them of these three shapes, whose union is the same.
-    """
-    for is_first in (True, False):
-        own, other = (state.one, state.two) if is_first else (state.two, state.one)
-        for placed in [p for p in own if isinstance(p.geometry, Capsule)]:
-            parts = _find_parts(state, placed, other)
+    """Remove capsules that are a cylinder with two spheres in the other body, as in URDF."""
+    for side, other in ((state.one, state.two), (state.two, state.one)):
+        for capsule in [p for p in side if isinstance(p.geometry, Capsule)]:
+            parts = _find_capsule(state, capsule, other)
             if not parts:
                 continue
-            own[:] = [p for p in own if p is not placed]
+            pair = (capsule, parts[0]) if side is state.one else (parts[0], capsule)
+            _add(state, *pair, 0.0, "")
+            _compare_colors(state, *pair)
+            side[:] = [p for p in side if p is not capsule]
             other[:] = [p for p in other if not _contains(parts, p)]
-            x, y = (placed, parts[0]) if is_first else (parts[0], placed)
-            _add(state, x, y, 0.0, "")
-            _compare_colors(state, x, y)
 
 
-def _find_parts(state: _Comparing, placed: Placed, other: list[Placed]) -> list[Placed]:
-    """Return the cylinder and the two spheres that form a capsule; an empty list without them."""
-    capsule = placed.geometry
-    assert isinstance(capsule, Capsule)
-    radius, length = capsule.radius, capsule.length
-    wanted = [placed._replace(geometry=Cylinder(None, radius, length))]
-    for z in (-length / 2, length / 2):
-        at = placed.pose.copy()
-        at[:3, 3] += z * at[:3, 2]
-        wanted.append(placed._replace(geometry=Sphere(None, radius), pose=at))
+def _find_capsule(state: _Comparing, capsule: Placed, shapes: list[Placed]) -> list[Placed]:
+    """Return the cylinder and the two spheres that form a capsule; empty if one is missing."""
+    whole = capsule.geometry
+    assert isinstance(whole, Capsule)
     found: list[Placed] = []
+    ball = Sphere(whole.provenance, whole.radius)
+    wanted: list[Placed] = [
+        capsule._replace(geometry=Cylinder(ball.provenance, whole.radius, whole.length))
+    ]
+    for end in (-whole.length / 2, whole.length / 2):
+        pose = capsule.pose.copy()
+        pose[:3, 3] += end * pose[:3, 2]
+        wanted.append(capsule._replace(geometry=ball, pose=pose))
     for part in wanted:
-        same = (
-            p
-            for p in other
-            if not _contains(found, p) and _measure(state, part, p) <= state.tolerance
-        )
-        one = next(same, None)
-        if one is None:
-            return []
-        found.append(one)
-    return found
+        for shape in shapes:
+            if not _contains(found, shape) and _measure(state, part, shape) <= state.tolerance:
+                found.append(shape)
+                break
+    return found if len(found) == len(wanted) else []
 
 
 def _match_others(state: _Comparing, kind: str, match: Match) -> None:
@@ -263,6 +265,7 @@ def _match_others(state: _Comparing, kind: str, match: Match) -> None:
             state.one = [p for p in state.one if not _contains(one, p)]
             state.two = [p for p in state.two if not _contains(two, p)]
     tops = state.pair.a.robot.link[match.one.name], state.pair.b.robot.link[match.two.name]
+    back = {new: old for old, new in names.items()}
     for side, shapes in enumerate((state.one, state.two)):
         for p in shapes:
             add_presence(
@@ -275,6 +278,7 @@ def _match_others(state: _Comparing, kind: str, match: Match) -> None:
                 p.link.name,
                 _describe(p),
                 other=tops[1 - side],
+                counterpart=(names, back)[side].get(p.link.name, ""),
             )
 
 
@@ -326,7 +330,11 @@ def _describe(placed: Placed) -> str:
 
 
 def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
-    if state.row != "visuals" or any(_has_own_colors(placed.geometry) for placed in (x, y)):
+    robots = state.pair.a.robot, state.pair.b.robot
+    if state.row != "visuals" or any(
+        _has_own_colors(state, robot, placed.geometry)
+        for robot, placed in zip(robots, (x, y), strict=True)
+    ):
         return
     colors = (
         _find_color(state.pair.a.robot, x.shape),
@@ -349,10 +357,14 @@ def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
     )
 
 
-def _has_own_colors(geometry: Geometry) -> bool:
+def _has_own_colors(state: _Comparing, robot: Robot, geometry: Geometry) -> bool:
     """Tell whether a mesh file has colors, of which readers show either those or the material's."""
-    endings = (".dae", ".gltf", ".glb")
-    return isinstance(geometry, Mesh) and geometry.filename.lower().endswith(endings)
+    if not isinstance(geometry, Mesh):
+        return False
+    if geometry.filename.lower().endswith(".obj"):
+        path = state.pair.meshes.find(robot, geometry)
+        return path is not None and state.pair.meshes.names_materials(path)
+    return geometry.filename.lower().endswith((".dae", ".gltf", ".glb"))
 
 
 def _find_color(robot: Robot, shape: Visual | Collision) -> tuple[float, ...] | None:
