@@ -40,7 +40,10 @@ BELOW = {
         *("lint", "rules", "finding", "mechanics", "model", "source", "geometry", "output"),
         *BASE,
     ),
-    "bundle": ("drawing", "formats", "finding", "geometry", "model", "source", "output", *BASE),
+    "bundle": (
+        *("collision", "drawing", "formats", "finding", "geometry", "model", "source", "output"),
+        *BASE,
+    ),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),
@@ -84,14 +87,14 @@ PLACES = {
     "lxml": ("formats/",),
     "trimesh": ("geometry/",),
     "yourdfpy": ("bundle/yourdfpy_reader.py",),
-    "scipy": ("geometry/", "inertia/", "collision/"),
+    "scipy": ("geometry/", "inertia/", "collision/", "bundle/surface_distance.py"),
     "manifold3d": ("geometry/hull.py", "simulation/solids.py"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
         *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "formats/"),
         *("collision/", "simulation/", "bundle/mesh_formats.py"),
-        "bundle/yourdfpy_reader.py",
+        *("bundle/yourdfpy_reader.py", "bundle/reduce.py", "bundle/surface_distance.py"),
     ),
     "coacd": ("collision/coacd_child.py",),
     "distributed": ("collision/cluster.py",),
@@ -100,7 +103,7 @@ PLACES = {
     "mujoco": ("formats/mjcf/", "simulation/engines/mujoco/"),
     "PIL": (
         *("drawing/", "formats/mjcf/texture.py", "geometry/scene.py"),
-        "formats/mjcf/verify_looks.py",
+        *("formats/mjcf/verify_looks.py", "bundle/textures.py"),
     ),
     "pybullet": ("simulation/engines/pybullet/",),
     "matplotlib": ("simulation/plot.py",),

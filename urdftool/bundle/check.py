@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import stat
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
+from typing import Any
 from urllib.parse import unquote
 
 from ..errors import SourceError, UrdftoolError
@@ -54,7 +55,7 @@ def check_bundle(path: str | Path, source: Robot | None = None) -> list[Defect]:
             from .yourdfpy_reader import compare_with_source
 
             inner = document["description"]
-            found += compare_with_source(source, folder / inner, inner)
+            found += compare_with_source(source, folder / inner, inner, _list_errors(document))
         return found
 
 
@@ -105,6 +106,16 @@ def _check_entries(archive: zipfile.ZipFile, path: str | Path) -> None:
         size += entry.file_size
     if size > _MOST_BYTES:
         raise SourceError(f"has {size / 1e9:.1f} GB of content, more than the limit", path=path)
+
+
+def _list_errors(document: Mapping[str, Any]) -> dict[str, float]:
+    """Return the declared error of each reduced mesh, by its file name."""
+    errors = {}
+    for entry in document["files"]:
+        error = (entry.get("before") or {}).get("error")
+        if isinstance(error, (int, float)):
+            errors[PurePosixPath(entry["path"]).name] = float(error)
+    return errors
 
 
 def _find_defects(folder: Path) -> Iterator[Defect]:

@@ -58,13 +58,20 @@ def replace_version(data: bytes) -> bytes:
 
 
 def rewrite(
-    file: SourceFile, uris: Mapping[str, str], missing: set[str], *, comment: str, strippath: bool
+    file: SourceFile,
+    uris: Mapping[str, str],
+    missing: set[str],
+    *,
+    visual_uris: Mapping[str, str] | None = None,
+    comment: str,
+    strippath: bool,
 ) -> bytes:
     """Return a description with new URIs.
 
     Args:
         file: Plain URDF.
         uris: New URIs of files by those written.
+        visual_uris: URIs in visuals, where they differ; None for none.
         missing: URIs of meshes and textures whose elements are removed.
         comment: Text of a comment before the root element.
         strippath: Whether to set the option with which MuJoCo before version 4 keeps the folders
@@ -81,8 +88,12 @@ def rewrite(
             edits.append(_remove(source, element))
             continue
         for name, value in element.attributes.items():
-            if value.strip() in uris and _may_be_file(element, name):
-                edits.append(set_attribute(source, element, name, uris[value.strip()]))
+            uri = value.strip()
+            if uri in uris and _may_be_file(element, name):
+                new = uris[uri]
+                if visual_uris and uri in visual_uris and _is_visual(element):
+                    new = visual_uris[uri]
+                edits.append(set_attribute(source, element, name, new))
         if element.text.strip() in uris and not element.children:
             edits.append(_set_text(source, element, uris[element.text.strip()]))
     if strippath:
@@ -105,6 +116,11 @@ def _may_be_file(element: Element, attribute: str) -> bool:
     if element.tag in ("mesh", "texture"):
         return attribute == "filename"
     return any(above.tag == "gazebo" for above in (element, *_list_ancestors(element)))
+
+
+def _is_visual(element: Element) -> bool:
+    """Tell whether an element is in a visual or, as the visuals that plugins name, no collision."""
+    return all(above.tag != "collision" for above in _list_ancestors(element))
 
 
 def _list_ancestors(element: Element) -> Iterator[Element]:

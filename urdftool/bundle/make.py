@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,6 +17,7 @@ from ..source.document import STDIN
 from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
 from .layout import make_portable
+from .limits import Limits
 from .manifest import MANIFEST, Manifest, compute_digest
 from .origin import find_licenses, find_repositories, list_declared_licenses, name_source
 from .presets import PRESETS
@@ -43,6 +44,7 @@ class BundleOptions:
         force: Whether to leave out visuals and collisions without a mesh file.
         meshes: Format of all meshes; ``keep`` keeps the format of each.
         preset: Name of the reader in ``PRESETS`` whose options apply; empty for none.
+        limits: Limits of visual meshes and textures.
     """
 
     uri: Uri | Literal[""] = ""
@@ -51,6 +53,7 @@ class BundleOptions:
     force: bool = False
     meshes: MeshFormat | Literal["keep"] = "keep"
     preset: str = ""
+    limits: Limits = field(default_factory=Limits)
 
     @property
     def uri_form(self) -> Uri:
@@ -70,6 +73,8 @@ class Bundle:
         manifest: Content of ``bundle.json``.
         notes: References that the bundle does not contain, and changes.
         sources: Source files, which must not be replaced.
+        size_before: Size of the meshes and images of the source [bytes].
+        size_after: Size of the meshes and images of the bundle [bytes].
     """
 
     description: str
@@ -77,6 +82,8 @@ class Bundle:
     manifest: Manifest
     notes: list[Finding] = field(default_factory=list)
     sources: list[Path] = field(default_factory=list)
+    size_before: int = 0
+    size_after: int = 0
 
 
 def make_bundle(robot: Robot, options: BundleOptions | None = None) -> Bundle:
@@ -99,15 +106,25 @@ def make_bundle(robot: Robot, options: BundleOptions | None = None) -> Bundle:
     package = _choose_package_name(options, name)
     found = collect(robot)
     refuse(found.defects, force=options.force, fatal=frozenset())
-    stored = store_assets(found, _choose_conversion(robot, options))
+    stored = store_assets(found, _choose_conversion(robot, options), options.limits)
     uris = {uri: _format_uri(stored.places[a], options, package) for uri, a in found.assets.items()}
+    visual_uris = {
+        uri: _format_uri(stored.visual_places[asset], options, package)
+        for uri, asset in found.assets.items()
+        if asset in stored.visual_places
+    }
     bundle = Bundle(description, dict(stored.contents), _make_manifest(robot, description, options))
     source = Path(bundle.manifest.source).name
     relative = options.uri_form == "relative" and any(
         a.kind == "mesh" for a in found.assets.values()
     )
     bundle.files[description] = rewrite(
-        file, uris, found.missing, comment=format_comment(source), strippath=relative
+        file,
+        uris,
+        found.missing,
+        visual_uris=visual_uris,
+        comment=format_comment(source),
+        strippath=relative,
     )
     if relative:
         bundle.manifest.changes.append('<compiler strippath="false"/> in <mujoco>')
@@ -127,10 +144,15 @@ def add_manifest(bundle: Bundle) -> None:
     bundle.files.pop(MANIFEST, None)
     files = bundle.manifest.files
     for path, content in bundle.files.items():
-        size = len(content) if isinstance(content, bytes) else content.stat().st_size
-        facts = {"sha256": compute_digest(content), "bytes": size}
-        files[path] = {**facts, **{k: v for k, v in files.get(path, {}).items() if k == "sources"}}
+        facts = {"sha256": compute_digest(content), "bytes": get_size(content)}
+        known = files.get(path, {})
+        files[path] = {**facts, **{k: known[k] for k in ("sources", "before") if k in known}}
     bundle.files[MANIFEST] = bundle.manifest.to_json()
+
+
+def get_size(content: Content) -> int:
+    """Return the size of a content [bytes]."""
+    return len(content) if isinstance(content, bytes) else content.stat().st_size
 
 
 def _choose_conversion(robot: Robot, options: BundleOptions) -> Conversion | None:
@@ -146,7 +168,7 @@ def _choose_conversion(robot: Robot, options: BundleOptions) -> Conversion | Non
 
 
 def _report_conversions(robot: Robot, found: Collection, stored: Stored) -> Iterator[Finding]:
-    """Yield what converted meshes lost, and which meshes are not converted."""
+    """Yield what converted and reduced meshes lost, and which meshes are not converted."""
     seen: set[str] = set()
     for link, shape in robot.shapes:
         mesh = shape.geometry
@@ -160,6 +182,9 @@ def _report_conversions(robot: Robot, found: Collection, stored: Stored) -> Iter
         for loss in stored.losses.get(asset, ()):
             text = f"mesh '{mesh.filename}' of link '{link.name}' was converted: {loss}"
             yield Finding("lossy-mesh", Severity.WARNING, text, place, "link", link.name)
+        if reached := stored.unreached.get(asset):
+            text = f"mesh '{mesh.filename}' of link '{link.name}' has {reached}"
+            yield Finding("large-mesh", Severity.WARNING, text, place, "link", link.name)
         if asset in stored.failed:
             why = stored.failed[asset]
             text = f"mesh '{mesh.filename}' of link '{link.name}' is not converted: {why}"
@@ -196,6 +221,7 @@ def _make_manifest(robot: Robot, description: str, options: BundleOptions) -> Ma
         changed["meshes"] = options.meshes
     if options.force:
         changed["force"] = True
+    changed |= {name: value for name, value in asdict(options.limits).items() if value is not None}
     arguments: Mapping[str, str] = robot.source.arguments
     return Manifest(robot.name, description, source, dict(sorted(arguments.items())), changed)
 
@@ -216,7 +242,14 @@ def _add_origin(bundle: Bundle, robot: Robot, stored: Stored) -> None:
         for path in paths:
             names[path] = name_source(path, description)
         manifest.files[place] = {"sources": list(dict.fromkeys(names[path] for path in paths))}
+        if place in stored.reductions:  # without the fields that do not apply
+            change = asdict(stored.reductions[place])
+            manifest.files[place]["before"] = {k: v for k, v in change.items() if v is not None}
     bundle.sources = list(names)
+    bundle.size_before = sum(
+        path.stat().st_size for path in {p for paths in stored.sources.values() for p in paths}
+    )
+    bundle.size_after = sum(map(get_size, stored.contents.values()))
     licenses = find_licenses(names)
     bundle.files |= licenses
     for place, path in licenses.items():

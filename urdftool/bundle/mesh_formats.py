@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ..drawing.normals import compute_corner_normals
+from ..formats.common.asset_filter import is_image
 from ..geometry.mesh import Array, Faces, Mesh, Part, Points
 from ..source.description import GltfUp
 
@@ -36,13 +37,15 @@ class MaterialNames:
 
 
 def read_image(part: Part) -> bytes | None:
-    """Return the image of a part's material; None if it has none or it cannot be read."""
+    """Return the image of a part's material; None if it has none or the file is not an image."""
     if part.uv is None:
         return None
     if part.image is not None:
         return part.image
     try:
-        return None if part.texture is None else part.texture.read_bytes()
+        if part.texture is None or not is_image(part.texture):
+            return None
+        return part.texture.read_bytes()
     except OSError:
         return None
 
@@ -64,14 +67,17 @@ def encode_stl(mesh: Mesh) -> bytes:
     return head + struct.pack("<I", len(corners)) + records.tobytes()
 
 
-def encode_obj(mesh: Mesh, names: MaterialNames) -> bytes:
+def encode_obj(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -> bytes:
     """Encode a mesh as OBJ without groups, since MuJoCo reads the first object only.
 
     Args:
         mesh: The mesh.
         names: Names of the companions.
+        shading: Unit normal at each corner, shape (m, 3, 3); None computes them.
     """
-    normals, normal_of = _number_rows(compute_corner_normals(mesh.vertices, mesh.faces))
+    if shading is None:
+        shading = compute_corner_normals(mesh.vertices, mesh.faces)
+    normals, normal_of = _number_rows(shading)
     lines = ["# Mesh bundled by urdftool", f"mtllib {names.library}"]
     lines += [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in (mesh.vertices + 0.0).tolist()]
     lines += [f"vn {x:.4f} {y:.4f} {z:.4f}" for x, y, z in (normals + 0.0).tolist()]
@@ -79,7 +85,7 @@ def encode_obj(mesh: Mesh, names: MaterialNames) -> bytes:
     for number, part in enumerate(mesh.parts):
         lines.append(f"usemtl material_{number}")
         faces = (mesh.get_part_faces(part) + 1).tolist()
-        shading = (normal_of[part.first : part.first + part.count] + 1).tolist()
+        rows = (normal_of[part.first : part.first + part.count] + 1).tolist()
         if number in names.images and part.uv is not None:
             points, texel_of = _number_rows(part.uv)
             lines += [f"vt {u:.6g} {v:.6g}" for u, v in (points + 0.0).tolist()]
@@ -87,14 +93,12 @@ def encode_obj(mesh: Mesh, names: MaterialNames) -> bytes:
             first += len(points)
             lines += [
                 f"f {a}/{ta}/{na} {b}/{tb}/{nb} {c}/{tc}/{nc}"
-                for (a, b, c), (ta, tb, tc), (na, nb, nc) in zip(
-                    faces, texels, shading, strict=True
-                )
+                for (a, b, c), (ta, tb, tc), (na, nb, nc) in zip(faces, texels, rows, strict=True)
             ]
         else:
             lines += [
                 f"f {a}//{na} {b}//{nb} {c}//{nc}"
-                for (a, b, c), (na, nb, nc) in zip(faces, shading, strict=True)
+                for (a, b, c), (na, nb, nc) in zip(faces, rows, strict=True)
             ]
     return ("\n".join(lines) + "\n").encode()
 
@@ -116,15 +120,18 @@ def encode_mtl(mesh: Mesh, names: MaterialNames) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def encode_glb(mesh: Mesh, gltf_up: GltfUp) -> bytes:
+def encode_glb(mesh: Mesh, gltf_up: GltfUp, shading: Array | None = None) -> bytes:
     """Encode a mesh as binary glTF with its images.
 
     Args:
         mesh: The mesh.
         gltf_up: Up axis of the file: ``y`` as in the standard, or ``z``.
+        shading: Unit normal at each corner, shape (m, 3, 3); None computes them.
     """
     buffer = _Buffer()
-    normals = compute_corner_normals(mesh.vertices, mesh.faces)
+    normals = shading
+    if normals is None:
+        normals = compute_corner_normals(mesh.vertices, mesh.faces)
     primitives = []
     for part in mesh.parts:
         rows = slice(part.first, part.first + part.count)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import logging
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -53,7 +53,9 @@ def load_robot(robot: Robot, **options: Any) -> Any:
         return yourdfpy.URDF.load(io.BytesIO(text), **{"filename_handler": resolve, **options})
 
 
-def compare_with_source(robot: Robot, description: Path, path: str) -> list[Defect]:
+def compare_with_source(
+    robot: Robot, description: Path, path: str, errors: Mapping[str, float] | None = None
+) -> list[Defect]:
     """Compare a bundle with its source as yourdfpy reads it.
 
     Compared are the names of links and joints, joint types, the pose of each link at 21
@@ -65,6 +67,8 @@ def compare_with_source(robot: Robot, description: Path, path: str) -> list[Defe
         robot: The source.
         description: The URDF of the bundle.
         path: Path of the URDF in the bundle, for messages.
+        errors: Declared error of each reduced mesh by file name, relative to the diagonal of its
+            bounding box; None for none.
 
     Raises:
         MissingDependency: yourdfpy is not installed.
@@ -83,7 +87,8 @@ def compare_with_source(robot: Robot, description: Path, path: str) -> list[Defe
         return [Defect("unreadable", path, f"yourdfpy cannot read it: {error}")]
     found = list(_compare_names(robot, bundle))
     if not found:
-        found = [*_compare_frames(robot, source, bundle), *_compare_bounds(source, bundle)]
+        frames = _compare_frames(robot, source, bundle)
+        found = [*frames, *_compare_bounds(source, bundle, errors or {})]
     return [Defect("differs-from-source", path, message) for message in found]
 
 
@@ -172,7 +177,12 @@ def _sample_positions(joints: Mapping[str, Joint]) -> Iterator[dict[str, float]]
         yield positions
 
 
-def _compare_bounds(source: Any, bundle: Any) -> Iterator[str]:
+def _compare_bounds(source: Any, bundle: Any, errors: Mapping[str, float]) -> Iterator[str]:
+    """Yield the links whose bounds differ by more than the declared errors of their meshes."""
+    allowed = {
+        link.name: max((errors.get(name, 0.0) for name in _list_meshes(link.visuals)), default=0.0)
+        for link in bundle.robot.links
+    }
     changed = {
         new.name
         for old, new in zip(source.robot.links, bundle.robot.links, strict=True)
@@ -188,14 +198,21 @@ def _compare_bounds(source: Any, bundle: Any) -> Iterator[str]:
             if name not in old or name not in new:
                 yield f"the {kind} meshes of link '{name}' are not those of the source"
                 continue
-            if not np.allclose(old[name], new[name], _TOLERANCE, _TOLERANCE, equal_nan=True):
+            error = allowed.get(name, 0.0) if kind == "visual" else 0.0
+            off = _TOLERANCE + error * float(np.linalg.norm(old[name][1] - old[name][0]))
+            if not np.allclose(old[name], new[name], _TOLERANCE, off, equal_nan=True):
                 yield f"the bounds of the {kind} geometry of link '{name}' differ from the source"
 
 
 def _list_suffixes(link: Any) -> list[str]:
-    shapes = (*link.visuals, *link.collisions)
+    names = _list_meshes((*link.visuals, *link.collisions))
+    return [Path(name).suffix.lower() for name in names]
+
+
+def _list_meshes(shapes: Iterable[Any]) -> list[str]:
+    """Return the file names of the meshes of visuals or collisions."""
     meshes = [shape.geometry.mesh for shape in shapes if shape.geometry is not None]
-    return [Path(mesh.filename).suffix.lower() for mesh in meshes if mesh is not None]
+    return [Path(mesh.filename).name for mesh in meshes if mesh is not None]
 
 
 def _measure_links(urdf: Any, scene: Any) -> dict[str, Array]:

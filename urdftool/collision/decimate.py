@@ -10,6 +10,7 @@ the error, and libigl refuses meshes that are not manifold.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,23 @@ _Array = npt.NDArray[Any]
 _Floats = npt.NDArray[np.float64]
 
 
+@dataclass(frozen=True, eq=False)
+class Decimated:
+    """A decimated mesh.
+
+    Attributes:
+        vertices: Points [m], a subset of those of the mesh.
+        faces: Triangles, indices into ``vertices``.
+        wedges: Wedge of each corner of the triangles; None if the mesh has no wedges.
+        rows: Triangle of the mesh that each triangle was, in its order.
+    """
+
+    vertices: Points
+    faces: Faces
+    wedges: Faces | None
+    rows: Faces
+
+
 def decimate(vertices: Points, faces: Faces, target: int) -> tuple[Points, Faces]:
     """Reduce a mesh to a number of triangles, or to as few as its shape allows.
 
@@ -50,18 +68,41 @@ def decimate(vertices: Points, faces: Faces, target: int) -> tuple[Points, Faces
     """
     if len(faces) <= target:
         return vertices, faces
+    done = decimate_wedges(vertices, faces, None, target)
+    return done.vertices, done.faces
+
+
+def decimate_wedges(vertices: Points, faces: Faces, wedges: Faces | None, target: int) -> Decimated:
+    """Reduce a mesh to a number of triangles, and keep the edges at which its wedges differ.
+
+    A wedge is a range of corners at one vertex with the same attributes. The edges between wedges
+    are creases, seams and borders of materials: they keep their shape as open borders do, and both
+    sides are merged together. The vertices where three or more of them meet, or one ends, remain.
+
+    Args:
+        vertices: Points [m], each once, shape (n, 3).
+        faces: Triangles, indices into ``vertices``, shape (m, 3).
+        wedges: Wedge of each corner, shape (m, 3), a number that no other vertex has; None for
+            none.
+        target: Largest number of triangles of the result.
+    """
+    rows = np.arange(len(faces))
+    if len(faces) <= target:
+        return Decimated(vertices, faces, wedges, rows)
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     original = find_used_vertices(faces, len(vertices))
     number = np.zeros(len(vertices), dtype=np.int32)
     number[original] = np.arange(len(original))
     points = (vertices[original] - (low + high) / 2) / max(float((high - low).max()), 1e-300)
     tie_breaks = np.random.default_rng(0).permutation(len(points))
-    mesh = _Mesh(points, number[faces])
+    mesh = _Mesh(points, number[faces], wedges)
     quadrics = _sum_initial_quadrics(mesh)
     try_all = False
     while len(mesh.faces) > target:
         share = 1.0 if try_all else LARGE_SHARE if len(mesh.faces) > LARGE_MESH else CHEAPEST
         moved, onto = _select_merges(mesh, quadrics, tie_breaks, share, len(mesh.faces) - target)
+        if wedges is not None:
+            wedges, moved, onto = _merge_wedges(mesh, wedges, moved, onto)
         if not len(moved):
             if try_all:
                 break
@@ -71,18 +112,20 @@ def decimate(vertices: Points, faces: Faces, target: int) -> tuple[Points, Faces
         np.add.at(quadrics, onto, quadrics[moved])
         number = np.arange(len(points), dtype=np.int32)
         number[moved] = onto
-        kept = number[mesh.faces]
-        a, b, c = kept.T
-        kept = kept[(a != b) & (b != c) & (c != a)]
+        a, b, c = number[mesh.faces].T
+        remaining = (a != b) & (b != c) & (c != a)
+        kept = number[mesh.faces][remaining]
         if not len(kept):
             break
+        rows = rows[remaining]
+        wedges = None if wedges is None else wedges[remaining]
         used = np.zeros(len(points), bool)
         used[kept] = True
         number = (np.cumsum(used) - 1).astype(np.int32)
         points, quadrics = points[used], quadrics[used]
         original, tie_breaks = original[used], tie_breaks[used]
-        mesh = _Mesh(points, number[kept])
-    return vertices[original], mesh.faces.astype(np.int64)
+        mesh = _Mesh(points, number[kept], wedges)
+    return Decimated(vertices[original], mesh.faces.astype(np.int64), wedges, rows)
 
 
 class _Mesh:
@@ -93,11 +136,13 @@ class _Mesh:
         faces: Triangles, shape (m, 3).
         starts: First entry in ``ends`` of each vertex, shape (n + 1,).
         ends: Neighbors, vertex by vertex.
-        is_open: Whether an odd number of faces share the edge to each neighbor.
+        is_open: Whether an odd number of faces share the edge to each neighbor, or it is between
+            wedges.
+        is_locked: Vertices that are not merged.
     """
 
-    def __init__(self, points: Points, faces: _Array) -> None:
-        from scipy.sparse import coo_matrix
+    def __init__(self, points: Points, faces: _Array, wedges: _Array | None = None) -> None:
+        from scipy.sparse import coo_matrix, csr_matrix
 
         self.points, self.faces = points, faces
         count, ones = len(points), np.ones(faces.size, np.int16)
@@ -111,7 +156,27 @@ class _Mesh:
         rows = np.repeat(np.arange(len(faces), dtype=np.int32), 3)
         incident = coo_matrix((ones, (tail, rows)), shape=(count, len(faces))).tocsr()
         self._face_starts, self._faces_of = incident.indptr, incident.indices
-        self.edges = edges
+        self.is_locked = np.zeros(count, bool)
+        if wedges is not None:
+            low, high = np.minimum(self.tails, self.ends), np.maximum(self.tails, self.ends)
+            keys = low.astype(np.int64) * count + high
+            self.is_open |= np.isin(keys, _find_seams(faces, wedges, count))
+            self.is_locked = self._find_junctions(wedges)
+        flags = (self.is_open.astype(np.int8), self.ends, self.starts)
+        self.borders = csr_matrix(flags, shape=(count, count))
+
+    def _find_junctions(self, wedges: _Array) -> npt.NDArray[np.bool_]:
+        """Find the vertices where borders meet or end, or with a wedge that has no border."""
+        borders = np.bincount(self.tails[self.is_open], minlength=len(self.points))
+        _, first = np.unique(wedges.reshape(-1), return_index=True)
+        fans = np.bincount(self.faces.reshape(-1)[first], minlength=len(self.points))
+        simple = ((borders == 0) & (fans == 1)) | ((borders == 2) & (fans <= 2))
+        return np.asarray(~simple)
+
+    def list_faces_of(self, vertices: _Array) -> tuple[_Array, _Array]:
+        """List the faces around vertices: the row in ``vertices`` and the face of each."""
+        rows, at = _list_entries(self._face_starts, vertices)
+        return rows, self._faces_of[at]
 
     def find_faces_around(self, vertices: _Array, onto: _Array) -> tuple[_Array, _Array, _Array]:
         """Find the faces around vertices.
@@ -119,9 +184,51 @@ class _Mesh:
         Returns:
             The row in ``vertices`` of each face, its corners, and whether ``onto`` is one of them.
         """
-        rows, at = _list_entries(self._face_starts, vertices)
-        corners = self.faces[self._faces_of[at]]
+        rows, faces = self.list_faces_of(vertices)
+        corners = self.faces[faces]
         return rows, corners, (corners == onto[rows][:, None]).any(axis=1)
+
+
+def _find_seams(faces: _Array, wedges: _Array, count: int) -> _Array:
+    """Find the edges at which wedges differ; return ``lower vertex * count + upper vertex``."""
+    tail, head = faces.reshape(-1).astype(np.int64), faces[:, [1, 2, 0]].reshape(-1)
+    at_tail, at_head = wedges.reshape(-1), wedges[:, [1, 2, 0]].reshape(-1)
+    forward = tail < head
+    keys = np.where(forward, tail * count + head, head * count + tail)
+    order = np.argsort(keys, kind="stable")
+    edges, starts = np.unique(keys[order], return_index=True)
+    differs = np.zeros(len(edges), bool)
+    for ends in (np.where(forward, at_tail, at_head), np.where(forward, at_head, at_tail)):
+        ends = ends[order]
+        differs |= np.minimum.reduceat(ends, starts) != np.maximum.reduceat(ends, starts)
+    return np.asarray(edges[differs])
+
+
+def _merge_wedges(
+    mesh: _Mesh, wedges: _Array, moved: _Array, onto: _Array
+) -> tuple[_Array, _Array, _Array]:
+    """Give the corners of merged vertices the wedges of the vertices they are merged into.
+
+    The faces with both vertices define which wedges correspond. A merge is dropped if a wedge has
+    no such face.
+
+    Returns:
+        The wedges, and the merges that remain.
+    """
+    if not len(moved):
+        return wedges, moved, onto
+    rows, faces = mesh.list_faces_of(moved)
+    corners, around = mesh.faces[faces], wedges[faces]
+    own = around[corners == moved[rows][:, None]]
+    target = corners == onto[rows][:, None]
+    shared = target.any(axis=1)
+    known = np.zeros(int(wedges.max()) + 1, bool)
+    known[own[shared]] = True
+    dropped = np.bincount(rows, ~known[own], len(moved)) > 0
+    shared &= ~dropped[rows]
+    number = np.arange(len(known))
+    number[own[shared]] = around[shared][target[shared]]
+    return number[wedges], moved[~dropped], onto[~dropped]
 
 
 def _list_entries(starts: _Array, rows: _Array) -> tuple[_Array, _Array]:
@@ -158,7 +265,7 @@ def _sum_initial_quadrics(mesh: _Mesh) -> _Floats:
         add(faces[:, corner], planes)
     if mesh.is_open.any():
         tail, head = faces.reshape(-1), faces[:, [1, 2, 0]].reshape(-1)
-        is_open = np.asarray(mesh.edges[tail, head]).reshape(-1) % 2 == 1
+        is_open = np.asarray(mesh.borders[tail, head]).reshape(-1) == 1
         tail, head, face = tail[is_open], head[is_open], np.flatnonzero(is_open) // 3
         along = points[head] - points[tail]
         lengths = np.linalg.norm(along, axis=1)
@@ -204,6 +311,7 @@ def _select_merges(
     on_border = np.zeros(count, bool)
     on_border[mesh.tails[mesh.is_open]] = True
     costs[on_border[mesh.tails] & ~mesh.is_open] = np.inf  # borders keep their shape
+    costs[mesh.is_locked[mesh.tails]] = np.inf
     least = np.minimum.reduceat(costs, mesh.starts[:-1])
     possible = np.isfinite(least)
     if not possible.any():

@@ -20,6 +20,7 @@ PRESET_NAMES = ("mujoco", "pybullet", "drake", "isaac", "genesis", "web", "foxgl
 
 _GROUPS = {
     "Output": "output formats srdf preset uri package_name meshes overwrite",
+    "Size": "max_triangles max_error max_texture",
     "Verification": "check force",
 }
 
@@ -63,6 +64,25 @@ _GROUPS = {
     show_default=True,
     metavar="FORMAT",
     help="Format of all meshes: keep, stl, obj (with materials and textures), glb.",
+)
+@click.option(
+    "--max-triangles",
+    type=click.IntRange(min=4),
+    metavar="N",
+    help="Maximum number of triangles of a visual mesh. Sharp edges and texture seams are kept.",
+)
+@click.option(
+    "--max-error",
+    type=click.FloatRange(min=0, min_open=True, max=1),
+    metavar="E",
+    help="Maximum distance between a visual mesh and its reduction, as a fraction of the diagonal "
+    "of the mesh's bounding box.  [default: 0.05 with --max-triangles]",
+)
+@click.option(
+    "--max-texture",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Maximum width and height of images [pixels].",
 )
 @click.option("--overwrite", is_flag=True, help="Overwrite files not written by urdftool.")
 @click.option(
@@ -121,6 +141,8 @@ def command(
 
         return report_refused(refused.findings, as_json=False)
     _report_notes(console, bundle)
+    if options.limits.is_set:
+        _report_sizes(console, bundle)
     write_bundle(output, bundle, overwrite=overwrite)
     _report(console, bundle, output)
     return _check(console, output, model) if check else 0
@@ -132,9 +154,16 @@ def _make_options(output: str, choices: dict[str, Any]) -> BundleOptions:
     Raises:
         UsageError: Options exclude each other.
     """
+    from ..bundle.limits import Limits
     from ..bundle.make import BundleOptions
     from ..bundle.output import is_zip
+    from ..extras import require
 
+    limits = Limits(choices["max_triangles"], choices["max_error"], choices["max_texture"])
+    if limits.reduces_meshes:
+        require("--max-triangles and --max-error", "scipy")
+    if limits.max_texture is not None:
+        require("--max-texture", "PIL")
     name = choices["package_name"]
     options = BundleOptions(
         choices["uri"] or "",
@@ -143,6 +172,7 @@ def _make_options(output: str, choices: dict[str, Any]) -> BundleOptions:
         choices["force"],
         choices["meshes"],
         choices["preset"] or "",
+        limits,
     )
     uri = options.uri_form
     if uri == "file" and is_zip(output):
@@ -158,6 +188,14 @@ def _report_notes(console: Console, bundle: Bundle) -> None:
 
     shown = [f for f in bundle.notes if f.severity > Severity.INFO or console.verbosity > 0]
     for line in format_lines(shown):
+        console.print_note(line)
+
+
+def _report_sizes(console: Console, bundle: Bundle) -> None:
+    """Print a table of the files that the limits changed, with sizes before and after."""
+    from ..report.bundle import format_sizes
+
+    for line in format_sizes(bundle.manifest.files, bundle.size_before, bundle.size_after):
         console.print_note(line)
 
 
