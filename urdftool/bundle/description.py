@@ -63,8 +63,8 @@ def rewrite(
     missing: set[str],
     *,
     visual_uris: Mapping[str, str] | None = None,
-    comment: str,
-    strippath: bool,
+    comment: str = "",
+    strippath: bool = False,
 ) -> bytes:
     """Return a description with new URIs.
 
@@ -73,13 +73,15 @@ def rewrite(
         uris: New URIs of files by those written.
         visual_uris: URIs in visuals, where they differ; None for none.
         missing: URIs of meshes and textures whose elements are removed.
-        comment: Text of a comment before the root element.
+        comment: Text of a comment before the root element; empty for none.
         strippath: Whether to set the option with which MuJoCo before version 4 keeps the folders
             of mesh paths.
     """
     source = parse_source(file)
     root = source.document.root
-    edits = [Edit(root.start, root.start, f"<!-- {comment} -->\n".encode())]
+    edits = []
+    if comment:
+        edits.append(Edit(root.start, root.start, f"<!-- {comment} -->\n".encode()))
     removed = {id(element) for element in _find_missing_parts(root, missing)}
     for element in root.walk():
         if any(id(above) in removed for above in _list_ancestors(element)):

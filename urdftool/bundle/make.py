@@ -14,6 +14,7 @@ from ..finding import Finding
 from ..formats.defects import refuse
 from ..model.elements import Mesh, Robot
 from ..source.document import STDIN
+from ..storage import cache_folder
 from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
 from .layout import make_portable
@@ -86,12 +87,15 @@ class Bundle:
     size_after: int = 0
 
 
-def make_bundle(robot: Robot, options: BundleOptions | None = None) -> Bundle:
+def make_bundle(
+    robot: Robot, options: BundleOptions | None = None, original: Robot | None = None
+) -> Bundle:
     """Make a bundle of a robot.
 
     Args:
         robot: A robot that was read from URDF or xacro.
         options: Options; None for the defaults.
+        original: The robot in another format of which ``robot`` was made; None if there is none.
 
     Raises:
         Refused: A mesh is missing or is not a mesh.
@@ -113,7 +117,9 @@ def make_bundle(robot: Robot, options: BundleOptions | None = None) -> Bundle:
         for uri, asset in found.assets.items()
         if asset in stored.visual_places
     }
-    bundle = Bundle(description, dict(stored.contents), _make_manifest(robot, description, options))
+    source_robot = original or robot
+    manifest = _make_manifest(robot.name, source_robot, description, options)
+    bundle = Bundle(description, dict(stored.contents), manifest)
     source = Path(bundle.manifest.source).name
     relative = options.uri_form == "relative" and any(
         a.kind == "mesh" for a in found.assets.values()
@@ -130,7 +136,7 @@ def make_bundle(robot: Robot, options: BundleOptions | None = None) -> Bundle:
         bundle.manifest.changes.append('<compiler strippath="false"/> in <mujoco>')
     bundle.manifest.missing = sorted(found.missing)
     bundle.notes = [*found.notes, *found.defects, *_report_conversions(robot, found, stored)]
-    _add_origin(bundle, robot, stored)
+    _add_origin(bundle, source_robot, stored)
     if options.uri_form == "package":
         licenses = [text for texts in bundle.manifest.licenses.values() for text in texts]
         folders = {path.partition("/")[0] for path in bundle.files if "/" in path}
@@ -209,7 +215,7 @@ def _choose_package_name(options: BundleOptions, robot: str) -> str:
     return name
 
 
-def _make_manifest(robot: Robot, description: str, options: BundleOptions) -> Manifest:
+def _make_manifest(name: str, robot: Robot, description: str, options: BundleOptions) -> Manifest:
     assert robot.source is not None
     own = robot.source.path
     is_file = own not in ("-", STDIN)
@@ -223,7 +229,7 @@ def _make_manifest(robot: Robot, description: str, options: BundleOptions) -> Ma
         changed["force"] = True
     changed |= {name: value for name, value in asdict(options.limits).items() if value is not None}
     arguments: Mapping[str, str] = robot.source.arguments
-    return Manifest(robot.name, description, source, dict(sorted(arguments.items())), changed)
+    return Manifest(name, description, source, dict(sorted(arguments.items())), changed)
 
 
 def _add_origin(bundle: Bundle, robot: Robot, stored: Stored) -> None:
@@ -237,10 +243,12 @@ def _add_origin(bundle: Bundle, robot: Robot, stored: Stored) -> None:
     for text in dict.fromkeys(texts):
         names[Path(text).absolute()] = name_source(text, description)
     manifest = bundle.manifest
+    generated = cache_folder(".")  # has the meshes that are written inside an MJCF or a stage
     manifest.files[bundle.description] = {"sources": list(dict.fromkeys(names.values()))}
     for place, paths in stored.sources.items():
         for path in paths:
-            names[path] = name_source(path, description)
+            is_generated = path.is_relative_to(generated)
+            names[path] = manifest.source if is_generated else name_source(path, description)
         manifest.files[place] = {"sources": list(dict.fromkeys(names[path] for path in paths))}
         if place in stored.reductions:  # without the fields that do not apply
             change = asdict(stored.reductions[place])

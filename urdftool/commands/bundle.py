@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,6 +16,7 @@ from .read_other import read_any
 
 if TYPE_CHECKING:
     from ..bundle.make import Bundle, BundleOptions
+    from ..finding import Finding
     from ..model.elements import Robot
 
 PRESET_NAMES = ("mujoco", "pybullet", "drake", "isaac", "genesis", "web", "foxglove")
@@ -127,25 +130,47 @@ def command(
             return _check(console, robot[0])
         raise click.UsageError("missing option -o OUT: a folder or a .zip file")
     options = _make_options(output, choices)
-    model = read_any(console, robot, package, package_path, edit="bundle")
-    try:
-        bundle = make_bundle(model, options)
-        if formats or srdf is not None:
-            from ..bundle.add_formats import add_formats, add_srdf  # imports numpy
+    model = read_any(console, robot, package, package_path)
+    with TemporaryDirectory(prefix="urdftool-") as folder:
+        try:
+            original, model, losses = _convert(model, Path(os.path.realpath(folder)), options.force)
+            bundle = make_bundle(model, options, original)
+            bundle.notes[:0] = losses
+            if formats or srdf is not None:
+                from ..bundle.add_formats import add_formats, add_srdf  # imports numpy
 
-            if srdf is not None:
-                add_srdf(bundle, model, srdf)
-            add_formats(bundle, formats, force=options.force, srdf=srdf)
-    except Refused as refused:
-        from .export_report import report_refused
+                if srdf is not None:
+                    add_srdf(bundle, model, srdf)
+                add_formats(bundle, formats, force=options.force, srdf=srdf)
+        except Refused as refused:
+            from .export_report import report_refused
 
-        return report_refused(refused.findings, as_json=False)
-    _report_notes(console, bundle)
-    if options.limits.is_set:
-        _report_sizes(console, bundle)
-    write_bundle(output, bundle, overwrite=overwrite)
-    _report(console, bundle, output)
-    return _check(console, output, model) if check else 0
+            return report_refused(refused.findings, as_json=False)
+        _report_notes(console, bundle)
+        if options.limits.is_set:
+            _report_sizes(console, bundle)
+        write_bundle(output, bundle, overwrite=overwrite)
+        _report(console, bundle, output)
+        return _check(console, output, model) if check else 0
+
+
+def _convert(robot: Robot, folder: Path, force: bool) -> tuple[Robot | None, Robot, list[Finding]]:
+    """Return the original if it is not URDF, the robot as URDF, and the losses between them.
+
+    Args:
+        robot: The robot.
+        folder: An empty folder for the URDF.
+        force: Whether to continue in spite of defects.
+
+    Raises:
+        Refused: The robot has defects that prevent the conversion.
+    """
+    if robot.format == "urdf":
+        return None, robot, []
+    from ..bundle.from_other import convert_to_urdf
+
+    converted = convert_to_urdf(robot, folder, force=force)
+    return robot, converted.robot, converted.losses
 
 
 def _make_options(output: str, choices: dict[str, Any]) -> BundleOptions:
