@@ -319,9 +319,7 @@ class Partition:
         return living
 
 
-def clip(
-    points: Points, faces: Faces, plane: Points, flush: float = 0.0
-) -> tuple[Points, Faces]:
+def clip(points: Points, faces: Faces, plane: Points, flush: float = 0.0) -> tuple[Points, Faces]:
     """Return the part of a surface below a plane.
 
     A triangle in the plane belongs to the side of its solid, which is behind its normal.
