@@ -35,6 +35,15 @@ def test_boxes_agree_with_the_direct_sum(missing):
     np.testing.assert_allclose(got, direct(points, triangles), atol=0.03)
 
 
+def test_groups_of_boxes_agree_with_the_direct_sum():
+    triangles = corners(trimesh.creation.torus(1.0, 0.3, 300, 200))[700:]
+    surface = sort_into_boxes(triangles)
+    assert surface.groups is not None
+    points = spread_points(60, np.full(3, -1.4), np.full(3, 1.4))
+    got = compute_winding_numbers(points, surface)
+    np.testing.assert_allclose(got, direct(points, triangles), atol=0.03)
+
+
 def test_inside_outside_and_inside_out():
     triangles = corners(trimesh.creation.icosphere(subdivisions=3))
     points = np.array([[0.0, 0, 0], [0.9, 0, 0], [1.2, 0, 0], [5, 5, 5]])
