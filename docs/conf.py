@@ -27,7 +27,7 @@ MENU = {
     "How-to": (
         *("adopting", "building", "howto/two-wheels", "howto/cad-to-simulation"),
         *("howto/collision-fleet", "howto/classic-to-gz", "howto/mujoco-scene"),
-        "howto/untrusted-input",
+        *("howto/mujoco-to-ros", "howto/untrusted-input"),
     ),
     "Reference": (
         *("rules/index", "configuration", "formats/urdf", "formats/sdf", "formats/mjcf"),

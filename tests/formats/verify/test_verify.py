@@ -236,3 +236,28 @@ def test_different_robots(urdftool, write):
     assert (
         "only 0 joints of A (2) and B (0) match" in result.err or "may be different" in result.err
     )
+
+
+def test_a_base_at_the_world_is_no_difference(write, urdftool):
+    """One file has a link for the world, as URDF has, and the other begins with the base."""
+    limit = '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    shape = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    arm = (
+        f'<link name="base">{shape}</link><link name="arm">{shape}</link>'
+        '<joint name="j" type="revolute"><parent link="base"/><child link="arm"/>'
+        f'<origin xyz="0 0 1"/>{limit}</joint>'
+    )
+    world = (
+        '<link name="world"/><joint name="anchor" type="fixed"><parent link="world"/>'
+        '<child link="base"/><origin xyz="0 0 0.5" rpy="0 0 1"/></joint>'
+    )
+    one = write("one.urdf", f'<robot name="r">{world}{arm}</robot>')
+    two = write("two.urdf", f'<robot name="r">{arm}</robot>')
+    for files in ((one, two), (two, one)):
+        result = urdftool("verify", *files)
+        assert (result.code, "differs" in result.out) == (0, False), result.out
+    three = write(
+        "three.urdf", f'<robot name="r">{arm}</robot>'.replace('0 0 1"/><ax', '0 0 1.1"/><ax')
+    )
+    result = urdftool("verify", one, three)
+    assert (result.code, result.out.count("joint 'j'")) == (1, 1)

@@ -39,14 +39,15 @@ def add_shape(
 ) -> None:
     """Add a visual or collision to the element of its link, or report why it is dropped."""
     kind = "visual" if isinstance(shape, Visual) else "collision"
-    for origin, geometry in _split(shape.origin, shape.geometry):
+    for number, (origin, geometry) in enumerate(_split(shape.origin, shape.geometry)):
         inner = _make_geometry(geometry, meshes)
         if inner is None:
             name = get_shape_name(geometry)
             text = f"{kind} of link '{link.name}' is dropped, since URDF has no shape '{name}'"
             written.report_loss("shape", text, shape.place, kind="link", name=link.name)
             continue
-        attributes = {"name": shape.name} if shape.name else {}
+        end = f"_end{number}" if number else ""  # names in a link are unique
+        attributes = {"name": shape.name + end} if shape.name else {}
         outer = etree.SubElement(node, kind, attributes)
         add_origin(outer, origin)
         etree.SubElement(outer, "geometry").append(inner)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...model.elements import Joint, Robot
+from ...model.world import WORLD
 from ..mechanics import Array
 from .bodies import Body, compute_axis
 from .difference import Comparison, Difference
@@ -78,7 +79,7 @@ def compare_robots(
     one, two = pair.a.by_name[pair.a.root], pair.b.by_name[pair.b.root]
     _compare_base(pair, comparison)
     frame = _align_base(walk, one, two)
-    if measure_largest(frame) > 1e-6:
+    if measure_largest(frame) > 1e-6 and (one.name == WORLD) == (two.name == WORLD):
         _add_base_pose(pair, Match(one, two, frame), comparison)
     _compare_tree(walk, Match(one, two, frame))
     for name, other in list(pair.joints.items()):
