@@ -30,8 +30,8 @@ MENU = {
         *("howto/mujoco-to-ros", "howto/untrusted-input"),
     ),
     "Reference": (
-        *("rules/index", "configuration", "formats/urdf", "formats/sdf", "formats/mjcf"),
-        *("formats/mjcf_runs", "formats/usd"),
+        *("rules/index", "configuration", "formats/commands", "formats/urdf", "formats/sdf"),
+        *("formats/mjcf", "formats/mjcf_runs", "formats/usd"),
         *("python", "completion"),
     ),
     "Measurements": (

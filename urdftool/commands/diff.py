@@ -89,6 +89,11 @@ def command(
     inputs = [file.path for robot in (a, b) if robot.source for file in robot.source.files]
     write_result(text, output, inputs=inputs)
     console.print_note(report.summarize(names, changes))
+    if changes and a.format != b.format:
+        console.print_note(
+            "the files have different formats; 'urdftool verify' compares what they mean, without "
+            "names of files and frames that were added"
+        )
     return int(bool(changes))
 
 

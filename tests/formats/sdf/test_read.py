@@ -348,3 +348,17 @@ def test_include_cycles_end(tmp_path):
 def test_an_element_with_an_undeclared_prefix_is_passed_over(tmp_path):
     body = '<link name="a"><drake:joint name="x"/></link>'
     assert read(sdf(tmp_path, body)).robot.link["a"].mass == 1.0
+
+
+def test_contacts_within_a_model_and_damping_of_links_are_reported(write):
+    link = '<link name="{}">{}</link>'
+    decay = "<velocity_decay><linear>0.1</linear></velocity_decay>"
+    inner = link.format("a", "<self_collide>true</self_collide>") + link.format("b", decay)
+    text = f'<sdf version="1.9"><model name="m">{{}}{inner}</model></sdf>'
+    found = {f.code: f.data["names"] for f in read(write("m.sdf", text.format(""))).losses}
+    assert found == {"unread-self-collide": ["a"], "unread-velocity-decay": ["b"]}
+    on = text.format("<self_collide>1</self_collide>")
+    found = {f.code: f.data["names"] for f in read(write("m.sdf", on)).losses}
+    assert found["unread-self-collide"] == ["m", "a"]
+    off = on.replace(">1<", ">0<").replace(">true<", ">false<")
+    assert {f.code for f in read(write("m.sdf", off)).losses} == {"unread-velocity-decay"}

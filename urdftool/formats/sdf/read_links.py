@@ -33,7 +33,7 @@ from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
 from ...source.document import Element
 from ..reading import Losses
-from .read_scope import Scope
+from .read_scope import SELF_COLLIDE, Scope
 from .read_values import number, read_flag, read_numbers, read_pose, read_text, read_vector
 
 _TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
@@ -85,6 +85,10 @@ def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> 
         context.record_loss("gravity", "links without gravity are read as others", element)
     if read_flag(element, "kinematic"):
         context.record_loss("kinematic", "kinematic links are read as others", element)
+    if read_flag(element, "self_collide"):
+        context.record_loss("self-collide", SELF_COLLIDE, element)
+    if element.find_child("velocity_decay") is not None:
+        context.record_loss("velocity-decay", "damping of links in space is not read", element)
     return link
 
 

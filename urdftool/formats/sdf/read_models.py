@@ -13,7 +13,7 @@ from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
 from ..reading import Losses
-from .read_scope import MODEL, Item, Scope, read_own_pose
+from .read_scope import MODEL, SELF_COLLIDE, Item, Scope, read_own_pose
 from .read_values import Version, read_flag, read_text, read_version
 
 NEWEST: Version = (1, 12)
@@ -118,6 +118,8 @@ class Models:
             elif child.tag == "gripper":
                 text = "grippers are not read"
                 self.losses.add("gripper", text, child.get("name") or "", child.place)
+        if read_flag(element, "self_collide"):
+            self.losses.add("self-collide", SELF_COLLIDE, scope.name, element.place)
 
     def _list_ancestors(self, scope: Scope | None) -> list[Scope]:
         above = []
