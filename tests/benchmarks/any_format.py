@@ -79,6 +79,8 @@ def describe(path: Path, folder: Path) -> Iterator[str]:
     for kind in ("urdf", "sdf", "mjcf", "usd"):
         words = ("export", kind, path, "-o", folder / kind, "--verify", "--format", "json")
         yield describe_export(run(*words))
+    bundle = run("bundle", path, "-o", folder / "bundle", "--check")
+    yield "complete" if not bundle.code else "refused"
     urdf = next((folder / "urdf").glob("*.urdf"))
     yield f"{run('verify', path, urdf).err.strip().splitlines()[-1].partition(': ')[2]}"
 
@@ -101,7 +103,8 @@ def describe_export(done: Run) -> str:
 
 NAMES = (
     *("lint", "info", "view", "graph", "simulate", "inertia robot", "collision --check"),
-    *("export urdf", "export sdf", "export mjcf", "export usd", "verify with that URDF"),
+    *("export urdf", "export sdf", "export mjcf", "export usd", "bundle --check"),
+    "verify with the URDF of export urdf",
 )
 
 
