@@ -3,7 +3,9 @@
 from pathlib import Path
 
 import pytest
+from lxml import etree
 
+import urdftool
 from urdftool.errors import ConfigError
 from urdftool.formats.common.actuator_config import read_actuator_config
 from urdftool.formats.mjcf.actuator import PART, TIMESTEP, position_gain
@@ -159,3 +161,19 @@ def test_a_file_of_gains_is_refused_from_the_command_line(urdftool, write, tmp_p
     assert result.code == 2
     assert 'a.toml: [joints."k"]: no joint that moves has this name' in result.err
     assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize(("limit", "expected"), [("1e9", ("10.0", None)), ("2", ("50.0", "-2 2"))])
+def test_a_limit_that_stands_for_none_gives_no_gain(tmp_path, limit, expected):
+    path = tmp_path / "r.urdf"
+    body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    path.write_text(
+        f'<robot name="r"><link name="a">{body}</inertial></link><link name="b">{body}</inertial>'
+        '</link><joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+        f'<limit effort="{"10" if limit == "2" else limit}" velocity="{limit}"/></joint></robot>'
+    )
+    written = urdftool.export_mjcf(urdftool.load(path), actuators="velocity", verify=True)
+    assert {check.verdict for check in written.checks} <= {"equal", "announced"}
+    (servo,) = etree.fromstring(written.text.encode()).find("actuator")
+    assert (f"{float(servo.get('kv')):.1f}", servo.get("ctrlrange")) == expected

@@ -179,7 +179,7 @@ def _build_element(
     assumed: dict[str, Gain],
 ) -> etree._Element:
     joint, kind = drive.joint, structure.get_kind(drive.joint)
-    effort = get_effort(joint)
+    effort = _drop_unlimited(get_effort(joint))
     inertia = inertias.get(joint.name, 0.0)
     element = etree.Element(drive.kind, name=joint.name, joint=joint.name)
     if settings.force_range is not None:
@@ -199,7 +199,8 @@ def _build_element(
         if limits is not None and limits[0] < limits[1]:
             element.set("inheritrange", "1")
     elif drive.kind == "velocity":
-        velocity = abs(joint.limit.velocity or 0.0) if joint.limit is not None else 0.0
+        limit = None if joint.limit is None else joint.limit.velocity
+        velocity = abs(_drop_unlimited(limit) or 0.0)
         damping = settings.kd
         if damping is None:
             assumed[joint.name] = choose_velocity_gain(kind, effort, velocity)
@@ -214,6 +215,14 @@ def _build_element(
             bound = effort / abs(drive.reduction)
             element.set("ctrlrange", format_numbers_text((-bound, bound)))
     return element
+
+
+UNLIMITED = 1e9
+"""Effort and velocity that stand for no limit, as ``export urdf`` writes them."""
+
+
+def _drop_unlimited(value: float | None) -> float | None:
+    return None if value is None or abs(value) >= UNLIMITED else value
 
 
 TIMESTEP = 0.002

@@ -23,6 +23,9 @@ DAMPING = 1e-6
 STIFFEST = 250.0
 """Maximum natural frequency of a position servo with an assumed gain [rad/s]."""
 
+_NO_LIMIT = 1e9
+"""Effort or velocity that is written where there is no limit, but URDF requires a number."""
+
 THREE_DIGITS = 6e-3
 """Relative change of a gain by rounding to three digits."""
 
@@ -227,6 +230,9 @@ def _drive(
     effort = abs(joint.limit.effort or 0.0) if joint.limit else 0.0
     effort = max(map(abs, force)) if force is not None else effort
     velocity = abs(joint.limit.velocity or 0.0) if joint.limit else 0.0
+    if not force and effort >= _NO_LIMIT:
+        effort = 0.0
+    velocity = velocity if velocity < _NO_LIMIT else 0.0
     slides = joint.type == "prismatic"
     if kind == "motor":
         bound = effort / abs(gear)
