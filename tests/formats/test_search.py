@@ -66,7 +66,7 @@ def test_without_mujoco_mjcf_is_skipped(folder, monkeypatch):
 def test_lint_checks_a_folder_of_all_formats(urdftool, folder):
     (folder / "r.urdf").write_text('<robot name="r"><link name="a"/></robot>')
     (folder / "worlds/fleet.sdf").unlink()
-    result = urdftool("lint", folder, "--format", "json", "--no-cache", "--exit-zero")
+    result = urdftool("lint", folder, "--format", "json", "--no-cache", "--exit-zero", "-j", "1", "-j", "1")
     report = json.loads(result.out)
     checked = {finding["path"].removeprefix(f"{folder}/") for finding in report["findings"]}
     assert {"robot/model.sdf"} <= checked
@@ -81,8 +81,8 @@ def test_what_is_not_read_is_printed_once_for_a_folder(urdftool, tmp_path):
     for name in "abc":
         text = MJCF.format(name).replace("<body", "<light/><body", 1)
         (tmp_path / f"{name}.xml").write_text(text)
-    result = urdftool("lint", tmp_path, "--no-cache", "--exit-zero")
+    result = urdftool("lint", tmp_path, "--no-cache", "--exit-zero", "-j", "1")
     assert result.err.count("[unread-light]") == 1
     assert "[unread-light] (and in 2 more files)" in result.err
-    verbose = urdftool("-v", "lint", tmp_path, "--no-cache", "--exit-zero")
+    verbose = urdftool("-v", "lint", tmp_path, "--no-cache", "--exit-zero", "-j", "1")
     assert verbose.err.count("[unread-light]") == 3
