@@ -80,7 +80,7 @@ def describe(path: Path, folder: Path) -> Iterator[str]:
         words = ("export", kind, path, "-o", folder / kind, "--verify", "--format", "json")
         yield describe_export(run(*words))
     bundle = run("bundle", path, "-o", folder / "bundle", "--check")
-    yield "complete" if not bundle.code else "refused"
+    yield bundle.err.strip().splitlines()[-1].rpartition(": ")[2]
     urdf = next((folder / "urdf").glob("*.urdf"))
     yield f"{run('verify', path, urdf).err.strip().splitlines()[-1].partition(': ')[2]}"
 

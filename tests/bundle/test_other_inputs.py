@@ -45,12 +45,12 @@ def test_losses_are_reported(urdftool, write):
     write(
         "a.sdf",
         '<sdf version="1.9"><model name="m"><link name="a"><visual name="v"><geometry>'
-        "<capsule><radius>0.1</radius><length>1</length></capsule></geometry></visual></link>"
+        "<ellipsoid><radii>1 2 3</radii></ellipsoid></geometry></visual></link>"
         "</model></sdf>",
     )
     result = urdftool("bundle", "a.sdf", "-o", "out")
     assert result.code == 0
-    assert "[lossy-capsule]" in result.err
+    assert "[lossy-shape]" in result.err
 
 
 def test_a_missing_mesh_is_refused(urdftool, write, tmp_path):

@@ -66,7 +66,7 @@ def test_without_mujoco_mjcf_is_skipped(folder, monkeypatch):
 def test_lint_checks_a_folder_of_all_formats(urdftool, folder):
     (folder / "r.urdf").write_text('<robot name="r"><link name="a"/></robot>')
     (folder / "worlds/fleet.sdf").unlink()
-    result = urdftool("lint", folder, "--format", "json", "--no-cache", "--exit-zero", "-j", "1", "-j", "1")
+    result = urdftool("lint", folder, "--format", "json", "--no-cache", "--exit-zero", "-j", "1")
     report = json.loads(result.out)
     checked = {finding["path"].removeprefix(f"{folder}/") for finding in report["findings"]}
     assert {"robot/model.sdf"} <= checked
