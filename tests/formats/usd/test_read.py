@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+import urdftool
 from tests.formats.usd.stages import body, export, joint, link, robot, stage, turning
 
 pytestmark = pytest.mark.library("pxr")
@@ -101,3 +102,18 @@ def test_planar_and_ball_joints_come_back(write, tmp_path):
     assert back.joint["p"].type == "planar"
     assert back.joint["p"].axis.xyz == pytest.approx((0, 1, 0))
     assert (back.joint["q"].type, back.joint["q"].parent) == ("floating", "b")
+
+
+def test_a_joint_of_a_link_without_mass_in_the_world(tmp_path):
+    """The link is no rigid body, so the joint holds the world in the stage."""
+    body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="world"/><link name="a">{body}</inertial></link>'
+        '<joint name="j" type="revolute"><parent link="world"/><child link="a"/>'
+        '<origin xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>'
+    )
+    urdftool.export_usd(urdftool.load(tmp_path / "r.urdf"), tmp_path / "r.usda")
+    robot = urdftool.load(tmp_path / "r.usda")
+    assert [link.name for link in robot.tree.roots] == ["world"]
+    assert [(j.name, j.type, j.parent) for j in robot.joints] == [("j", "revolute", "world")]
+    assert urdftool.verify(tmp_path / "r.urdf", robot).is_equal

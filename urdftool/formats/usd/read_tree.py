@@ -72,9 +72,13 @@ def add_tree(context: Context, robot: Robot) -> None:
     _set_shifts(context, tree)
     taken: set[str] = set()
     frames = _find_frames(context)
-    has_world = any(edge.first == "" and edge.kind.type != "fixed" for edge in tree)
-    stands = {path: pose for path, (body, pose) in frames.items() if body == ""}
-    if has_world and not stands:
+    stands = {context.names[path] for path, (body, _) in frames.items() if not body}
+    if any(
+        not edge.first
+        and edge.kind.type != "fixed"
+        and edge.prim.GetCustomDataByKey("urdf:parent") not in stands
+        for edge in tree
+    ):
         robot.links.append(Link(context.get_written(context.top), _take_name(WORLD, set())))
         context.names[""] = robot.links[0].name
     for path, prim in context.bodies.items():
@@ -85,7 +89,7 @@ def add_tree(context: Context, robot: Robot) -> None:
         prim = context.stage.GetPrimAtPath(path)
         robot.links.append(Link(context.get_written(prim), context.names[path]))
     for edge in tree:
-        if edge.first or "" in context.names:
+        if edge.first or "" in context.names or edge.kind.type != "fixed":
             joint = _make_joint(context, edge, frames, taken)
             robot.joints.append(joint)
             if actuator := read_actuator(context, edge.prim, joint, edge.kind.freedom):
