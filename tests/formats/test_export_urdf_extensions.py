@@ -56,6 +56,13 @@ MJCF = """
 """
 
 
+@pytest.fixture(scope="module")
+def source(tmp_path_factory):
+    path = tmp_path_factory.mktemp("source") / "arm.xml"
+    path.write_text(MJCF)
+    return format_named("mjcf").read(path).robot
+
+
 @pytest.fixture
 def exported(urdftool, write, tmp_path):
     result = urdftool(
@@ -159,8 +166,8 @@ def test_what_is_not_written_is_announced(urdftool, write):
         ("arm.srdf", b'value="0.5"', b'value="0.4"', "srdf"),
     ],
 )
-def test_a_changed_extension_differs(write, file, old, new, row):
-    robot = format_named("mjcf").read(write("arm.xml", MJCF)).robot
+def test_a_changed_extension_differs(source, file, old, new, row):
+    robot = source
     written = format_named("urdf").write(robot, Options())
     assert old in written.files[file]
     written.files[file] = written.files[file].replace(old, new)

@@ -76,13 +76,12 @@ def test_lint_checks_a_folder_of_all_formats(urdftool, folder):
     assert (only.code, "SDF without a link of its own" in only.err) == (0, True)
 
 
-@pytest.mark.library("mujoco")
 def test_what_is_not_read_is_printed_once_for_a_folder(urdftool, tmp_path):
     for name in "abc":
-        text = MJCF.format(name).replace("<body", "<light/><body", 1)
-        (tmp_path / f"{name}.xml").write_text(text)
-    result = urdftool("lint", tmp_path, "--no-cache", "--exit-zero", "-j", "1")
+        text = SDF.format(name).replace("/></model>", '><light name="l"/></link></model>')
+        (tmp_path / f"{name}.sdf").write_text(text)
+    words = ("lint", tmp_path, "--no-cache", "--exit-zero", "-j", "1")
+    result = urdftool(*words)
     assert result.err.count("[unread-light]") == 1
     assert "[unread-light] (and in 2 more files)" in result.err
-    verbose = urdftool("-v", "lint", tmp_path, "--no-cache", "--exit-zero", "-j", "1")
-    assert verbose.err.count("[unread-light]") == 3
+    assert urdftool("-v", *words).err.count("[unread-light]") == 3
