@@ -389,7 +389,7 @@ def _compare_shapes(
             if box is not None:
                 here.setdefault(top, []).append(box)
     for shape in answer["shapes"]:
-        link = links.get(shape["body"])
+        link = links.get(shape["body"]) if shape["body"] else robot.tree.roots[0].name
         if shape["collides"] and shape["bounds"] and link is not None:
             frame = poses[group[link]].invert() @ poses[link]
             turn, shift = np.array(frame.rotation), np.array(frame.translation)

@@ -386,3 +386,18 @@ def test_a_mimic_joint_without_limits_is_reported_for_physx(stage):
     )  # fmt: skip
     assert ("lossy-physx-mimic", "m") in codes(stage(*parts)[1])
     assert ("lossy-physx-mimic", "m") not in codes(stage(*parts, target="newton")[1])
+
+
+def test_scenery_without_mass_has_no_body(stage, write):
+    import urdftool
+
+    made, written = stage(link("ground", 0, BOX, inertia=""))
+    assert bodies(made) == []
+    assert made.GetPrimAtPath("/r/ground/collisions/box").HasAPI("PhysicsCollisionAPI")
+    assert not made.GetPrimAtPath("/r/joints/root_joint")
+    assert "lossy-massless-body" not in {code for code, _ in codes(written)}
+    path = write("ground.usda", "")
+    made.Export(path)
+    read = urdftool.load(path)
+    assert list(read.link) == ["ground"]
+    assert len(read.link["ground"].collisions) == 1

@@ -143,10 +143,10 @@ def _choose_massive_base(plan: Bodies, root: Link, written: Written) -> Bodies:
         for name in frames:
             carrier[name], pose[name] = joint.child, at @ plan.pose[name]
         return Bodies(robot, plan.free, carrier, pose, joint.child)
-    if len(below) == 1 and (not plan.free or below[0].type == "floating"):
+    floats = len(below) == 1 and below[0].type == "floating"
+    if floats or (len(below) < 2 and not plan.free):
         carrier = {n: "" if body == root.name else body for n, body in plan.carrier.items()}
-        base = below[0].child if below[0].type == "floating" else ""
-        return Bodies(robot, plan.free, carrier, plan.pose, base)
+        return Bodies(robot, plan.free, carrier, plan.pose, below[0].child if floats else "")
     return plan
 
 
