@@ -65,7 +65,7 @@ class Context:
                 self.joints.append(prim)
         self.names: dict[str, str] = {}
         self.shifts: dict[str, Pose] = {}
-        if not self.bodies:
+        if not self.bodies and not self.is_ours:
             raise ModelError("the stage has no rigid body", at=self.get_place(self.top))
 
     def _find_top(self, articulation: str) -> Usd.Prim:

@@ -224,7 +224,7 @@ def _find_root(context: Context, edges: list[_Edge]) -> str:
             return edge.second
     children = {edge.second for edge in edges}
     tops = [path for path in context.bodies if path not in children]
-    return (tops or list(context.bodies))[0]
+    return next(iter(tops or context.bodies), "")
 
 
 def _set_shifts(context: Context, tree: list[_Edge]) -> None:
@@ -355,7 +355,7 @@ def _add_base(
     context: Context, robot: Robot, root: str, frames: dict[str, tuple[str, Pose]]
 ) -> None:
     """Set the base: free, unless a joint holds it in the world."""
-    held = any(_is_anchor(context, prim) for prim in context.joints)
+    held = not context.bodies or any(_is_anchor(context, prim) for prim in context.joints)
     top = next((path for path in frames if _is_root(context, path)), root)
     pose = (
         context.get_pose(context.stage.GetPrimAtPath(top))
