@@ -25,6 +25,7 @@ ARM = robot(
           '<limit lower="-2" upper="2" effort="1" velocity="1"/>'
           '<mimic joint="j" multiplier="-1.5" offset="0.2"/>'),
     link("other", 0.25),
+    '<gazebo reference="arm"><mu1>0.3</mu1><mu2>0.3</mu2></gazebo>',
 )  # fmt: skip
 
 
@@ -110,6 +111,13 @@ def test_newton_reads_the_same(write):
     rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
     assert rows["Newton: shapes"].verdict == "differs"
     assert rows["Newton: colliders"].verdict == "equal"
+    assert rows["Newton: friction"].verdict == "equal"
+    assert b"dynamicFriction = 0.3" in written.files["r.usda"]
+    written.files["r.usda"] = written.files["r.usda"].replace(
+        b"dynamicFriction = 0.3", b"dynamicFriction = 0.5"
+    )
+    rows = {check.name: check for check in checks_of(path, written, file="r.usda")}
+    assert rows["Newton: friction"].verdict == "differs"
 
 
 @pytest.mark.parametrize("name", ["arm.usdc", "arm.usdz"])

@@ -401,3 +401,41 @@ def test_scenery_without_mass_has_no_body(stage, write):
     read = urdftool.load(path)
     assert list(read.link) == ["ground"]
     assert len(read.link["ground"].collisions) == 1
+
+
+def test_friction_of_contact_is_a_physics_material(stage):
+    from pxr import UsdShade
+
+    contact = '<contact><lateral_friction value="0.4"/></contact>'
+    block = '<gazebo reference="b"><mu1>0.2</mu1><mu2>0.1</mu2></gazebo>'
+    made, written = stage(
+        link("a", 1, BOX + contact), joint("j", "a", "b"), link("b", 1, BOX), block,
+        joint("k", "a", "c"), link("c", 1, BOX),
+    )  # fmt: skip
+    found = {}
+    for name in "abc":
+        prim = made.GetPrimAtPath(f"/r/{name}/collisions/box")
+        material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+        if material:
+            found[name] = value(material.GetPrim(), "physics:dynamicFriction")
+    assert found == {"a": pytest.approx(0.4), "b": pytest.approx(0.2)}
+    assert ("lossy-friction", "b") in codes(written)
+
+
+def test_friction_of_a_mesh_that_two_links_use_is_that_of_each(stage, write):
+    from pxr import UsdShade
+
+    write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    shape = '<collision><geometry><mesh filename="tetra.obj"/></geometry></collision>'
+    made, _ = stage(
+        link("a", 1, shape), joint("j", "a", "b"), link("b", 1, shape), joint("k", "a", "c"),
+        link("c", 1, shape), '<gazebo reference="b"><mu1>0.2</mu1></gazebo>',
+    )  # fmt: skip
+    found = {}
+    for name in "abc":
+        prim = made.GetPrimAtPath(f"/r/{name}/collisions/mesh")
+        collider = prim.GetChild("mesh")
+        assert prim.IsInstance() == (name != "b")
+        material = UsdShade.MaterialBindingAPI(collider).GetDirectBinding("physics").GetMaterial()
+        found[name] = bool(material)
+    assert found == {"a": False, "b": True, "c": False}

@@ -7,6 +7,7 @@ from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
 from ...rules.gazebo.block_values import is_false
 from ...rules.gazebo.keywords import is_true
+from ..common.contact_friction import get_gazebo_friction
 from ..written import Written
 from .digits import number_text
 
@@ -55,11 +56,7 @@ def link_friction(robot: Robot, link: str) -> dict[str, str]:
     MuJoCo uses the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
     default gets a ``priority``, so that it is used unchanged; a caster with friction 0 slides.
     """
-    sliding = None
-    for block in robot.extensions.get(link, ()):
-        for keyword in ("mu1", "mu"):
-            value = number(block.get_value(keyword))
-            sliding = value if value is not None and value >= 0 else sliding
+    sliding = get_gazebo_friction(robot, link)
     if sliding is None:
         return {}
     usual = DEFAULT_FRICTION.split()

@@ -82,12 +82,18 @@ class Meshes:
         """Return the keys that several shapes use."""
         return {key for key, count in Counter(self.uses.values()).items() if count > 1}
 
-    def write(self, prim: Usd.Prim, mesh: Mesh) -> bool:
-        """Write a mesh below a prim, or as an instance; return False if it cannot be read."""
+    def write(self, prim: Usd.Prim, mesh: Mesh, *, is_shared: bool = True) -> bool:
+        """Write a mesh below a prim, or as an instance; return False if it cannot be read.
+
+        Args:
+            prim: The prim.
+            mesh: The mesh.
+            is_shared: Whether it may be an instance, whose parts have no materials of their own.
+        """
         key = self.uses.get(id(mesh))
         if key is None:
             return False
-        if key in self.shared:
+        if is_shared and key in self.shared:
             prim.GetReferences().AddInternalReference(self._write_prototype(key))
             prim.SetInstanceable(True)
         else:

@@ -87,6 +87,7 @@ def _list_shapes(builder: Any) -> list[dict[str, Any]]:
             "type": str(getattr(builder.shape_type[index], "name", builder.shape_type[index])),
             "scale": [float(part) for part in builder.shape_scale[index]],
             "pose": [float(part) for part in builder.shape_transform[index]],
+            "friction": float(builder.shape_material_mu[index]),
             "bounds": _compute_bounds(builder, index),
             "collides": bool(builder.shape_flags[index] & 2),
         }

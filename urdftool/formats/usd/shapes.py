@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
 
 from ...diagnostic import Severity
 from ...geometry.tessellate import tessellate
@@ -31,6 +31,7 @@ from .materials import MaterialWriter
 from .meshes import Meshes, make_collider, write_triangles
 from .names import make_identifier
 from .stage import GEOMETRY, PHYSICS, set_pose
+from .surfaces import SurfaceWriter
 
 PLANE_SIZE = 100.0
 """Edge [m] of an unlimited plane where it is drawn."""
@@ -44,16 +45,19 @@ class ShapeWriter:
         links: Writer of links.
         meshes: Mesh files.
         materials: Writer of materials.
+        surfaces: Writer of friction.
         written: Receives the losses.
     """
 
     links: LinkWriter
     meshes: Meshes
     materials: MaterialWriter
+    surfaces: SurfaceWriter
     written: Written
 
     def write(self, link: Link) -> None:
         """Write the visuals and collisions of a link."""
+        surface = self.surfaces.find_material(link)
         for scope, shapes in (("visuals", link.visuals), ("collisions", link.collisions)):
             names = UniqueNames()
             for shape in shapes:
@@ -62,7 +66,18 @@ class ShapeWriter:
                 stem = shape.name or get_shape_name(shape.geometry)
                 path = self.links.get_path(link.name).AppendChild(scope)
                 name = names.take(make_identifier(stem, "shape"))
-                self._write_shape(link, shape, shape.geometry, path, name)
+                is_bound = surface is not None and scope == "collisions"
+                self._write_shape(link, shape, shape.geometry, path, name, is_shared=not is_bound)
+                if is_bound and surface is not None:
+                    self._bind_surface(path.AppendChild(name), surface)
+
+    def _bind_surface(self, path: Sdf.Path, surface: UsdShade.Material) -> None:
+        """Bind a physics material to the collider of a shape, which is below it for a mesh."""
+        prim = self.links.builder.stage.GetPrimAtPath(path)
+        if prim:
+            for part in (prim, *prim.GetChildren()):
+                if part.HasAPI(UsdPhysics.CollisionAPI):
+                    self.surfaces.bind(part, surface)
 
     def _write_shape(
         self,
@@ -71,10 +86,12 @@ class ShapeWriter:
         geometry: Geometry,
         scope: Sdf.Path,
         name: str,
+        *,
+        is_shared: bool,
     ) -> None:
         stage = self.links.builder.stage
         with self.links.builder.edit_layer(GEOMETRY):
-            prim = self._create_geometry(scope, name, geometry)
+            prim = self._create_geometry(scope, name, geometry, is_shared=is_shared)
         if prim is None:
             self.written.report_loss(
                 "shape",
@@ -110,14 +127,16 @@ class ShapeWriter:
                     mesh = UsdPhysics.MeshCollisionAPI.Apply(prim)
                     mesh.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
 
-    def _create_geometry(self, scope: Sdf.Path, name: str, geometry: Geometry) -> Usd.Prim | None:
+    def _create_geometry(
+        self, scope: Sdf.Path, name: str, geometry: Geometry, *, is_shared: bool
+    ) -> Usd.Prim | None:
         """Create the prim of a shape without its pose; None if it cannot be written."""
         stage, path = self.links.builder.stage, scope.AppendChild(name)
         if isinstance(geometry, Mesh):
             if id(geometry) not in self.meshes.uses:
                 return None
             prim = UsdGeom.Xform.Define(stage, path).GetPrim()
-            self.meshes.write(prim, geometry)
+            self.meshes.write(prim, geometry, is_shared=is_shared)
             return prim
         if isinstance(geometry, Ellipsoid):
             return write_triangles(stage, path, *tessellate("ellipsoid", geometry.radii, 48))

@@ -22,6 +22,7 @@ from ...model.elements import (
     Robot,
     Sphere,
 )
+from ...model.read import number
 from ..check import Check
 from ..mechanics import Mechanics, get_origin_matrix
 from .verify_pair import FLOAT, Pair
@@ -33,6 +34,9 @@ HULL = 0.1
 
 The largest difference among the robots of example-robot-data is 6 %.
 """
+
+_DEFAULT_FRICTION = 1.0
+"""Newton's coefficient of friction for shapes without a material."""
 
 _LOST = ("lossy-shape", "mesh-not-found", "corrupt-mesh", "bad-scale")
 
@@ -53,6 +57,7 @@ def compare_colliders(
         "bounding box of the colliders of each body, relative; of hulls within 10 %",
         FLOAT,
     )
+    friction = Check("Newton: friction", "coefficient of contact of each collider", FLOAT)
     read: dict[str, list[dict[str, Any]]] = {}
     for shape in shapes:
         if shape["collides"]:
@@ -66,6 +71,10 @@ def compare_colliders(
         count.compare(float(len(own) != len(theirs)), name, known=lost)
         if len(own) != len(theirs) or not own:
             continue
+        ours = sorted(_get_friction(pair.source, link) for link, _ in own)
+        read_friction = sorted(shape["friction"] for shape in theirs)
+        for one, two in zip(ours, read_friction, strict=True):
+            friction.compare(abs(one - two), name, known=lost)
         root = frames[body] if body else np.eye(4)
         bounds = [_compute_bounds(pair.source, shape, np.linalg.inv(root) @ frames[link.name])
                   for link, shape in own]  # fmt: skip
@@ -75,7 +84,21 @@ def compare_colliders(
             difference = _measure_difference(np.array(bounds), np.array(got))
             allowed = HULL if has_mesh else FLOAT
             extent.compare(difference * FLOAT / allowed, name, known=lost)
-    return [count, extent]
+    return [count, extent, friction]
+
+
+def _get_friction(robot: Robot, link: Link) -> float:
+    """Return the coefficient of friction of a link: of Gazebo or Bullet, or Newton's default."""
+    found: float | None = None
+    for block in robot.extensions.get(link.name, ()):
+        for tag in ("mu1", "mu"):
+            value = number(block.get_value(tag))
+            found = value if value is not None and value >= 0 else found
+    contact = None if link.xml is None else link.xml.find_child("contact")
+    lateral = None if contact is None else contact.find_child("lateral_friction")
+    if found is None and lateral is not None:
+        found = number(lateral.get("value") or lateral.text)
+    return _DEFAULT_FRICTION if found is None or found < 0 else found
 
 
 def _group_by_body(pair: Pair) -> dict[str, list[Link]]:

@@ -27,6 +27,7 @@ from .names import Names, make_names
 from .options import Options
 from .shapes import ShapeWriter
 from .stage import ISAAC, LAYERS, PHYSX, StageBuilder
+from .surfaces import SurfaceWriter
 from .unexpressed import report_losses
 
 _APPROXIMATIONS = {"hull": "convexHull", "mesh": "none"}
@@ -75,7 +76,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
 
     links = LinkWriter(builder, bodies, names)
     links.write(inertias)
-    shapes = ShapeWriter(links, meshes, materials, written)
+    shapes = ShapeWriter(links, meshes, materials, SurfaceWriter(links, written), written)
     for link in robot.links:
         shapes.write(link)
     values = choose_joint_values(bodies, options.actuator_config, written)
