@@ -41,6 +41,7 @@ COMMANDS = (
     *(["inertia", "robot", ARM], ["inertia", "box", "--mass", "1", "--size", "1", "1", "1"]),
     *(["lint", ARM, "--exit-zero"], ["export", "sdf", ARM, "-o", "OUT/arm", "--verify"]),
     ["export", "mjcf", ARM, "-o", "OUT/arm_mj"],
+    ["export", "usd", ARM, "-o", "OUT/arm.usdc", "--verify"],
     ["collision", "mesh", "fixtures/meshes/cube.stl", "--method", "hull", "--no-cache"],
     ["view", ARM, "--picture", "OUT/arm.png", "--size", "64x48"],
 )

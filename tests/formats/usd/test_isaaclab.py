@@ -85,3 +85,17 @@ def test_a_file_of_the_user_is_kept(urdftool, write):
     write("dog.py", "mine = 1\n")
     assert urdftool("export", "usd", path, "-o", "dog.usdc", "--isaaclab", "dog.py").code == 2
     assert urdftool("export", "usd", path, "--isaaclab", "dog.py").code == 2
+
+
+def test_limits_of_an_actuator_file_are_those_of_the_configuration(urdftool, write, load, tmp_path):
+    path = write("dog.urdf", ROBOT)
+    gains = write(
+        "gains.toml", '[joints."*_hip_joint"]\nkp = 80\narmature = 0.02\nforce-range = 15\n'
+    )
+    file = tmp_path / "dog.py"
+    result = urdftool("export", "usd", path, "-o", "dog.usdc", "--base", "free",
+                      "--actuator-config", gains, "--isaaclab", file)  # fmt: skip
+    assert result.code == 0
+    group = load(file)["R_CFG"].actuators["hip"]
+    assert (group.joint_effort_limit, group.armature) == (15, 0.02)
+    assert "stiffness and damping" not in result.err
