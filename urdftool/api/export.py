@@ -16,8 +16,8 @@ from ..source.description import GltfUp
 if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.common.base import Base
+    from ..formats.common.cut import Cut
     from ..formats.common.inertia_repair import FixInertia
-    from ..formats.mjcf.cut import Cut
     from ..formats.mjcf.options import Actuators, Exclude
 
 
@@ -275,7 +275,7 @@ def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut |
     from ..collision.parallel import compute_all
     from ..collision.settings import Settings
     from ..errors import MissingDependency
-    from ..formats.mjcf.cut import Cut
+    from ..formats.common.cut import Cut
     from ..storage import DiskCache, cache_folder
 
     settings = Settings(method="coacd", max_error=0.01, max_hulls=32)

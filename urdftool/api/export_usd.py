@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -23,6 +24,7 @@ def export_usd(
     self_collision: bool | None = None,
     actuator_config: str | Path | None = None,
     approximation: Literal["hull", "mesh"] = "hull",
+    decompose: bool = False,
     fix_inertia: FixInertia = "none",
     force: bool = False,
     verify: bool = False,
@@ -41,6 +43,7 @@ def export_usd(
         actuator_config: A TOML file with gains, armature, damping, friction and force range of
             joints.
         approximation: Collision geometry of a mesh: its convex hull, or its triangles.
+        decompose: Whether to decompose collision meshes into convex pieces, with CoACD.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
         force: Whether to continue past errors if a robot remains.
         verify: Whether to read the result back and compare it; ``checks`` has the result.
@@ -57,8 +60,10 @@ def export_usd(
 
     require("export_usd", "pxr")
     from ..formats.usd.options import Options
+    from .export import cut_meshes
 
     usd = format_named("usd")
+    axes = "y" if robot.source is None else robot.source.gltf_up
     options = Options(
         target,
         base,
@@ -67,6 +72,7 @@ def export_usd(
         self_collision,
         None if actuator_config is None else Path(actuator_config),
         approximation,
+        partial(cut_meshes, gltf_up=axes) if decompose else None,
         fix_inertia,
         force,
         Path(output).name if output is not None and usd.has_suffix(output) else "",

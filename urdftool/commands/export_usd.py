@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from .read_other import read_any
 
 _GROUPS = {
     "Output": "output target layers isaaclab isaaclab_version overwrite style",
-    "Robot": "base srdf self_collision actuator_config approximation fix_inertia",
+    "Robot": "base srdf self_collision actuator_config approximation fix_inertia decompose",
     "Verification": "verified strict force",
 }
 
@@ -90,6 +91,7 @@ _GROUPS = {
     show_default=True,
     help="Collision geometry of a mesh: its convex hull, or its triangles.",
 )
+@click.option("--decompose", is_flag=True, help="Decompose collision meshes into convex pieces.")
 @add_fix_inertia_option
 @make_export_options(
     mesh_dir="",
@@ -110,6 +112,7 @@ def command(
     package_path: tuple[str, ...],
     isaaclab: Path | None,
     isaaclab_version: str,
+    decompose: bool,
     overwrite: bool,
     strict: bool,
     verified: bool,
@@ -125,6 +128,7 @@ def command(
         urdftool export usd panda.urdf -o panda.usdc --verify
         urdftool export usd quadruped.urdf.xacro -o q/ --base free --target isaac
     """  # noqa: D301 -- click's mark for lines it must not wrap
+    from ..api.export import cut_meshes
     from ..extras import require
     from ..formats.registry import format_named
     from .export_report import run_export
@@ -135,7 +139,12 @@ def command(
     usd, place = format_named("usd"), output or "-"
     model = read_any(console, robot, package, package_path, quiet=True)
     report_gltf_axes(console, model)
-    options = Options(file=Path(place).name if usd.has_suffix(place) else "", **choices)
+    axes = "y" if model.source is None else model.source.gltf_up
+    options = Options(
+        file=Path(place).name if usd.has_suffix(place) else "",
+        cutter=partial(cut_meshes, gltf_up=axes) if decompose else None,
+        **choices,
+    )
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
     if options.file and not overwrite:

@@ -439,3 +439,29 @@ def test_friction_of_a_mesh_that_two_links_use_is_that_of_each(stage, write):
         material = UsdShade.MaterialBindingAPI(collider).GetDirectBinding("physics").GetMaterial()
         found[name] = bool(material)
     assert found == {"a": False, "b": True, "c": False}
+
+
+def test_collision_meshes_are_decomposed_into_scaled_pieces(stage, write):
+    import numpy as np
+
+    from urdftool.formats.common.cut import Cut
+
+    write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    shape = '<{}><geometry><mesh filename="tetra.obj" scale="1 1 -2"/></geometry></{}>'
+    shapes = shape.format("collision", "collision") + shape.format("visual", "visual")
+    piece = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]]), np.array([[0, 2, 1]])
+
+    def cutter(paths):
+        return {path: Cut([piece, piece], 0.01) for path in paths}
+
+    made, written = stage(link("a", 1, shapes), cutter=cutter)
+    prims = made.GetPrimAtPath("/r/a/collisions/mesh").GetChildren()
+    assert [prim.GetName() for prim in prims] == ["mesh_0", "mesh_1"]
+    assert {value(prim, "physics:approximation") for prim in prims} == {"convexHull"}
+    points = np.array(value(prims[0], "points"))
+    corners = value(prims[0], "faceVertexIndices")
+    assert points[:, 2].min() == -2 or len(points) == 3
+    normal = np.cross(*(points[corners[i]] - points[corners[0]] for i in (1, 2)))
+    assert normal[2] > 0
+    assert ("lossy-convex", "a") in codes(written)
+    assert len(made.GetPrimAtPath("/r/a/visuals/mesh").GetChildren()) == 1

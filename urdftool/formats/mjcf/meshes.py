@@ -13,12 +13,12 @@ from ...finding import Finding
 from ...geometry.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..common.assets import find_file
+from ..common.cut import Cut, Cutter
 from ..common.missing_files import create_missing_mesh
 from ..common.naming import UniqueNames, replace_file_name
 from ..defects import make_defect
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
-from .cut import Cut, Cutter
 from .digits import format_numbers_text
 from .obj import write_obj_bytes
 from .options import Options

@@ -9,8 +9,8 @@ from typing import Literal
 
 from ...model.elements import Robot
 from ..common.base import Base
+from ..common.cut import Cutter
 from ..common.inertia_repair import FixInertia
-from .cut import Cutter
 
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Exclude = Literal["touching", "adjacent", "none"]

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics, Vt
 
+from ...diagnostic import Severity
 from ...errors import MeshError
 from ...finding import Finding
 from ...geometry.load import load_mesh
@@ -17,6 +18,7 @@ from ...geometry.mesh import Faces, Part, Points
 from ...geometry.mesh import Mesh as Triangles
 from ...model.elements import Collision, Link, Mesh, Robot, Vector, Visual
 from ..common.assets import find_file
+from ..common.cut import Cut, Cutter
 from ..common.missing_files import create_missing_mesh
 from ..common.naming import UniqueNames
 from ..defects import make_defect
@@ -40,6 +42,8 @@ class Meshes:
         approximation: Token of UsdPhysics for collision meshes.
         uses: Key of each shape by the ``id`` of its ``Mesh``.
         loaded: Triangles of each key.
+        pieces: Vertices and triangles of the convex pieces of each collision mesh that was
+            decomposed.
     """
 
     builder: StageBuilder
@@ -48,6 +52,7 @@ class Meshes:
     approximation: str
     uses: dict[int, Key] = field(default_factory=dict)
     loaded: dict[Key, Triangles] = field(default_factory=dict)
+    pieces: dict[Key, list[tuple[Points, Faces]]] = field(default_factory=dict)
     _prototypes: dict[Key, Sdf.Path] = field(default_factory=dict)
     _names: UniqueNames = field(default_factory=UniqueNames)
 
@@ -76,6 +81,38 @@ class Meshes:
                 continue
             self.uses[id(mesh)] = key
         return wrong
+
+    def cut(self, robot: Robot, cutter: Cutter) -> None:
+        """Decompose the collision meshes into convex pieces, and report how well they fit."""
+        keys = [key for key in self.loaded if key[2]]
+        cuts = cutter(list(dict.fromkeys(key[0] for key in keys))) if keys else {}
+        for key in keys:
+            result = cuts[key[0]]
+            if isinstance(result, Cut):
+                self.pieces[key] = [_scale(piece, key[1]) for piece in result.pieces]
+        for link in robot.links:
+            for shape in link.collisions:
+                key_of = self.uses.get(id(shape.geometry))
+                if key_of is not None:
+                    self._report_cut(link, shape, cuts[key_of[0]], key_of[0].name)
+
+    def _report_cut(self, link: Link, shape: Collision, result: Cut | str, name: str) -> None:
+        if isinstance(result, Cut):
+            count = len(result.pieces)
+            text = (
+                f"is written as {count} convex piece{'s' if count > 1 else ''}, whose surface is "
+            )
+            text += f"within {result.error:.2%} of its size"
+        else:
+            text = f"is not decomposed into convex pieces: {result}"
+        self.written.report_loss(
+            "convex",
+            f"{name} of link '{link.name}' {text}",
+            shape.place,
+            kind="link",
+            name=link.name,
+            severity=Severity.INFO if isinstance(result, Cut) else Severity.WARNING,
+        )
 
     @property
     def shared(self) -> set[Key]:
@@ -119,10 +156,14 @@ class Meshes:
         """Write the mesh prims of a file: one for collisions, one for each look of visuals."""
         mesh = self.loaded[key]
         if key[2]:
-            prim = self._write_mesh(parent.AppendChild("mesh"), mesh.vertices, mesh.faces, None)
-            with self.builder.edit_layer(PHYSICS):
-                make_collider(prim)
-                UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(self.approximation)
+            parts = self.pieces.get(key, [(mesh.vertices, mesh.faces)])
+            token = UsdPhysics.Tokens.convexHull if key in self.pieces else self.approximation
+            for index, (vertices, faces) in enumerate(parts):
+                name = "mesh" if len(parts) == 1 else f"mesh_{index}"
+                prim = self._write_mesh(parent.AppendChild(name), vertices, faces, None)
+                with self.builder.edit_layer(PHYSICS):
+                    make_collider(prim)
+                    UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(token)
             return
         groups = _group_by_look(mesh)
         for index, (look, faces, uv) in enumerate(groups):
@@ -174,6 +215,13 @@ def make_collider(prim: Usd.Prim) -> None:
     """Make a prim collision geometry, which is not drawn."""
     UsdPhysics.CollisionAPI.Apply(prim)
     UsdGeom.Imageable(prim).CreatePurposeAttr(UsdGeom.Tokens.guide)
+
+
+def _scale(piece: tuple[Points, Faces], scale: Vector) -> tuple[Points, Faces]:
+    """Scale a piece; a mirrored one keeps its faces outward."""
+    vertices, faces = piece
+    turned = faces[:, ::-1] if scale[0] * scale[1] * scale[2] < 0 else faces
+    return vertices * np.array(scale), turned
 
 
 def _make_key(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..common.base import Base
+from ..common.cut import Cutter
 from ..common.inertia_repair import FixInertia
 
 Target = Literal["both", "newton", "isaac"]
@@ -30,6 +31,7 @@ class Options:
             given or the description requests it.
         actuator_config: TOML file with gains, armature, damping, friction and force range.
         approximation: Collision geometry of a mesh: its convex hull, or its triangles.
+        cutter: Decomposes collision meshes into convex pieces; None leaves them whole.
         fix_inertia: Repair method for physically inconsistent tensors.
         force: Continue in spite of defects of the source if a robot remains.
         file: Name of the stage; empty for the robot's name with ``.usda``.
@@ -42,6 +44,7 @@ class Options:
     self_collision: bool | None = None
     actuator_config: Path | None = None
     approximation: Approximation = "hull"
+    cutter: Cutter | None = None
     fix_inertia: FixInertia = "none"
     force: bool = False
     file: str = ""
