@@ -3,7 +3,8 @@
 Wheel and sdist are built once and checked; each is installed into an empty environment, where the
 commands run, and all that README.md shows, without a network. ``nox -s lowest`` runs light tests
 with the oldest dependencies that are allowed. ``nox -s wheels`` resolves every extra for each
-Python and platform, from wheels alone. A Python that is not there is skipped and said so.
+Python and platform, from wheels alone. ``nox -s usd`` tests stages with the oldest and the newest
+usd-core for each Python. A Python that is not there is skipped and said so.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ LIGHT = (
     "tests/test_api.py",
     "tests/viewer/test_server.py",
 )
+STAGES = ("tests/formats/usd", "tests/lint/test_other_formats.py")
 COMMANDS = (
     *(["--version"], ["expand", ARM], ["info", ARM], ["graph", ARM, "-o", "-"]),
     *(["graph", ARM, "-o", "OUT/arm.svg"], ["diff", ARM, ARM], ["simulate", ARM, "--fixed-base"]),
@@ -139,6 +141,18 @@ def wheels(session: nox.Session) -> None:
                 *("--only-binary", ":all:", "--python-version", python),
                 *("--python-platform", platform, "-o", str(folder / f"{python}-{platform}.txt")),
             )
+
+
+@nox.session(python=PYTHONS)
+@nox.parametrize("resolution", ["lowest", "highest"])
+def usd(session: nox.Session, resolution: str) -> None:
+    """Tests of stages with the oldest and the newest usd-core that has a wheel for the Python."""
+    session.install("uv", ".[mesh]", "pytest>=8", "hypothesis>=6.100", "pillow")
+    session.run(
+        *("uv", "pip", "install", "--resolution", resolution, "--no-deps"),
+        *("--only-binary", ":all:", "usd-core>=25.5"),
+    )
+    session.run("python", "-m", "pytest", "-m", "not slow", *STAGES)
 
 
 @nox.session(python=["3.10"])

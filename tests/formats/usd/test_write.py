@@ -264,8 +264,10 @@ def test_colors_are_linear_and_colliders_are_guides(stage):
 @pytest.mark.parametrize("target", ["both", "newton", "isaac"])
 @pytest.mark.parametrize("layers", ["single", "payload"])
 def test_usd_validation_finds_nothing(stage, layers, target):
-    from pxr import UsdValidation
+    from pxr import Usd, UsdValidation
 
+    if Usd.GetVersion() < (0, 25, 8):
+        pytest.skip("the wheel of this usd-core has no validators")
     result, _ = stage(
         link("world", None),
         joint("f", "world", "a"),
