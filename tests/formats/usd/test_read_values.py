@@ -256,3 +256,29 @@ def test_colors_textures_and_subsets_of_meshes(write, tmp_path, packed):
     assert Path(image.material.texture).read_bytes() == PIXEL
     text = Path(image.geometry.filename).read_text()
     assert (text.count("\nvt "), text.count("\nf ")) == (4, 2)
+
+
+@pytest.mark.parametrize("arc", ["references", "payload"])
+@pytest.mark.parametrize("instanceable", ["true", "false"])
+def test_a_robot_that_is_referred_to(write, read, arc, instanceable):
+    write("arm.usda", stage(body("a", more=COLLIDER), body("b"), turning("j", "a", "b")))
+    robot = read(
+        '#usda 1.0\n(\n    defaultPrim = "cell"\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n'
+        f'def Xform "cell"\n{{\n    def "arm" (\n        instanceable = {instanceable}\n'
+        f"        prepend {arc} = @./arm.usda@\n    )\n    {{\n    }}\n}}\n"
+    ).robot
+    assert (robot.joint["j"].parent, robot.joint["j"].child) == ("a", "b")
+    assert len(robot.link["a"].collisions) == 1
+    assert robot.link["a"].place.path.endswith("arm.usda")
+    assert len(robot.source.files) == 2
+
+
+def test_variants_that_are_not_selected_are_reported(read):
+    text = stage(*TWO, turning("j", "a", "b")).replace(
+        'def Xform "r"\n{\n',
+        'def Xform "r" (\n    variants = {\n        string hand = "none"\n    }\n'
+        '    prepend variantSets = "hand"\n)\n{\n    variantSet "hand" = {\n'
+        '        "none" {\n        }\n        "gripper" {\n        }\n    }\n',
+    )
+    loss = codes(read(text))["unread-variant"]
+    assert loss.data["names"] == ["hand: none, not gripper"]
