@@ -69,6 +69,14 @@ def test_findings_have_the_lines_of_attributes(write, found):
     assert f"{path}:{arm}:9: warning:" in result.err
 
 
+def test_inertia_that_newton_raises(write, found):
+    text = HEAD.format("") + BODY.replace("(1, 1, 1.5)", "(1e-12, 1e-12, 1e-12)")
+    findings, _ = found(write("r.usda", text), "--select", "newton-raised-inertia")
+    finding = findings["newton-raised-inertia"]
+    assert finding["line"] == line_of(text, "float3 physics:diagonalInertia = (1e-12")
+    assert finding["element"]["name"] == "arm"
+
+
 def test_findings_are_in_the_layer_that_has_the_opinion(write, found):
     write("base.usda", "#usda 1.0\n" + BODY)
     path = write("r.usda", HEAD.format("    subLayers = [@./base.usda@]\n") + (

@@ -52,6 +52,7 @@ def usd_computed_mass(robot: Robot) -> Iterator[Problem]:
     WARNING,
     on=("newton",),
     effects={"newton": "raises the moments by about 1e-6 kg·m²"},
+    formats=("urdf", "usd"),
 )
 def newton_raised_inertia(robot: Robot) -> Iterator[Problem]:
     """A principal moment of inertia is so small that Newton raises all of them.
@@ -64,7 +65,7 @@ def newton_raised_inertia(robot: Robot) -> Iterator[Problem]:
         if link.mass <= 0 or link.inertial is None or link.inertial.inertia is None:
             continue
         low, _, high = compute_principal_moments(link_inertia(link).tensor)
-        if low < max(_LEAST_PART * high, _LEAST_MOMENT):
+        if 0 <= low < max(_LEAST_PART * high, _LEAST_MOMENT):  # Newton drops negative ones
             yield Problem(
                 link,
                 f"inertia of link '{link.name}' has a principal moment of {low:.3g} kg·m², which "
