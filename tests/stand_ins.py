@@ -10,6 +10,24 @@ from urdftool import expand
 
 ROBOTS = FIXTURES / "robots"
 ARM = ROBOTS / "demo_arm" / "urdf"
+STAGE = """#usda 1.0
+(
+    defaultPrim = "robot"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "robot"
+{
+    def Xform "base" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+    )
+    {
+        float physics:mass = 1
+        point3f physics:centerOfMass = (0, 0, 0)
+        float3 physics:diagonalInertia = (0.1, 0.1, 0.1)
+    }
+}
+"""
 SRDF = (
     '<robot name="demo_arm">\n'
     '  <disable_collisions link1="base_link" link2="shoulder" reason="Adjacent"/>\n'
@@ -40,6 +58,7 @@ def make(folder):
     for name in ("arm.xml", "robot.xml", "b.xml"):
         shutil.copy(FIXTURES / "formats/mjcf/arm.xml", folder / name)
     _put(folder / "a.urdf", arm)
+    _put(folder / "robot.usda", STAGE)
     _put(folder / "arm.srdf.xacro", SRDF)
     words = ("bundle", "panda.urdf", "-o", "arm.zip")
     subprocess.run([sys.executable, "-m", "urdftool", "-q", *words], cwd=folder, check=True)

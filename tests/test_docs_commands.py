@@ -81,6 +81,8 @@ def needed(words):
         return "pybullet"
     if ("mjcf" in words and "--verify" in words) or any(word.endswith(".xml") for word in words):
         return "mujoco"
+    if any(word.endswith(".usda") for word in words):
+        return "pxr"
     return "viser" if is_lasting(words) else "click"
 
 
