@@ -174,7 +174,11 @@ def test_what_is_not_read_is_reported_once(read):
         "        int physxRigidBody:solverPositionIterationCount = 4\n"
     )
     text = stage(body("a", more=more), body("b", more=more), turning("j", "a", "b"))
+    off = ("bool newton:selfCollisionEnabled", "bool physxArticulation:enabledSelfCollisions")
+    lines = "".join(f"    custom {name} = 0\n" for name in off)
+    text = text.replace('def Xform "r"\n{\n', f'def Xform "r"\n{{\n{lines}')
     found = codes(read(text))
+    assert found["unread-self-collision"].data["names"] == ["r"]
     loss = found["unread-attribute"]
     assert loss.data["names"] == ["physxRigidBody:linearDamping"]
     assert text[loss.location.start :].startswith("float physxRigidBody:linearDamping")

@@ -43,13 +43,13 @@ def report_unread(context: Context) -> None:
             space, colon, _ = name.partition(":")
             if colon and _NAMESPACES.match(space) and not _READ.fullmatch(name):
                 found.setdefault(name, prim)
+    without: dict[str, Usd.Prim] = {}
     for name, prim in found.items():
         if _is_default(prim, name):
             continue
         if _SELF.fullmatch(name):
             if prim.GetAttribute(name).Get() is False and not context.is_ours:
-                text = "that parts of the robot do not collide with each other is not read"
-                context.report_loss("self-collision", text, prim, Severity.INFO)
+                without.setdefault(str(prim.GetPath()), prim)
             continue
         place = context.get_place(prim, name)
         if _HARMLESS.fullmatch(name):
@@ -57,6 +57,9 @@ def report_unread(context: Context) -> None:
             context.losses.add("setting", text, name, place, Severity.INFO)
         else:
             context.losses.add("attribute", "attributes are not read", name, place)
+    for prim in without.values():
+        text = "that parts of the robot do not collide with each other is not read"
+        context.report_loss("self-collision", text, prim, Severity.INFO)
     for prim in context.bodies.values():
         if UsdPhysics.RigidBodyAPI(prim).GetKinematicEnabledAttr().Get():
             context.report_loss("kinematic", "kinematic bodies are read as dynamic ones", prim)
