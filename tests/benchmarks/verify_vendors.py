@@ -1,7 +1,8 @@
 """Models of one robot by several vendors: ``python -m tests.benchmarks.verify_vendors``.
 
-The page needs the packages example-robot-data, pybullet_data and robosuite; ``--robosuite`` is the
-folder of the last, which need not be installed.
+The page needs the packages example-robot-data, pybullet_data, robosuite and dm_control, and the
+collection of public descriptions; ``--models`` is the folder of the unpacked wheels of the last two
+packages, which need not be installed.
 """
 
 from __future__ import annotations
@@ -18,14 +19,20 @@ from urdftool.model.elements import Robot
 from urdftool.model.load import load
 from urdftool.source.document import read_file
 
-from .robots import example_folder
+from .robots import CORPUS, example_folder
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "vendors.md"
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 
 class Models(NamedTuple):
-    """Two models of a robot, below the folders of two packages."""
+    """Two models of a robot, below the folders of two packages.
+
+    Attributes:
+        robot: Name of the robot.
+        one: Folder and path of the first model, separated by a colon; xacro arguments follow.
+        two: The same of the second.
+    """
 
     robot: str
     one: str
@@ -48,17 +55,60 @@ PAIRS = (
         f"{_BULLET}/baxter_description/urdf/baxter_arm.urdf",
         "robosuite:robots/baxter/robot.xml",
     ),
+    Models(
+        "Baxter",
+        "example:baxter_description/urdf/baxter.urdf",
+        "robosuite:robots/baxter/robot.xml",
+    ),
     Models("xArm7", "example:xarm_description/urdf/xarm7.urdf", "robosuite:robots/xarm7/robot.xml"),
+    Models(
+        "UR5e",
+        "corpus:UniversalRobots__Universal_Robots_ROS2_Description/urdf/ur.urdf.xacro"
+        " name:=ur5e ur_type:=ur5e",
+        "robosuite:robots/ur5e/robot.xml",
+    ),
+    Models("iiwa 14", "bullet:kuka_iiwa/model.urdf", "robosuite:robots/iiwa/robot.xml"),
+    Models("iiwa 14", "bullet:kuka_iiwa/model.urdf", "bullet:kuka_iiwa/model.sdf"),
+    Models(
+        "Jaco 2, 6 joints",
+        "example:kinova_description/robots/kinova.urdf",
+        "dm_control:third_party/kinova/jaco_arm.xml",
+    ),
+    Models(
+        "TIAGo",
+        "example:tiago_description/robots/tiago.urdf",
+        "robosuite:robots/tiago/robot.xml",
+    ),
+    Models(
+        "SO-100",
+        "example:so_arm_description/urdf/so100.urdf",
+        "corpus:TheRobotStudio__SO-ARM100/Simulation/SO100/so100.urdf",
+    ),
+    Models("A1", "example:a1_description/urdf/a1.urdf", "bullet:a1/a1.urdf"),
+    Models(
+        "Laikago",
+        "example:laikago_description/urdf/laikago.urdf",
+        "bullet:laikago/laikago.urdf",
+    ),
 )
 """Pairs of models, by package."""
 
 
-def read(path: Path) -> Robot:
+def read(path: Path, arguments: dict[str, str]) -> Robot:
     """Read a robot of any format."""
     found = format_of(read_file(path))
     if found.name == "urdf":
-        return load(path, package_paths=[path.parents[3].parent])
+        folders = [path.parents[3].parent, *([CORPUS] if CORPUS in path.parents else [])]
+        return load(path, args=arguments, package_paths=folders)
     return found.read(path).robot
+
+
+def find(folders: dict[str, Path], model: str) -> tuple[Path, dict[str, str]]:
+    """Return the file of a model, and its xacro arguments."""
+    name, *words = model.split(" ")
+    package, _, path = name.partition(":")
+    pairs = (word.partition(":=") for word in words)
+    return folders[package] / path, {key: value for key, _, value in pairs}
 
 
 def describe(comparison: Comparison) -> list[str]:
@@ -83,10 +133,11 @@ def list_lines(folders: dict[str, Path]) -> list[str]:
     lines = [f"| {' | '.join(head)} |", "|" + "---|" * len(head)]
     details = []
     for models in PAIRS:
-        paths = [folders[name.partition(":")[0]] / name.partition(":")[2] for name in models[1:]]
-        if not all(path.is_file() for path in paths):
+        found_models = [find(folders, name) for name in models[1:]]
+        if not all(path.is_file() for path, _ in found_models):
+            print(f"{models}: not found")
             continue
-        comparison = compare_robots(*map(read, paths))
+        comparison = compare_robots(*(read(*model) for model in found_models))
         names = " / ".join(f"`{name}`" for name in models[1:])
         lines.append(f"| {' | '.join((models.robot, names, *describe(comparison)))} |")
         details += ["", f"## {models.robot}: {names}", ""]
@@ -107,7 +158,7 @@ def list_lines(folders: dict[str, Path]) -> list[str]:
 def main() -> None:
     """Measure, and write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--robosuite", type=Path, required=True, help="folder models/assets")
+    parser.add_argument("--models", type=Path, required=True, help="folder of unpacked wheels")
     parser.add_argument("--bullet", type=Path, required=True, help="folder pybullet_data")
     options = parser.parse_args()
     example = example_folder()
@@ -115,7 +166,9 @@ def main() -> None:
     folders = {
         "example": example / "robots",
         "bullet": options.bullet,
-        "robosuite": options.robosuite,
+        "robosuite": options.models / "robosuite" / "models" / "assets",
+        "dm_control": options.models / "dm_control",
+        "corpus": CORPUS,
     }
     text = PAGE.read_text("utf-8")
     head, tail = text.partition(BEGIN)[0], text.partition(END)[2]

@@ -1,4 +1,11 @@
-"""Planted differences on 40 random robots: ``python -m tests.verification --seed 1 FILE``."""
+"""Measurements of ``urdftool verify`` on real robots.
+
+- ``python -m tests.verification plant --seed N FILE``: plants differences in 40 random robots, and
+  appends a line of JSON for each result to a file. The environment variable URDFTOOL_MODELS names
+  the folder of the unpacked wheels of robosuite, dm_control, gymnasium and gymnasium-robotics.
+- ``python -m tests.verification write FILE ...``: writes the results into docs/commands/verify.md.
+- ``python -m tests.verification trips``: makes all round trips, and writes them there.
+"""
 
 from __future__ import annotations
 
@@ -6,50 +13,81 @@ import argparse
 import json
 import random
 import tempfile
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
 from urdftool.errors import UrdftoolError
 
+from ..benchmarks.robots import example_robots
+from .page import format_planted, format_trips, replace_block
 from .planted import Harness, plant_some
-from .sample import draw, is_suitable, read
+from .round_trips import make_trip
+from .sample import PER_GROUP, Source, draw, is_suitable, read
 
-PER_GROUP, PER_ROBOT = 10, 13
+PER_ROBOT = 13
+
+
+def measure(source: Source, seed: int) -> Iterator[dict[str, object]]:
+    """Yield the results of a robot; nothing for one that is not suitable.
+
+    Raises:
+        UrdftoolError: It cannot be read or exported.
+    """
+    robot = read(source)
+    if not is_suitable(robot):
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        harness = Harness(robot, source.name, Path(folder))
+        for equal in harness.compare_equal():
+            yield asdict(equal)
+        generator = random.Random(f"{seed} {source.name}")
+        for planted in plant_some(harness, PER_ROBOT, generator):
+            yield asdict(planted)
+
+
+def measure_group(sources: list[Source], seed: int) -> Iterator[dict[str, object]]:
+    """Yield the results of the first suitable robots of a group."""
+    done = 0
+    for source in sources:
+        results = []
+        try:
+            for result in measure(source, seed):
+                results.append(result)
+                yield {"group": source.group, **result}
+        except (UrdftoolError, RecursionError) as error:
+            yield {"group": source.group, "robot": source.name, "refused": str(error)}
+            continue
+        done += bool(results)
+        if done == PER_GROUP:
+            return
 
 
 def main() -> None:
-    """Plant, and append a line of JSON for each result to a file."""
+    """Run one of the measurements."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seed", type=int, required=True)
+    parser.add_argument("action", choices=["plant", "write", "trips"])
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--group", default="", help="only this group of robots")
-    parser.add_argument("results", type=Path)
+    parser.add_argument("results", type=Path, nargs="*")
     options = parser.parse_args()
-    with options.results.open("a", encoding="utf-8") as out:
-        for group, sources in draw(options.seed).items():
-            if options.group and group != options.group:
-                continue
-            done = 0
-            for source in sources:
-                generator = random.Random(f"{options.seed} {source.name}")
-                try:
-                    robot = read(source)
-                    if not is_suitable(robot):
-                        continue
-                    with tempfile.TemporaryDirectory() as folder:
-                        harness = Harness(robot, source.name, Path(folder))
-                        for equal in harness.compare_equal():
-                            out.write(json.dumps({"group": group, **asdict(equal)}) + "\n")
-                        for planted in plant_some(harness, PER_ROBOT, generator):
-                            out.write(json.dumps({"group": group, **planted.as_json()}) + "\n")
-                            out.flush()
-                except (UrdftoolError, RecursionError) as error:
-                    line = {"group": group, "robot": source.name, "refused": str(error)}
-                    out.write(json.dumps(line) + "\n")
-                    continue
-                done += 1
-                print(group, done, source.name, flush=True)
-                if done == PER_GROUP:
-                    break
+    if options.action == "write":
+        replace_block("planted", format_planted(options.results))
+    elif options.action == "trips":
+        trips = []
+        for through in ("sdf", "mjcf"):
+            for path in example_robots():
+                with tempfile.TemporaryDirectory() as folder:
+                    trips.append(make_trip(path, through, Path(folder)))
+                print(through, path.stem, trips[-1].refused, trips[-1].differing, flush=True)
+        replace_block("trips", format_trips(trips))
+    else:
+        with options.results[0].open("a", encoding="utf-8") as out:
+            for group, sources in draw(options.seed).items():
+                if group.startswith(options.group):
+                    for record in measure_group(sources, options.seed):
+                        out.write(json.dumps(record) + "\n")
+                        out.flush()
 
 
 if __name__ == "__main__":

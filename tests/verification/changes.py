@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 from lxml import etree
+
+from urdftool.errors import UrdftoolError
+from urdftool.geometry.load import load_mesh
 
 DEGREE = 0.017453292519943295
 SMALLEST = 2e-5
@@ -136,6 +141,31 @@ def change_tensor(tensor: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
             yield kind, new
 
 
-def is_locked(low: float, high: float) -> bool:
-    """Tell whether limits leave no motion."""
-    return low == high
+def list_other_meshes(node: Node, own: str, files: dict[str, str]) -> list[str]:
+    """Return the names of files with another surface than the file of a name.
+
+    Args:
+        node: Any element of the description.
+        own: Name of a file.
+        files: Paths by name, relative to the folder of the description.
+    """
+    folder = Path(node.getroottree().docinfo.URL).parent
+    surface = _read_points(folder / files[own])
+    if surface is None:
+        return []
+    found = []
+    for name in sorted(set(files) - {own}):
+        points = _read_points(folder / files[name])
+        if points is not None and points != surface:
+            found.append(name)
+    return found
+
+
+@cache
+def _read_points(path: Path) -> frozenset[tuple[float, ...]] | None:
+    """Return the vertices of a mesh in micrometers; None if it cannot be read."""
+    try:
+        mesh = load_mesh(path, (1.0, 1.0, 1.0), gltf_up="y")
+    except (UrdftoolError, OSError):
+        return None
+    return frozenset(map(tuple, np.round(np.asarray(mesh.vertices) * 1e6).tolist()))

@@ -16,6 +16,7 @@ from .changes import (
     Node,
     change_tensor,
     get_six,
+    list_other_meshes,
     make_tensor,
     negate,
     numbers,
@@ -40,7 +41,8 @@ def list_mjcf(root: Node, generator: random.Random) -> Iterator[Change]:
         for joint in joints:
             yield from _list_joint(joint, {joint.get("name"), body.get("name")})
         yield from _list_geoms(body, generator)
-        is_leaf = body.find("body") is None and body.getparent().tag == "body"
+        parent = body.getparent()  # a moving body without mass needs its child
+        is_leaf = body.find("body") is None and parent.find("inertial") is not None
         if is_leaf and (joints or any(body.find(tag) is not None for tag in ("inertial", "geom"))):
             if not root.xpath(
                 "//equality/*[@joint2=$name]", name=(joints or [body])[0].get("name")
@@ -189,7 +191,7 @@ def _set_tensor(tensor: np.ndarray) -> Edit:
 
 
 def _list_geoms(body: Node, generator: random.Random) -> Iterator[Change]:
-    names, root = {body.get("name")}, body.getroottree()
+    names = {body.get("name")}
     for geom in body.findall("geom"):
         touches = not (get_value(geom, "contype") == get_value(geom, "conaffinity") == "0")
         kind = "collision" if touches else "visual"
@@ -205,7 +207,6 @@ def _list_geoms(body: Node, generator: random.Random) -> Iterator[Change]:
         elif size is not None and 0.01 * numbers(size)[0] > SMALLEST:
             edit = set_to("size", scale(size, 1.01))
             yield Change(f"size of a {kind} by 1 %", geom, edit, names)
-    del root
 
 
 def _list_meshes(geom: Node, names: set[str], generator: random.Random) -> Iterator[Change]:
@@ -213,8 +214,9 @@ def _list_meshes(geom: Node, names: set[str], generator: random.Random) -> Itera
     own, assets = geom.get("mesh"), {}
     for mesh in root.findall("asset/mesh"):
         assets[mesh.get("name") or mesh.get("file").rpartition("/")[2].rpartition(".")[0]] = mesh
-    others = sorted(set(assets) - {own})
-    if others:
+    folder = root.find("compiler").get("meshdir", ".")
+    files = {name: f"{folder}/{mesh.get('file')}" for name, mesh in assets.items()}
+    if own in files and (others := list_other_meshes(geom, own, files)):
         edit = set_to("mesh", generator.choice(others))
         yield Change("another mesh", geom, edit, names)
     if own in assets and len(root.xpath("//geom[@mesh=$name]", name=own)) == 1:

@@ -31,15 +31,15 @@ class Trip:
         through: Format in between.
         refused: Why it was not exported; empty if it was.
         differing: Differences that no export announced, by row.
-        announced: Number of differences that are limits of velocity (not in MJCF), or of links
-            and joints with a reported loss.
+        announced: Reasons of the other differences, by row: codes of the losses that an export
+            reported for the link or joint.
     """
 
     name: str
     through: str
     refused: str = ""
     differing: dict[str, list[str]] = field(default_factory=dict)
-    announced: int = 0
+    announced: dict[str, set[str]] = field(default_factory=dict)
 
 
 def load_robot(path: Path) -> Robot:
@@ -47,11 +47,14 @@ def load_robot(path: Path) -> Robot:
     return load(path, package_paths=[path.parents[3].parent])
 
 
-def export(robot: Robot, name: str, folder: Path) -> tuple[Path, set[str]]:
-    """Export a robot; return the file, and the names of links and joints with a loss."""
+def export(robot: Robot, name: str, folder: Path) -> tuple[Path, dict[str, set[str]]]:
+    """Export a robot; return the file, and the codes of losses by name of the link or joint."""
     written = format_named(name).write(weld_base(robot), OPTIONS.get(name, UrdfOptions(force=True)))
     write_directory(folder, written.files, main=written.main)
-    lost = {loss.name for loss in written.losses if loss.code not in ("lossy-limit",)}
+    lost: dict[str, set[str]] = {}
+    for loss in written.losses:
+        if loss.code != "lossy-limit":
+            lost.setdefault(loss.name, set()).add(loss.code)
     return folder / written.main, lost
 
 
@@ -74,15 +77,20 @@ def make_trip(path: Path, through: str, folder: Path) -> Trip:
         trip.refused = error.message
         return trip
     for difference in sorted(comparison.differences, key=lambda d: d.kind == "robot"):
-        velocity = through == "mjcf" and difference.what == "limit of velocity"
-        whole = difference.kind == "robot" and trip.announced > 0
-        if (
-            difference.is_convention
-            or velocity
-            or whole
-            or {*difference.names} & (lost | lost_back)
-        ):
-            trip.announced += 1
+        if difference.is_convention:
+            continue
+        codes = {
+            code
+            for name in difference.names
+            for losses in (lost, lost_back)
+            for code in losses.get(name, ())
+        }
+        if through == "mjcf" and difference.what == "limit of velocity":
+            codes = {"lossy-velocity"}
+        if difference.kind == "robot" and trip.announced:
+            codes = {"follows"}
+        if codes:
+            trip.announced.setdefault(difference.row, set()).update(codes)
         else:
             trip.differing.setdefault(difference.row, []).append(
                 f"{difference.title} {difference.values} {difference.note}"

@@ -7,7 +7,6 @@ import random
 from pathlib import Path
 from typing import NamedTuple
 
-from urdftool.errors import UrdftoolError
 from urdftool.formats.detect import format_of
 from urdftool.formats.verify.mesh_measure import MeshMeasures
 from urdftool.model.elements import Mesh, Robot
@@ -22,7 +21,9 @@ MODELS = Path(os.environ.get("URDFTOOL_MODELS", "/nonexistent"))
 TUNED_ON = 12
 """Number of robots of example-robot-data, those with the fewest meshes, that were used before."""
 
-_PER_GROUP = 10
+PER_GROUP = 10
+"""Robots of each group."""
+
 _HEAVIEST = 20_000_000
 """Size of the meshes of a robot [bytes] from which it is not drawn."""
 
@@ -110,18 +111,3 @@ def draw(seed: int) -> dict[str, list[Source]]:
     for sources in groups.values():
         generator.shuffle(sources)
     return groups
-
-
-def take(sources: list[Source], count: int = _PER_GROUP) -> list[tuple[Source, Robot]]:
-    """Read robots until a number of suitable ones is found."""
-    found: list[tuple[Source, Robot]] = []
-    for source in sources:
-        try:
-            robot = read(source)
-        except (UrdftoolError, RecursionError):
-            continue
-        if is_suitable(robot):
-            found.append((source, robot))
-        if len(found) == count:
-            break
-    return found

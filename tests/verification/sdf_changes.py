@@ -15,6 +15,7 @@ from .changes import (
     Node,
     change_tensor,
     get_six,
+    list_other_meshes,
     make_tensor,
     negate,
     numbers,
@@ -183,8 +184,8 @@ def _list_shapes(link: Node, generator: random.Random) -> Iterator[Change]:
             if mesh is not None:
                 value = scale(mesh.findtext("scale"), 1.01, "1 1 1")
                 yield Change("scale of a mesh by 1 %", mesh, _put("scale", value), names)
-                others = sorted(uris - {mesh.findtext("uri")})
-                if others:
+                files = {uri: uri for uri in uris}
+                if others := list_other_meshes(link, mesh.findtext("uri"), files):
                     edit = _put("uri", generator.choice(others))
                     yield Change("another mesh", mesh, edit, names)
             elif numbers(size.text)[0] * 0.01 > SMALLEST:

@@ -15,6 +15,7 @@ from .changes import (
     Node,
     change_tensor,
     get_six,
+    list_other_meshes,
     make_tensor,
     negate,
     numbers,
@@ -186,9 +187,9 @@ def _list_shapes(link: Node, generator: random.Random) -> Iterator[Change]:
                 value = scale(geometry.get("scale"), 1.01, "1 1 1")
                 yield Change("scale of a mesh by 1 %", geometry, set_to("scale", value), names)
                 own = geometry.get("filename")
-                files = sorted({m.get("filename") for m in root.iter("mesh")} - {own})
-                if files:
-                    edit = set_to("filename", generator.choice(files))
+                files = {name: name for m in root.iter("mesh") if (name := m.get("filename"))}
+                if others := list_other_meshes(link, own, files):
+                    edit = set_to("filename", generator.choice(others))
                     yield Change("another mesh", geometry, edit, names)
                 continue
             key = _KEYS[geometry.tag]

@@ -108,6 +108,13 @@ def test_a_light_link_of_a_heavy_body_is_compared(compare):
     assert ("mass", "link 'light': mass") in compare(separate, changed)
 
 
+def test_the_tensor_of_a_light_welded_link_is_compared(compare):
+    parts = link("base", 40), joint("weld", "base", "light", kind="fixed")
+    light = [link("light", 0.001, moments=(x, 1e-6, 1e-6)) for x in (1e-6, 1.02e-6)]
+    found = compare(*(make(*parts, text) for text in light))
+    assert found == {("inertia", "link 'light': inertia")}
+
+
 def test_a_change_next_to_a_merged_link_is_named(compare):
     weld = joint("weld", "base", "sensor", kind="fixed", xyz="0 0 0")
     separate = make(link("base", 4), link("sensor", 0.5), weld)

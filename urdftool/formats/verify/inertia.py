@@ -123,7 +123,8 @@ def _compare_whole(
     The mass that differs in the links is then in another link, where it is below the tolerance.
     """
     totals, rests = [_combine(part) for part in every], [_combine(part) for part in rest]
-    if abs(totals[0][0] - totals[1][0]) > 0.1 * abs(rests[0][0] - rests[1][0]):
+    missing = abs(rests[0][0] - rests[1][0])
+    if missing <= _MASSLESS or abs(totals[0][0] - totals[1][0]) > 0.1 * missing:
         return None
     whole = _compare_rest(pair, match, [], *every, comparison)
     return whole if whole.is_equal else None
