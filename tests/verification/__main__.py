@@ -1,8 +1,8 @@
 """Measurements of ``urdftool verify`` on real robots.
 
 - ``python -m tests.verification plant --seed N FILE``: plants differences in 40 random robots, and
-  appends a line of JSON for each result to a file. The environment variable URDFTOOL_MODELS names
-  the folder of the unpacked wheels of robosuite, dm_control, gymnasium and gymnasium-robotics.
+  appends a line of JSON for each result to a file. The environment variable URDFTOOL_MJCF names
+  a folder with the files of robosuite, dm_control, gymnasium and gymnasium-robotics.
 - ``python -m tests.verification write FILE ...``: writes the results into docs/commands/verify.md.
 - ``python -m tests.verification trips``: makes all round trips, and writes them there.
 """

@@ -37,7 +37,7 @@ def format_planted(paths: list[Path]) -> list[str]:
         rows.append(("–".join(map(str.upper, pair)), *_count(of_pair), *_count_equal(unchanged)))
     rows.append(("all", *_count(planted), *_count_equal(equal)))
     head = ("formats", "changes", "found", "at their part only", "unchanged", "equal",
-            "reported by the export", "invented")  # fmt: skip
+            "reported by the export", "unexpected")  # fmt: skip
     lines = [*_make_table(head, rows), ""]
     kinds = Counter(r["kind"] for r in planted)
     head = ("change", "changes", "found", "at their part only")

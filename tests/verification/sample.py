@@ -13,10 +13,11 @@ from urdftool.model.elements import Mesh, Robot
 from urdftool.model.load import load
 from urdftool.source.document import read_file
 
-from ..benchmarks.robots import CORPUS, bullet_robots, example_robots, manifest
+from ..benchmarks.robots import CORPUS, ROOT, bullet_robots, example_robots, manifest
 
-MODELS = Path(os.environ.get("URDFTOOL_MODELS", "/nonexistent"))
-"""Folder with the unpacked wheels of robosuite, dm_control, gymnasium and gymnasium-robotics."""
+_WHEELS = Path(os.environ.get("URDFTOOL_MJCF", ROOT / ".venv-mjcf"))
+MODELS = next((path.parent for path in sorted(_WHEELS.glob("**/robosuite"))), _WHEELS)
+"""Folder of the files of robosuite, dm_control, gymnasium and gymnasium-robotics."""
 
 TUNED_ON = 12
 """Number of robots of example-robot-data, those with the fewest meshes, that were used before."""

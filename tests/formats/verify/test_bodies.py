@@ -179,3 +179,13 @@ def test_a_transparent_visual_is_kept(write):
     assert [visual.name for visual in shapes.visuals if visual.name] == ["glass"]
     assert len(shapes.visuals) == 2
     assert len(shapes.collisions) == 2
+
+
+def test_a_free_body_that_only_one_world_has(compare):
+    """An empty world with one free body is left out, but not if the other file has two."""
+    free = (
+        '<joint name="{0}_root" type="floating"><parent link="world"/><child link="{0}"/></joint>'
+    )
+    parts = ['<link name="world"/>', *CHAIN, free.format("base")]
+    both = make(*parts, link("ball"), free.format("ball"))
+    assert compare(both, make(*parts)) == {("tree", "joint 'ball_root': existence")}

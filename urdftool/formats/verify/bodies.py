@@ -44,7 +44,8 @@ class Bodies:
 
     Attributes:
         robot: The robot.
-        root: Name of the root body.
+        top: Name of the body that moves all others.
+        root: Name of the root body: the top, or the only free body on an empty world.
         by_name: Bodies by name, parents first.
         body_of: Name of the body of each link.
         is_free: Whether the root moves freely; None if the description does not specify it.
@@ -68,6 +69,7 @@ class Bodies:
             text = "its links do not form a tree with one root, so it cannot be compared"
             raise ModelError(text, at=robot.place)
         self.robot = robot
+        self.top = top.name
         self.by_name: dict[str, Body] = {}
         self.body_of: dict[str, str] = {}
         for name in robot.tree.order:

@@ -66,7 +66,7 @@ class MeshMeasures:
             self._digests[str(path)] = sha256(path.read_bytes()).hexdigest()
         return self._digests[str(path)]
 
-    def names_materials(self, path: Path) -> bool:
+    def has_materials(self, path: Path) -> bool:
         """Tell whether an OBJ names a file of materials at its beginning."""
         with path.open("rb") as file:
             return b"mtllib" in file.read(_HEAD)

@@ -52,6 +52,7 @@ def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
     back = {new: old for old, new in names.joints.items()}
     welded2 = {n for n in find_locked_joints(b) if back.get(n, n) not in moving}
     one, two = Bodies(a, welded), Bodies(b, welded2)
+    keep_root = _has_one_skipped_root(one, two)
     joints = match_names(list(one.joints), list(two.joints), names.joints)
     links = match_names(list(a.link), list(b.link), names.links)
     _match_children(a, b, joints, links)
@@ -60,7 +61,16 @@ def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
         one = Bodies(a, welded, kept=fixed.keys())
         two = Bodies(b, welded2, kept=fixed.values())
         joints |= fixed
+    if keep_root:
+        for bodies in (one, two):
+            bodies.root, bodies.is_free = bodies.top, None
     return Pair(one, two, joints, links, meshes)
+
+
+def _has_one_skipped_root(one: Bodies, two: Bodies) -> bool:
+    """Tell whether only one of two equal roots was left out as an empty world."""
+    skipped = one.root != one.top, two.root != two.top
+    return one.top == two.top and skipped[0] != skipped[1]
 
 
 def _match_children(a: Robot, b: Robot, joints: dict[str, str], links: dict[str, str]) -> None:

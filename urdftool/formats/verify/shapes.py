@@ -363,7 +363,7 @@ def _has_own_colors(state: _Comparing, robot: Robot, geometry: Geometry) -> bool
         return False
     if geometry.filename.lower().endswith(".obj"):
         path = state.pair.meshes.find(robot, geometry)
-        return path is not None and state.pair.meshes.names_materials(path)
+        return path is not None and state.pair.meshes.has_materials(path)
     return geometry.filename.lower().endswith((".dae", ".gltf", ".glb"))
 
 
