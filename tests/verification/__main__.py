@@ -1,6 +1,6 @@
 """Measurements of ``urdftool verify`` on real robots.
 
-- ``python -m tests.verification plant --seed N FILE``: plants differences in 40 random robots, and
+- ``python -m tests.verification plant FILE --seed N``: plants differences in 40 random robots, and
   appends a line of JSON for each result to a file. The environment variable URDFTOOL_MJCF names
   a folder with the files of robosuite, dm_control, gymnasium and gymnasium-robotics.
 - ``python -m tests.verification write FILE ...``: writes the results into docs/commands/verify.md.

@@ -84,11 +84,25 @@ def read(write, name, text):
     return format_named(name).read(write(f"{name}{len(text)}.xml", text)).robot
 
 
+@pytest.fixture(scope="module")
+def robots(tmp_path_factory):
+    """Read the unchanged robot in a format, once."""
+    folder, found = tmp_path_factory.mktemp("robots"), {}
+
+    def get(name):
+        if name not in found:
+            path = folder / f"{name}.xml"
+            path.write_text(TEXTS[name])
+            found[name] = format_named(name).read(path).robot
+        return found[name]
+
+    return get
+
+
 @pytest.mark.parametrize("other", FORMATS)
 @pytest.mark.parametrize("first", FORMATS)
-def test_one_robot_in_three_formats_is_equal(write, first, other):
-    one, two = read(write, first, TEXTS[first]), read(write, other, TEXTS[other])
-    comparison = compare_robots(one, two)
+def test_one_robot_in_three_formats_is_equal(robots, first, other):
+    comparison = compare_robots(robots(first), robots(other))
     assert not [d for d in comparison.differences if not d.is_convention]
     assert comparison.is_equal
     assert set(comparison.joints) == {"shoulder", "slide"}
@@ -114,10 +128,9 @@ CHANGES = [
 
 @pytest.mark.parametrize("other", FORMATS)
 @pytest.mark.parametrize(("row", "old", "new", "name", "what"), CHANGES)
-def test_a_change_is_found_at_its_part(write, other, row, old, new, name, what):
+def test_a_change_is_found_at_its_part(write, robots, other, row, old, new, name, what):
     assert URDF.count(old) == 1
-    one, two = read(write, "urdf", URDF.replace(old, new)), read(write, other, TEXTS[other])
-    comparison = compare_robots(one, two)
+    comparison = compare_robots(read(write, "urdf", URDF.replace(old, new)), robots(other))
     found = [d for d in comparison.differences if d.row not in ("mass matrix", "gravity")]
     found = [d for d in found if not d.is_convention]
     assert row in {d.row for d in found}
