@@ -115,6 +115,20 @@ def test_the_tensor_of_a_light_welded_link_is_compared(compare):
     assert found == {("inertia", "link 'light': inertia")}
 
 
+def test_inertia_moved_to_a_heavy_link_is_equal(compare):
+    """The heavy link differs by less than its tolerance."""
+    parts = joint("weld", "base", "light", kind="fixed"), link("hand"), joint("j", "base", "hand")
+    robots = [
+        make(
+            link("base", 40, moments=(1 - d, 1 - d, 1)),
+            link("light", 0.001, moments=(1e-5 + d, 1e-5 + d, 1e-5)),
+            *parts,
+        )
+        for d in (0, 5e-6)
+    ]
+    assert compare(*robots) == set()
+
+
 def test_a_change_next_to_a_merged_link_is_named(compare):
     weld = joint("weld", "base", "sensor", kind="fixed", xyz="0 0 0")
     separate = make(link("base", 4), link("sensor", 0.5), weld)

@@ -118,16 +118,24 @@ def _compare_whole(
     rest: tuple[dict[str, Properties], dict[str, Properties]],
     comparison: Comparison,
 ) -> Comparison | None:
-    """Compare both bodies as a whole; None unless light links were merged into heavy ones.
+    """Compare both bodies as a whole; None unless mass or inertia was moved between their links.
 
-    The mass that differs in the links is then in another link, where it is below the tolerance.
+    What differs in the links is then in another link, where it is below the tolerance.
     """
-    totals, rests = [_combine(part) for part in every], [_combine(part) for part in rest]
-    missing = abs(rests[0][0] - rests[1][0])
-    if missing <= _MASSLESS or abs(totals[0][0] - totals[1][0]) > 0.1 * missing:
+    totals, rests = ([_combine(part) for part in side] for side in (every, rest))
+    if rests[0][0] and rests[1][0] and abs(rests[0][0] - rests[1][0]) <= _MASSLESS:
+        moved = _measure_spread(rests[0][2], rests[1][2])
+        left = _measure_spread(totals[0][2], totals[1][2])
+    else:
+        moved, left = (abs(one[0] - two[0]) for one, two in (rests, totals))
+    if left > 0.1 * moved:
         return None
     whole = _compare_rest(pair, match, [], *every, comparison)
     return whole if whole.is_equal else None
+
+
+def _measure_spread(one: Array, two: Array) -> float:
+    return float(np.abs(one - two).max())
 
 
 def _is_merged(

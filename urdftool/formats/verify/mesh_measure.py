@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from ...errors import UrdftoolError
 from ...geometry.load import load_mesh
@@ -41,13 +43,32 @@ class Measure:
         return float(np.linalg.norm(self.high - self.low))
 
 
+class _Surface(NamedTuple):
+    """A mesh in its own frame.
+
+    Attributes:
+        points: Vertices of its triangles [m], shape (n, 3).
+        area: Area [m²].
+        center: Center of the area [m].
+        second: Second moments of the area about the center, divided by the area [m²].
+    """
+
+    points: Array
+    area: float
+    center: Array
+    second: Array
+
+
+Faces = npt.NDArray[np.integer]
+_Key = tuple[str, tuple[float, float, float]]
+
+
 @dataclass
 class MeshMeasures:
-    """Meshes that have been read, by path and scale."""
+    """Meshes that have been read and measured, by path, scale and pose."""
 
-    _read: dict[tuple[str, tuple[float, float, float]], tuple[Array, Array] | None] = field(
-        default_factory=dict
-    )
+    _read: dict[_Key, _Surface | None] = field(default_factory=dict)
+    _measured: dict[tuple[_Key, bytes], Measure] = field(default_factory=dict)
     _digests: dict[str, str] = field(default_factory=dict)
 
     def find(self, robot: Robot, mesh: Mesh) -> Path | None:
@@ -75,48 +96,66 @@ class MeshMeasures:
         """Measure the union of meshes at poses; None if one of them cannot be read."""
         parts = []
         for mesh, pose in meshes:
-            read = self._load(robot, mesh)
-            if read is None:
+            path = self.find(robot, mesh)
+            key = str(path), mesh.scale
+            surface = None if path is None else self._load(robot, key)
+            if surface is None:
                 return None
-            points, triangles = read
-            parts.append((_move(points, pose), _move(triangles.reshape(-1, 3), pose)))
-        points = np.concatenate([part[0] for part in parts])
-        triangles = np.concatenate([part[1] for part in parts]).reshape(-1, 3, 3)
-        return _measure(points, triangles)
+            placed = key, pose.tobytes()
+            if placed not in self._measured:
+                self._measured[placed] = _place(surface, pose)
+            parts.append(self._measured[placed])
+        return parts[0] if len(parts) == 1 else _unite(parts)
 
-    def _load(self, robot: Robot, mesh: Mesh) -> tuple[Array, Array] | None:
-        """Return points, shape (n, 3), and triangles, shape (m, 3, 3) [m]."""
-        path = self.find(robot, mesh)
-        if path is None:
-            return None
-        key = str(path), mesh.scale
+    def _load(self, robot: Robot, key: _Key) -> _Surface | None:
+        """Return the surface of a file with a scale; None if it cannot be read."""
         if key not in self._read:
             up = "y" if robot.source is None else robot.source.gltf_up
             try:
-                loaded = load_mesh(path, mesh.scale, gltf_up=up or "y")
+                loaded = load_mesh(Path(key[0]), key[1], gltf_up=up or "y")
             except UrdftoolError:
                 self._read[key] = None
             else:
-                triangles = np.asarray(loaded.vertices[loaded.faces], dtype=np.float64)
-                self._read[key] = triangles.reshape(-1, 3), triangles
+                vertices = np.asarray(loaded.vertices, dtype=np.float64)
+                faces = np.asarray(loaded.faces)
+                self._read[key] = _make_surface(vertices, faces) if len(faces) else None
         return self._read[key]
 
 
-def _move(points: Array, pose: Array) -> Array:
-    moved: Array = points @ pose[:3, :3].T + pose[:3, 3]
-    return moved
-
-
-def _measure(points: Array, triangles: Array) -> Measure:
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+def _make_surface(vertices: Array, faces: Faces) -> _Surface:
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
     areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     total = float(areas.sum()) or 1e-300
-    center = (areas[:, None] * (a + b + c) / 3).sum(axis=0) / total
+    center = areas @ (a + b + c) / (3 * total)
     second = np.zeros((3, 3))
-    for corner in ((a + b) / 2, (b + c) / 2, (c + a) / 2):  # exact for quadratic functions
-        arm = corner - center
-        second += np.einsum("n,ni,nj->ij", areas / 3, arm, arm)
-    return Measure(points.min(axis=0), points.max(axis=0), total, center, second / total)
+    for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):  # exact for quadratic functions
+        arm = middle - center
+        second += (arm * (areas / 3)[:, None]).T @ arm
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces.reshape(-1)] = True
+    return _Surface(vertices[used], total, center, second / total)
+
+
+def _place(surface: _Surface, pose: Array) -> Measure:
+    """Return the measure of a surface at a pose, 4 × 4."""
+    turn, at = pose[:3, :3], pose[:3, 3]
+    points = surface.points @ turn.T
+    low, high = points.min(axis=0) + at, points.max(axis=0) + at
+    center, second = turn @ surface.center + at, turn @ surface.second @ turn.T
+    return Measure(low, high, surface.area, center, second)
+
+
+def _unite(parts: list[Measure]) -> Measure:
+    """Return the measure of several surfaces together."""
+    area = sum(part.area for part in parts)
+    center = sum((part.area * part.center for part in parts), np.zeros(3)) / area
+    second = np.zeros((3, 3))
+    for part in parts:
+        arm = part.center - center
+        second += part.area / area * (part.second + np.outer(arm, arm))
+    low = np.min([part.low for part in parts], axis=0)
+    high = np.max([part.high for part in parts], axis=0)
+    return Measure(low, high, area, center, second)
 
 
 def measure_distance(one: Measure, two: Measure) -> float:
