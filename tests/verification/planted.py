@@ -173,14 +173,14 @@ class Harness:
         path = self.files[changed].with_name(f"changed{self.files[changed].suffix}")
         change.apply().write(path)
         unchanged = self.compare_unchanged(changed, other)
-        before = {(d.row, d.names, d.what, str(d.values)) for d in unchanged}
+        before = {(d.row, d.title, str(d.values)) for d in unchanged}
         try:
             found = self.compare(self.read(changed, path), self.others[other])
         except UrdftoolError as error:
             result.error = error.message
             return result
         for d in found:
-            if (d.row, d.names, d.what, str(d.values)) in before:
+            if (d.row, d.title, str(d.values)) in before:
                 continue
             text = f"{d.row}: {d.title}"
             if d.is_convention:

@@ -220,7 +220,8 @@ def _match_capsules(state: _Comparing) -> None:
     """Remove capsules that are a cylinder with two spheres in the other body, as in URDF."""
     for side, other in ((state.one, state.two), (state.two, state.one)):
         for capsule in [p for p in side if isinstance(p.geometry, Capsule)]:
-            parts = _find_capsule(state, capsule, other)
+            own = _get_counterpart(state, capsule, is_first=side is state.one)
+            parts = _find_capsule(state, capsule, sorted(other, key=lambda p: p.link.name != own))
             if not parts:
                 continue
             pair = (capsule, parts[0]) if side is state.one else (parts[0], capsule)
@@ -228,6 +229,14 @@ def _match_capsules(state: _Comparing) -> None:
             _compare_colors(state, *pair)
             side[:] = [p for p in side if p is not capsule]
             other[:] = [p for p in other if not _contains(parts, p)]
+
+
+def _get_counterpart(state: _Comparing, placed: Placed, *, is_first: bool) -> str:
+    """Return the name of the link of a shape in the other robot."""
+    links, name = state.pair.links, placed.link.name
+    if not is_first:
+        links = {new: old for old, new in links.items()}
+    return links.get(name, name)
 
 
 def _find_capsule(state: _Comparing, capsule: Placed, shapes: list[Placed]) -> list[Placed]:
