@@ -77,6 +77,26 @@ def test_a_frame_that_turns_a_welded_link_is_no_convention(compare):
     assert compare(make(*parts), turned) == {("frames", "joint 'shoulder': origin")}
 
 
+def test_another_link_frame_and_a_small_distance_of_the_axes(compare):
+    """The frame of the arm is turned about x, with everything in it; its axis is 0.5 mm off."""
+    quarter = 1.5707963267948966
+    parts = link("base", 4), link("hand")
+    one = make(
+        *parts,
+        link("arm", com="0 0.1 0.1", moments=(0.02, 0.03, 0.04)),
+        joint("shoulder", "base", "arm"),
+        joint("wrist", "arm", "hand"),
+    )
+    shoulder = joint("shoulder", "base", "arm", xyz="0.1 0.0005 0.3", rpy=f"{quarter} 0 0")
+    two = make(
+        *parts,
+        link("arm", com="0 0.1 -0.1", moments=(0.02, 0.04, 0.03)),
+        shoulder.replace('axis xyz="0 0 1"', 'axis xyz="0 1 0"'),
+        joint("wrist", "arm", "hand", xyz="0.1 0.3 0", rpy=f"{-quarter} 0 0"),
+    )
+    assert compare(one, two) == {("frames", "joint 'shoulder': origin")}
+
+
 def test_inertia_moved_to_a_welded_link_is_equal(compare):
     def make_pair(moved):
         moments = [(0.02 - d, 0.02 - d, 0.01) for d in (moved, -moved)]

@@ -34,6 +34,10 @@ _MANY = 3
 """Number of differences from which another frame is considered."""
 
 
+_FARTHEST = 0.02
+"""Distance of two axes [m] up to which their frames may have different conventions."""
+
+
 @dataclass
 class _Walk:
     """State of the comparison.
@@ -378,7 +382,7 @@ def _compare_child(
         frame = choose_parent_frame(pair, x, y, frame)
         offset = invert(pair.a.compute_joint_pose(x)) @ frame @ pair.b.compute_joint_pose(y)
         if measure_largest(offset) > min(1e-6, comparison.tolerances.get("frames", 1e-6)):
-            child = _choose_child_frame(walk, x, y, offset, frame)
+            child = _choose_child_frame(walk, x, y, offset)
         difference = describe_origin(pair, x, y, invert(child) @ offset, frame)
         comparison.add(difference)
     match = Match(one, two, child)
@@ -389,12 +393,12 @@ def _compare_child(
     return [match]
 
 
-def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array, frame: Array) -> Array:
+def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array) -> Array:
     """Return the pose of the second child body in the first.
 
     It is the identity, with which the origin of the joint differs, unless the bodies then differ
     in more properties than if their frames are at the same place in the world. The axes must be
-    on one line in that case.
+    parallel in that case; their distance is the difference of the origins.
     """
     pair = walk.pair
     one, two = pair.a.get_child(x), pair.b.get_child(y)
@@ -403,22 +407,25 @@ def _choose_child_frame(walk: _Walk, x: Joint, y: Joint, offset: Array, frame: A
     moved = JointMatch(x, y, offset[:3, :3])
     trial = Comparison(ROWS)
     compare_joint(pair, moved, trial)
-    along = offset[:3, 3]
-    if get_kind(x) == "hinge":
-        direction = compute_axis(x)
-        along = along - direction * float(direction @ along)
-    off_line = float(np.linalg.norm(along)) if get_kind(x) != "prismatic" else 0.0
-    turned = any(d.row == "axes" and d.amount < 3 for d in trial.differences)
-    if turned or off_line > 1e-5:
+    direction = compute_axis(x)
+    at = offset[:3, 3]
+    on_axis = direction * float(direction @ at) if get_kind(x) == "hinge" else at
+    distance = float(np.linalg.norm(at - on_axis))
+    if any(d.row == "axes" and d.amount < 3 for d in trial.differences) or distance > _FARTHEST:
         return np.eye(4)
+    frame: Array = offset.copy()
+    frame[:3, 3] = on_axis
+    unmoved = Comparison(ROWS)
+    compare_joint(pair, JointMatch(x, y, np.eye(3)), unmoved)
     plain = _count(walk, Match(one, two, np.eye(4))) + 1
-    other = _count(walk, Match(one, two, offset))
+    plain += sum(d.row == "axes" for d in unmoved.differences)
+    other = _count(walk, Match(one, two, frame)) + (distance > trial.tolerances["frames"])
     if other >= plain or not pair.a.has_content(one) or not pair.b.has_content(two):
         return np.eye(4)
-    match = Match(one, two, offset)
-    poses = "identity", describe_pose(offset)
+    match = Match(one, two, frame)
+    poses = "identity", describe_pose(frame)
     _add_frame_convention(walk.comparison, "frames", pair, match, poses)
-    return offset
+    return frame
 
 
 def _add_frame_convention(
@@ -436,7 +443,7 @@ def _add_frame_convention(
             "m, rad",
             float("inf"),
             (locate(links[0], None), locate(links[1], None)),
-            f"{describe_motion(match.frame)}; the parts of the body agree",
+            f"{describe_motion(match.frame)}; more parts of the body agree then",
             is_convention=True,
         )
     )
