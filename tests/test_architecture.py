@@ -93,7 +93,7 @@ PLACES = {
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
         *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "formats/"),
-        *("collision/", "simulation/", "bundle/mesh_formats.py"),
+        *("collision/", "simulation/", "bundle/mesh_formats.py", "bundle/collada_file.py"),
         *("bundle/yourdfpy_reader.py", "bundle/reduce.py", "bundle/surface_distance.py"),
     ),
     "coacd": ("collision/coacd_child.py",),

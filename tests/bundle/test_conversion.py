@@ -46,7 +46,7 @@ def bundle_one(urdftool, write, mesh, *options):
     return result
 
 
-@pytest.mark.parametrize("target", ["stl", "obj", "glb"])
+@pytest.mark.parametrize("target", ["stl", "obj", "dae", "glb"])
 def test_units_and_colors_of_collada(urdftool, write, tmp_path, target):
     result = bundle_one(urdftool, write, write("a.dae", files.COLORED_DAE), "--meshes", target)
     mesh = load_mesh(tmp_path / "out" / "meshes" / f"a.{target}")
@@ -61,17 +61,17 @@ def test_units_and_colors_of_collada(urdftool, write, tmp_path, target):
 
 
 @pytest.mark.library("PIL")
-@pytest.mark.parametrize("target", ["obj", "glb"])
+@pytest.mark.parametrize("target", ["obj", "dae", "glb"])
 def test_textures_are_kept(urdftool, write, tmp_path, png, target):
     write("a.mtl", files.mtl("skin.png"))
     write("skin.png", png)
     before = load_mesh(write("a.obj", TEXTURED))
     bundle_one(urdftool, write, "a.obj", "--meshes", "glb")
     first = tmp_path / "out" / "meshes" / "a.glb"
-    if target == "obj":
+    if target != "glb":
         write("b.glb", first.read_bytes())
-        bundle_one(urdftool, write, "b.glb", "--meshes", "obj", "--overwrite")
-        first = tmp_path / "out" / "meshes" / "b.obj"
+        bundle_one(urdftool, write, "b.glb", "--meshes", target, "--overwrite")
+        first = tmp_path / "out" / "meshes" / f"b.{target}"
         assert (tmp_path / "out" / "meshes" / "b.png").read_bytes() == png
     after = load_mesh(first)
     assert np.allclose(after.vertices[after.faces], before.vertices[before.faces], atol=1e-6)

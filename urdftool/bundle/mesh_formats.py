@@ -14,10 +14,11 @@ from ..formats.common.asset_filter import is_image
 from ..geometry.mesh import Array, Faces, Mesh, Part, Points
 from ..source.description import GltfUp
 
-MeshFormat = Literal["stl", "obj", "glb"]
+MeshFormat = Literal["stl", "obj", "glb", "dae"]
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_GRAY = (0.7, 0.7, 0.7, 1.0)
+GRAY = (0.7, 0.7, 0.7, 1.0)
+"""Color of parts without one."""
 _FLOAT, _UINT32 = 5126, 5125
 _ARRAY, _ELEMENTS = 34962, 34963
 _PNG = b"\x89PNG\r\n\x1a\n"
@@ -77,7 +78,7 @@ def encode_obj(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -
     """
     if shading is None:
         shading = compute_corner_normals(mesh.vertices, mesh.faces)
-    normals, normal_of = _number_rows(shading)
+    normals, normal_of = number_rows(shading)
     lines = ["# Mesh bundled by urdftool", f"mtllib {names.library}"]
     lines += [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in (mesh.vertices + 0.0).tolist()]
     lines += [f"vn {x:.4f} {y:.4f} {z:.4f}" for x, y, z in (normals + 0.0).tolist()]
@@ -87,7 +88,7 @@ def encode_obj(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -
         faces = (mesh.get_part_faces(part) + 1).tolist()
         rows = (normal_of[part.first : part.first + part.count] + 1).tolist()
         if number in names.images and part.uv is not None:
-            points, texel_of = _number_rows(part.uv)
+            points, texel_of = number_rows(part.uv)
             lines += [f"vt {u:.6g} {v:.6g}" for u, v in (points + 0.0).tolist()]
             texels = (texel_of + first).tolist()
             first += len(points)
@@ -112,7 +113,7 @@ def encode_mtl(mesh: Mesh, names: MaterialNames) -> bytes:
     """
     lines = ["# Materials bundled by urdftool"]
     for number, part in enumerate(mesh.parts):
-        red, green, blue, opacity = part.rgba or _GRAY
+        red, green, blue, opacity = part.rgba or GRAY
         lines += [f"newmtl material_{number}", f"Kd {red:.6g} {green:.6g} {blue:.6g}"]
         lines += [f"d {opacity:.6g}"]
         if number in names.images:
@@ -208,7 +209,7 @@ class _Buffer:
 
     def add_material(self, part: Part, image: bytes | None) -> int:
         """Add the material of a part; return its number."""
-        rgba = part.rgba or _GRAY
+        rgba = part.rgba or GRAY
         surface: dict[str, Any] = {
             "baseColorFactor": [float(value) for value in rgba],
             "metallicFactor": 0.0,
@@ -261,7 +262,7 @@ class _Buffer:
         return len(self._views) - 1
 
 
-def _number_rows(values: Array) -> tuple[Array, Faces]:
+def number_rows(values: Array) -> tuple[Array, Faces]:
     """Return the distinct rows of the last axis, and the number of each row by face and corner."""
     flat = np.round(values.reshape(-1, values.shape[-1]), 6)
     rows, numbers = np.unique(flat, axis=0, return_inverse=True)

@@ -91,7 +91,7 @@ PRESETS = {
     ),
     "web": Preset(
         "relative",
-        "stl",
+        "dae",
         (".stl", ".dae"),
         "urdf-loader of three.js loads STL and COLLADA without further code",
     ),

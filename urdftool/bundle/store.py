@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Content = bytes | Path
 
 
-_TARGETS: dict[str, MeshFormat] = {"stl": "stl", "glb": "glb", "gltf": "glb"}
+_TARGETS: dict[str, MeshFormat] = {"stl": "stl", "glb": "glb", "gltf": "glb", "dae": "dae"}
 """Formats of reduced meshes that keep theirs; others become OBJ."""
 
 
@@ -194,8 +194,8 @@ class _Store:
         conversion = self._conversion
         shading = None if reduced is None else reduced.normals
         used = mesh if reduced is None else reduced.mesh
-        if target == "obj":
-            data = self._encode_obj(asset, used, shading)
+        if target in ("obj", "dae"):
+            data = self._encode_text(asset, used, target, shading)
         elif target == "glb":
             data = encode_glb(used, "y" if conversion is None else conversion.gltf_up, shading)
         else:
@@ -215,8 +215,10 @@ class _Store:
                 data, change.pixels = small.data, (small.before, small.after)
         return self._put(asset, data, change, f".{target}")
 
-    def _encode_obj(self, asset: Asset, mesh: Mesh, shading: Array | None) -> bytes:
-        """Store the images and materials of a mesh; return it as OBJ."""
+    def _encode_text(
+        self, asset: Asset, mesh: Mesh, target: MeshFormat, shading: Array | None
+    ) -> bytes:
+        """Store the images and materials of a mesh; return it as OBJ or COLLADA."""
         from .mesh_formats import (
             MaterialNames,
             encode_mtl,
@@ -232,6 +234,10 @@ class _Store:
                 path = part.texture or asset.path
                 place = self._put_companion(path, "image", image, get_image_suffix(image))
                 images[number] = Path(place).name
+        if target == "dae":
+            from .collada_file import encode_dae
+
+            return encode_dae(mesh, MaterialNames("", images), shading)
         library = self._put_companion(
             asset.path, "material", encode_mtl(mesh, MaterialNames("", images)), ".mtl"
         )

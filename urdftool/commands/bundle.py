@@ -62,11 +62,11 @@ _GROUPS = {
 )
 @click.option(
     "--meshes",
-    type=click.Choice(("keep", "stl", "obj", "glb")),
+    type=click.Choice(("keep", "stl", "obj", "dae", "glb")),
     default="keep",
     show_default=True,
     metavar="FORMAT",
-    help="Format of all meshes: keep, stl, obj (with materials and textures), glb.",
+    help="Format of all meshes: keep, stl (without colors), obj, dae, glb.",
 )
 @click.option(
     "--max-triangles",
