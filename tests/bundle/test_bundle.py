@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 import zipfile
 
 import pytest
@@ -75,12 +76,16 @@ def test_the_manifest_lists_digests_and_sources(urdftool, project, tmp_path):
     assert str(tmp_path) not in (tmp_path / "out" / "bundle.json").read_text()
 
 
-def test_the_same_input_gives_the_same_bytes(urdftool, project, tmp_path):
+def test_the_same_input_gives_the_same_bytes(urdftool, project, tmp_path, monkeypatch):
     assert urdftool("bundle", project, "-o", "a.zip", "--check").code == 0
     shutil.copytree(tmp_path / "p", tmp_path / "deep" / "p")
     os.utime(tmp_path / "deep" / "p" / "meshes" / "copy.stl", (0, 0))
     assert urdftool("bundle", "deep/p/urdf/arm.urdf", "-o", "b.zip").code == 0
     assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+    monkeypatch.setenv("TZ", "Asia/Kolkata")
+    getattr(time, "tzset", bool)()  # Windows has none
+    assert urdftool("bundle", project, "-o", "c.zip").code == 0
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "c.zip").read_bytes()
     with zipfile.ZipFile("a.zip") as archive:
         assert "arm/arm.urdf" in archive.namelist()
 
@@ -223,6 +228,40 @@ def test_links_to_other_files_are_checked_by_content(urdftool, write, tmp_path):
     assert urdftool("bundle", write("r.urdf", files.robot(("a.stl", "b.stl"))), "-o", "o").code == 2
     assert urdftool("bundle", write("s.urdf", files.robot(("b.stl", "b.stl"))), "-o", "o").code == 0
     assert inside(tmp_path / "o") == {"arm.urdf", "bundle.json", "meshes/b.stl"}
+
+
+@pytest.mark.parametrize("target", ["dae", "glb"])
+def test_images_of_converted_meshes_are_checked_by_content(urdftool, write, tmp_path, target):
+    write("secret.png", "root:x:0:0" * 9)
+    write("arm.mtl", files.mtl("secret.png"))
+    mesh = write("a.obj", files.obj().replace(b"f 1 2 3", b"vt 0 0\nf 1/1 2/1 3/1"))
+    path = write("r.urdf", files.robot((mesh, mesh)))
+    assert urdftool("bundle", path, "-o", "out", "--meshes", target).code == 0
+    for name in inside(tmp_path / "out"):
+        assert b"root:x" not in (tmp_path / "out" / name).read_bytes()
+
+
+@pytest.mark.parametrize("uri", ["/dev/zero", "pipe.stl", "zero.stl", "loop.stl", "folder.stl"])
+def test_devices_pipes_and_folders_are_not_read(urdftool, write, tmp_path, uri):
+    if not os.path.exists("/dev/zero"):
+        pytest.skip("this system has no devices in /dev")
+    os.mkfifo(tmp_path / "pipe.stl")
+    (tmp_path / "zero.stl").symlink_to("/dev/zero")
+    (tmp_path / "loop.stl").symlink_to("loop.stl")
+    (tmp_path / "folder.stl").mkdir()
+    path = write("r.urdf", files.robot((uri, uri)))
+    assert urdftool("bundle", path, "-o", "out").code == 2
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("suffix", ["stl", "obj"])
+def test_immense_files_are_not_read(urdftool, write, tmp_path, suffix):
+    name = write(f"a.{suffix}", files.stl() if suffix == "stl" else files.obj())
+    with open(name, "ab") as stream:
+        stream.truncate(3 << 30)  # sparse: takes no space
+    result = urdftool("bundle", write("r.urdf", files.robot((name, name))), "-o", "o.zip")
+    assert result.code == 2
+    assert "3.2 GB" in result.err
 
 
 def test_a_folder_of_the_user_is_kept(urdftool, project, write, tmp_path):

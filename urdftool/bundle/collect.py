@@ -24,6 +24,9 @@ from ..source.document import Element
 from ..source.location import Place
 from .references import Reference, find_references, has_references, list_readings
 
+LARGEST_FILE = 1 << 30
+"""Size of a file [bytes] above which it is not bundled; a mesh of 20 million triangles has 1 GB."""
+
 AssetKind = Literal["mesh", "image", "material", "buffer"]
 
 
@@ -103,7 +106,7 @@ def _add_mesh(
         found.missing.add(uri)
         found.defects.append(create_missing_mesh(robot, link, mesh))
         return None
-    why = explain_invalid_mesh(path)
+    why = _explain_size(path) or explain_invalid_mesh(path)
     if why:
         found.missing.add(uri)
         message = f"mesh '{uri}' of link '{link.name}' cannot be bundled: {why}"
@@ -123,12 +126,13 @@ def _add_texture(
         return
     place = _locate_texture(material)
     path = find_file(robot, uri)
-    if path is not None and is_image(path):
+    large = "" if path is None else _explain_size(path)
+    if path is not None and not large and is_image(path):
         found.assets[uri] = _get_asset(path, "image", known)
         return
     found.missing.add(uri)
     if path is not None:
-        why, hint = "is not an image", ""
+        why, hint = large or "is not an image", ""
     else:
         why, hint, _ = explain_missing_file(robot, uri)
     found.notes.append(_make_note("missing-texture", f"texture '{uri}' {why}", place, hint))
@@ -191,7 +195,17 @@ def _find_referenced(robot: Robot, mesh: Path, reference: Reference) -> Path | N
     return None
 
 
+def _explain_size(path: Path) -> str:
+    """Explain why a file is too large; return "" if it is not."""
+    size = path.stat().st_size
+    if size <= LARGEST_FILE:
+        return ""
+    return f"it has {size / 1e9:.1f} GB, more than the limit of {LARGEST_FILE / 1e9:.1f} GB"
+
+
 def _is_expected(path: Path, reference: Reference) -> bool:
+    if _explain_size(path):
+        return False
     if reference.kind == "buffer":  # has no signature, so its name and size must match
         size = path.stat().st_size
         return is_companion(path) and reference.size is not None and 0 <= size - reference.size < 4
@@ -213,11 +227,11 @@ def _add_gazebo_files(
             path = find_file(robot, uri)
             if path is None:
                 continue
-            if not explain_invalid_mesh(path):
+            if not (_explain_size(path) or explain_invalid_mesh(path)):
                 found.assets[uri] = asset = _get_asset(path, "mesh", known)
                 asset.is_visual = True
                 _follow(robot, asset, Part(element), found, known)
-            elif is_image(path):
+            elif not _explain_size(path) and is_image(path):
                 found.assets[uri] = _get_asset(path, "image", known)
             else:
                 found.missing.add(uri)

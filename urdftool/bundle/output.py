@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import os
+import shutil
 import zipfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -19,6 +20,7 @@ from .make import Bundle
 from .manifest import MANIFEST, compute_digest, read_digests
 from .store import Content
 
+_BLOCK = 1 << 20
 _DATE = (1980, 1, 1, 0, 0, 0)
 _REGULAR_FILE = 0o100644 << 16
 _OVERWRITE = "choose another output, or overwrite it with --overwrite"
@@ -69,7 +71,12 @@ def zip_bytes(files: Mapping[str, Content], top: str) -> bytes:
             info.compress_type = zipfile.ZIP_DEFLATED
             info.create_system = 3
             info.external_attr = _REGULAR_FILE
-            archive.writestr(info, content if isinstance(content, bytes) else content.read_bytes())
+            if isinstance(content, bytes):
+                archive.writestr(info, content)
+                continue
+            info.file_size = content.stat().st_size
+            with open(content, "rb") as source, archive.open(info, "w") as target:
+                shutil.copyfileobj(source, target, _BLOCK)
     return stream.getvalue()
 
 
