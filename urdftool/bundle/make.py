@@ -150,8 +150,9 @@ def add_manifest(bundle: Bundle) -> None:
     bundle.files.pop(MANIFEST, None)
     files = bundle.manifest.files
     for path, content in bundle.files.items():
-        facts = {"sha256": compute_digest(content), "bytes": get_size(content)}
         known = files.get(path, {})
+        digest = known.get("sha256", "") if isinstance(content, Path) else ""
+        facts = {"sha256": digest or compute_digest(content), "bytes": get_size(content)}
         files[path] = {**facts, **{k: known[k] for k in ("sources", "before") if k in known}}
     bundle.files[MANIFEST] = bundle.manifest.to_json()
 
@@ -249,7 +250,8 @@ def _add_origin(bundle: Bundle, robot: Robot, stored: Stored) -> None:
         for path in paths:
             is_generated = path.is_relative_to(generated)
             names[path] = manifest.source if is_generated else name_source(path, description)
-        manifest.files[place] = {"sources": list(dict.fromkeys(names[path] for path in paths))}
+        found = list(dict.fromkeys(names[path] for path in paths))
+        manifest.files[place] = {"sources": found, "sha256": stored.digests[place]}
         if place in stored.reductions:  # without the fields that do not apply
             change = asdict(stored.reductions[place])
             manifest.files[place]["before"] = {k: v for k, v in change.items() if v is not None}

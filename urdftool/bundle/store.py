@@ -70,6 +70,7 @@ class Stored:
         visual_places: Path of the reduced mesh, by asset that is also collision geometry.
         reductions: What the limits changed, by path.
         contents: Content by path.
+        digests: SHA-256 of each content, by path.
         sources: Source files by path.
         losses: What a converted mesh lost, by asset.
         failed: Why a mesh was not converted, by asset.
@@ -80,6 +81,7 @@ class Stored:
     visual_places: dict[Asset, str] = field(default_factory=dict)
     reductions: dict[str, Reduction] = field(default_factory=dict)
     contents: dict[str, Content] = field(default_factory=dict)
+    digests: dict[str, str] = field(default_factory=dict)
     sources: dict[str, list[Path]] = field(default_factory=dict)
     losses: dict[Asset, tuple[str, ...]] = field(default_factory=dict)
     failed: dict[Asset, str] = field(default_factory=dict)
@@ -251,11 +253,13 @@ class _Store:
         self, asset: Asset, content: Content, change: Reduction | None = None, suffix: str = ""
     ) -> str:
         """Store a content unless it is known; return its path in the bundle."""
-        key = (asset.kind, suffix or asset.suffix, compute_digest(content))
+        digest = compute_digest(content)
+        key = (asset.kind, suffix or asset.suffix, digest)
         place = self._by_content.get(key)
         if place is None:
             place = self._by_content[key] = self._layout.place(asset, suffix)
             self.stored.contents[place] = content
+            self.stored.digests[place] = digest
         self.stored.places[asset] = place
         if change is not None:
             self.stored.reductions[place] = change

@@ -79,7 +79,7 @@ def _is_stl(path: Path) -> bool:
 
 def _is_obj(path: Path) -> bool:
     data = path.read_bytes()
-    return _POINT.search(data) is not None and _FACE.search(data) is not None
+    return _POINT.search(data) is not None and (b"\nf " in data or _FACE.search(data) is not None)
 
 
 def _make_prefix_test(*words: bytes) -> Callable[[Path], bool]:
