@@ -166,11 +166,11 @@ def _compute_chunk(points: Array, surface: Boxes) -> Array:
     square[near] = 1.0
     flux[near] = 0.0
     result: Array = (flux / (square * np.sqrt(square))).sum(axis=1)
-    pairs = np.nonzero(near)
+    which, owner = np.nonzero(near)
     if surface.groups is None:
-        return result + _sum_triangles(points, *pairs, surface)
-    for some in _list_blocks(np.diff(surface.groups.starts)[pairs[1]]):
-        result += _sum_boxes(points, pairs[0][some], pairs[1][some], surface)
+        return result + _sum_triangles(points, which, owner, surface)
+    for some in _list_blocks(np.diff(surface.groups.starts)[owner]):
+        result += _sum_boxes(points, which[some], owner[some], surface)
     return result
 
 
