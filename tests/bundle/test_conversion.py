@@ -80,6 +80,14 @@ def test_textures_are_kept(urdftool, write, tmp_path, png, target):
         assert (other.image or other.texture.read_bytes()) == png
 
 
+@pytest.mark.parametrize("target", ["obj", "dae", "glb"])
+def test_meshes_without_colors_get_none(urdftool, write, tmp_path, target):
+    bundle_one(urdftool, write, write("a.stl", files.stl()), "--meshes", target)
+    mesh = load_mesh(tmp_path / "out" / "meshes" / f"a.{target}")
+    assert [part.rgba for part in mesh.parts] == [None]
+    assert {path.suffix for path in (tmp_path / "out" / "meshes").iterdir()} == {f".{target}"}
+
+
 def test_presets_convert_only_what_their_reader_cannot_read(urdftool, write, tmp_path):
     write("a.dae", files.COLORED_DAE)
     write("b.stl", files.stl())

@@ -23,6 +23,8 @@ _SAMPLER = """<newparam sid="surface"><surface type="2D"><init_from>image_{0}</i
 def encode_dae(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -> bytes:
     """Encode a mesh as COLLADA in meters, with Z up.
 
+    Parts without a color or image have no material, so that the one of the URDF applies.
+
     Args:
         mesh: The mesh.
         names: Names of the images.
@@ -36,18 +38,19 @@ def encode_dae(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -
         image = escape(names.images[n])
         lines.append(f'<image id="image_{n}"><init_from>{image}</init_from></image>')
     lines += ["</library_images>", "<library_effects>"]
-    for n, part in enumerate(mesh.parts):
-        lines += _describe_effect(n, part.rgba or GRAY, is_textured=n in textured)
+    used = [n for n, part in enumerate(mesh.parts) if part.rgba is not None or n in textured]
+    for n in used:
+        lines += _describe_effect(n, mesh.parts[n].rgba or GRAY, is_textured=n in textured)
     lines += ["</library_effects>", "<library_materials>"]
-    for n in range(len(mesh.parts)):
+    for n in used:
         effect = f'<instance_effect url="#effect_{n}"/>'
         lines.append(f'<material id="material_{n}" name="material_{n}">{effect}</material>')
     lines += ["</library_materials>", '<library_geometries><geometry id="mesh"><mesh>']
-    lines += _describe_geometry(mesh, shading, textured)
+    lines += _describe_geometry(mesh, shading, used, textured)
     lines += ["</mesh></geometry></library_geometries>", "<library_visual_scenes>"]
     lines += ['<visual_scene id="scene"><node id="node"><instance_geometry url="#mesh">']
     lines.append("<bind_material><technique_common>")
-    for n in range(len(mesh.parts)):
+    for n in used:
         lines.append(
             f'<instance_material symbol="material_{n}" target="#material_{n}">'
             '<bind_vertex_input semantic="UVSET0" input_semantic="TEXCOORD" input_set="0"/>'
@@ -72,7 +75,9 @@ def _describe_effect(number: int, rgba: tuple[float, ...], *, is_textured: bool)
     yield "</lambert></technique></profile_COMMON></effect>"
 
 
-def _describe_geometry(mesh: Mesh, shading: Array, textured: list[int]) -> Iterator[str]:
+def _describe_geometry(
+    mesh: Mesh, shading: Array, used: list[int], textured: list[int]
+) -> Iterator[str]:
     normals, normal_of = number_rows(shading)
     yield _describe_source("points", mesh.vertices, "XYZ", 9)
     yield _describe_source("normals", normals, "XYZ", 4)
@@ -84,7 +89,8 @@ def _describe_geometry(mesh: Mesh, shading: Array, textured: list[int]) -> Itera
         yield _describe_source(f"uv_{n}", rows, "ST", 6)
     yield '<vertices id="vertices"><input semantic="POSITION" source="#points"/></vertices>'
     for n, part in enumerate(mesh.parts):
-        yield f'<triangles count="{part.count}" material="material_{n}">'
+        symbol = f' material="material_{n}"' if n in used else ""
+        yield f'<triangles count="{part.count}"{symbol}>'
         yield '<input semantic="VERTEX" source="#vertices" offset="0"/>'
         yield '<input semantic="NORMAL" source="#normals" offset="1"/>'
         shaded = normal_of[part.first : part.first + part.count]

@@ -29,7 +29,7 @@ class MaterialNames:
     """Names of the companions of an OBJ file.
 
     Attributes:
-        library: Name of the MTL file.
+        library: Name of the MTL file; empty for a mesh without colors and images.
         images: Names of the images, by the number of the part; parts without an image are missing.
     """
 
@@ -79,12 +79,15 @@ def encode_obj(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -
     if shading is None:
         shading = compute_corner_normals(mesh.vertices, mesh.faces)
     normals, normal_of = number_rows(shading)
-    lines = ["# Mesh bundled by urdftool", f"mtllib {names.library}"]
+    lines = ["# Mesh bundled by urdftool"]
+    if names.library:
+        lines.append(f"mtllib {names.library}")
     lines += [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in (mesh.vertices + 0.0).tolist()]
     lines += [f"vn {x:.4f} {y:.4f} {z:.4f}" for x, y, z in (normals + 0.0).tolist()]
     first = 1
     for number, part in enumerate(mesh.parts):
-        lines.append(f"usemtl material_{number}")
+        if names.library:
+            lines.append(f"usemtl material_{number}")
         faces = (mesh.get_part_faces(part) + 1).tolist()
         rows = (normal_of[part.first : part.first + part.count] + 1).tolist()
         if number in names.images and part.uv is not None:
@@ -141,7 +144,8 @@ def encode_glb(mesh: Mesh, gltf_up: GltfUp, shading: Array | None = None) -> byt
         primitives.append(
             _encode_part(buffer, mesh.vertices, mesh.faces[rows], normals[rows], uv, gltf_up)
         )
-        primitives[-1]["material"] = buffer.add_material(part, image)
+        if part.rgba is not None or image is not None:
+            primitives[-1]["material"] = buffer.add_material(part, image)
     return buffer.encode({"primitives": primitives})
 
 
@@ -237,11 +241,12 @@ class _Buffer:
             "scenes": [{"nodes": [0]}],
             "nodes": [{"mesh": 0}],
             "meshes": [mesh],
-            "materials": self._materials,
             "accessors": self._accessors,
             "bufferViews": self._views,
             "buffers": [{"byteLength": len(self._blob)}],
         }
+        if self._materials:
+            document["materials"] = self._materials
         if self._images:
             document["images"] = self._images
             document["textures"] = [{"source": number} for number in range(len(self._images))]

@@ -240,6 +240,8 @@ class _Store:
             from .collada_file import encode_dae
 
             return encode_dae(mesh, MaterialNames("", images), shading)
+        if not images and all(part.rgba is None for part in mesh.parts):
+            return encode_obj(mesh, MaterialNames("", {}), shading)  # the URDF colors it
         library = self._put_companion(
             asset.path, "material", encode_mtl(mesh, MaterialNames("", images)), ".mtl"
         )
