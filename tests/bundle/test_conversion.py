@@ -132,3 +132,18 @@ def test_a_mesh_that_cannot_be_read_is_kept(urdftool, write, tmp_path):
     assert result.code == 0
     assert "[unconverted-mesh]" in result.err
     assert (tmp_path / "o" / "meshes" / "a.dae").exists()
+
+
+def test_colors_of_gltf_are_linear(urdftool, write, tmp_path):
+    write("a.dae", files.COLORED_DAE)
+    bundle_one(urdftool, write, "a.dae", "--meshes", "glb")
+    content = (tmp_path / "out" / "meshes" / "a.glb").read_bytes()
+    length = int.from_bytes(content[12:16], "little")
+    surface = json.loads(content[20 : 20 + length])["materials"][0]["pbrMetallicRoughness"]
+    given = load_mesh(tmp_path / "a.dae").parts[0].rgba
+    expected = [
+        ((part + 0.055) / 1.055) ** 2.4 if part > 0.04045 else part / 12.92 for part in given
+    ]
+    assert surface["baseColorFactor"][:3] == pytest.approx(expected[:3])
+    found = load_mesh(tmp_path / "out" / "meshes" / "a.glb").parts[0].rgba
+    assert found == pytest.approx(given, abs=1e-6)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..drawing.normals import compute_corner_normals
 from ..formats.common.asset_filter import is_image
+from ..geometry.color import convert_to_linear
 from ..geometry.mesh import Array, Faces, Mesh, Part, Points
 from ..source.description import GltfUp
 
@@ -215,7 +216,7 @@ class _Buffer:
         """Add the material of a part; return its number."""
         rgba = part.rgba or GRAY
         surface: dict[str, Any] = {
-            "baseColorFactor": [float(value) for value in rgba],
+            "baseColorFactor": [*map(convert_to_linear, rgba[:3]), float(rgba[3])],
             "metallicFactor": 0.0,
             "roughnessFactor": 1.0,
         }

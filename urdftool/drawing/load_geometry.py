@@ -27,7 +27,7 @@ from ..model.elements import (
 )
 from ..model.elements import Mesh as MeshGeometry
 from ..model.pose import Pose, make_pose
-from .materials import PLAIN, Materials, Rgba, clamp_color, from_linear
+from .materials import PLAIN, Materials, Rgba, clamp_color
 from .normals import compute_corner_normals
 from .raster import Floats, Indices
 from .texture import Texels, read_texture
@@ -208,14 +208,14 @@ def _look(
     some = slice(part.first, part.first + part.count)
     image = part.texture if part.image is None else part.image
     row = -1 if image is None else gathering.load_image(image, geometry)
-    linear = mesh.format in ("gltf", "glb")  # glTF colors are linear
-    rgba = from_linear(part.rgba) if part.rgba is not None and linear else part.rgba
+    rgba = part.rgba
     if part.uv is not None:
         surface.uv[some], surface.has_uv[some] = part.uv, True
     if row >= 0:
         # only glTF multiplies the image by the color
-        opacity = 1.0 if part.rgba is None else part.rgba[3]
-        color = clamp_color(rgba if rgba is not None and linear else (1.0, 1.0, 1.0, opacity))
+        is_gltf = mesh.format in ("gltf", "glb")
+        opacity = 1.0 if rgba is None else rgba[3]
+        color = clamp_color(rgba if rgba is not None and is_gltf else (1.0, 1.0, 1.0, opacity))
         if part.uv is None:
             color = _compute_mean_color(gathering.images[row])
             row = -1

@@ -61,9 +61,3 @@ def clamp_color(rgba: Rgba) -> Rgba:
     """Clamp the components of a color to 0 … 1; NaN becomes 1."""
     red, green, blue, alpha = (min(max(part, 0.0), 1.0) if part == part else 1.0 for part in rgba)
     return red, green, blue, alpha
-
-
-def from_linear(rgba: Rgba) -> Rgba:
-    """Convert a color from linear light to the screen; opacity is unchanged."""
-    red, green, blue, alpha = clamp_color(rgba)
-    return red ** (1 / 2.2), green ** (1 / 2.2), blue ** (1 / 2.2), alpha

@@ -13,6 +13,8 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
+from .color import Rgba, convert_to_srgb
+
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
@@ -22,8 +24,6 @@ MAX_VALUES = 100_000_000
 
 Image = tuple[Path | None, bytes | None]
 """Path of an image file, or the content of an embedded image."""
-
-Rgba = tuple[float, float, float, float]
 
 
 class GltfFile:
@@ -150,7 +150,7 @@ class GltfFile:
         return values
 
     def read_material(self, number: int) -> tuple[Rgba | None, Image]:
-        """Return the base color of a material, and its image."""
+        """Return the base color of a material in sRGB, and its image."""
         material = self.tree["materials"][number]
         base = material.get("pbrMetallicRoughness", {})
         shiny = material.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness", {})
@@ -158,7 +158,7 @@ class GltfFile:
         rgba: Rgba | None = None
         if factor is not None:
             red, green, blue, alpha = (*(float(value) for value in factor), 1.0)[:4]
-            rgba = red, green, blue, alpha
+            rgba = (convert_to_srgb(red), convert_to_srgb(green), convert_to_srgb(blue), alpha)
         texture = base.get("baseColorTexture")
         source = None
         if texture is not None:

@@ -25,7 +25,7 @@ class Part:
     count: int
     """Number of faces."""
     rgba: tuple[float, float, float, float] | None = None
-    """Diffuse color, each component in 0 … 1; None if the file has none."""
+    """Diffuse color in sRGB, each component in 0 … 1; None if the file has none."""
     texture: Path | None = None
     """Path of the image of the diffuse color; None if there is none or it is embedded."""
     image: bytes | None = field(default=None, repr=False)

@@ -11,9 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import MeshError
+from .color import Rgba
 from .mesh import MeshNote, Piece, Points, Reading
-
-Rgba = tuple[float, float, float, float]
 
 _MOST = 2**48
 """Largest vertex index; a larger one would overflow in numpy."""

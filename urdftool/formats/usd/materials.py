@@ -7,6 +7,7 @@ from pathlib import Path
 
 from pxr import Gf, Sdf, Usd, UsdShade
 
+from ...geometry.color import convert_to_linear
 from ...model.elements import Material, Robot, Visual
 from ..common.assets import find_file
 from ..common.naming import UniqueNames, replace_file_name
@@ -165,12 +166,6 @@ class MaterialWriter:
 
     def _report(self, code: str, message: str, part: Material | Robot) -> None:
         self.written.report_loss(code, message, part.place, kind="material", name=part.name)
-
-
-def convert_to_linear(value: float) -> float:
-    """Convert a component of an sRGB color to linear light, as USD defines colors."""
-    value = min(max(value, 0.0), 1.0)
-    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)
 
 
 def _name_color(look: Look) -> str:

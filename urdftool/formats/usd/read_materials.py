@@ -8,6 +8,7 @@ from pathlib import PurePosixPath
 from pxr import Ar, Gf, Sdf, Usd, UsdGeom, UsdShade
 
 from ...diagnostic import Severity
+from ...geometry.color import convert_to_srgb
 from ...model.elements import Material
 from .read_mesh import MeshFolder
 from .read_stage import Context
@@ -137,6 +138,4 @@ def _store_image(image: Sdf.AssetPath, folder: MeshFolder) -> str:
 
 def encode_color(value: float) -> float:
     """Convert linear light to a component of an sRGB color."""
-    value = min(max(value, 0.0), 1.0)
-    encoded = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
-    return round(float(encoded), _DIGITS)
+    return round(convert_to_srgb(value), _DIGITS)
