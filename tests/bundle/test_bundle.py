@@ -356,3 +356,14 @@ def test_a_robot_of_the_fixtures(urdftool, tmp_path):
     before, after = (urdftool("info", p) for p in (ARM, tmp_path / "out" / "my_robot_arm.urdf"))
     rows = [line for line in before.out.splitlines() if not line.startswith("packages")]
     assert after.out.splitlines() == rows
+
+
+def test_a_file_of_macros_is_refused(urdftool, write):
+    path = write(
+        "arm.xacro",
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="a"/></robot>',
+    )
+    result = urdftool("bundle", path, "-o", "out")
+    assert result.code == 2
+    assert "use a file that calls its macros" in result.err
+    assert not os.path.exists("out")

@@ -124,13 +124,14 @@ def command(
     from ..bundle.make import make_bundle
     from ..bundle.output import write_bundle
     from ..formats.defects import Refused
+    from ..lint.validate import require as require_purpose
 
     if output is None:
         if check and is_bundle(robot[0]):
             return _check(console, robot[0])
         raise click.UsageError("missing option -o OUT: a folder or a .zip file")
     options = _make_options(output, choices)
-    model = read_any(console, robot, package, package_path)
+    model = require_purpose(read_any(console, robot, package, package_path), "links")
     with TemporaryDirectory(prefix="urdftool-") as folder:
         try:
             original, model, losses = _convert(model, Path(os.path.realpath(folder)), options.force)

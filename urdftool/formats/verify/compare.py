@@ -103,7 +103,7 @@ def compare_robots(
 def _compare_base(pair: Pair, comparison: Comparison) -> None:
     known = pair.a.is_free, pair.b.is_free
     if None in known:
-        comparison.record_not_comparable("base: not specified in every file")
+        comparison.skipped["base"] = "not specified in every file"
         return
     roots = pair.a.robot.link[pair.a.root], pair.b.robot.link[pair.b.root]
     words = ["free" if free else "fixed" for free in known]
