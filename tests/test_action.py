@@ -12,8 +12,15 @@ from pathlib import Path
 import jsonschema
 import pytest
 import yaml
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from tests.conftest import ROOT
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 ACTION = yaml.safe_load((ROOT / "action.yml").read_text("utf-8"))
 INSTALL, LINT = ACTION["runs"]["steps"]
@@ -100,6 +107,15 @@ def test_findings_are_annotations_and_fail_the_step(runner, write):
     assert runner.run(LINT, args="--ignore missing-name,xml --target ros2").returncode == 0
 
 
+def test_xacro_is_not_expanded_if_so_wished(runner, xacro_file):
+    xacro_file("r.urdf.xacro", '<link name="${1/0}"/>')
+    assert runner.run(LINT, paths="r.urdf.xacro").returncode == 2
+    done = runner.run(LINT, paths="r.urdf.xacro", no_expand="true")
+    assert done.returncode == 0
+    assert "1 xacro file not expanded" in done.stderr
+    assert "neither true nor false" in runner.run(LINT, no_expand="yes").stdout
+
+
 def test_paths_are_one_a_line_and_arguments_go_through(runner, write, xacro_file):
     xacro_file("a b.urdf.xacro", '<xacro:arg name="n" default=""/><link name="$(arg n)"/>')
     write("good.urdf", GOOD)
@@ -141,6 +157,54 @@ def test_bad_values_are_said(runner, write):
     assert "'urgent' is not one of" in runner.run(LINT, fail_on="urgent").stderr
     assert "no such file" in runner.run(LINT, paths="absent.urdf").stderr
     assert "no version" in runner.run(INSTALL, version="latest").stdout
+
+
+def read_lock():
+    """Return each requirement of the lock with its hashes."""
+    text = (ROOT / "action-requirements.txt").read_text("utf-8").replace("\\\n", " ")
+    for line in text.splitlines():
+        if line.strip() and not line.startswith("#"):
+            requirement, *hashes = line.split("--hash=")
+            yield Requirement(requirement.strip()), [text.strip() for text in hashes]
+
+
+def test_the_lock_names_one_version_and_its_hashes():
+    for requirement, hashes in read_lock():
+        assert re.fullmatch(r"==[\w.]+", str(requirement.specifier)), requirement
+        assert hashes, requirement
+        assert all(re.fullmatch(r"sha256:[0-9a-f]{64}", text) for text in hashes)
+        assert not requirement.url
+    text = (ROOT / "action-requirements.txt").read_text("utf-8")
+    assert "://" not in text
+    assert "index" not in text
+
+
+@pytest.mark.parametrize("python", ["3.10", "3.11", "3.12", "3.13"])
+@pytest.mark.parametrize("platform", ["linux", "darwin", "win32"])
+def test_the_lock_satisfies_the_package(python, platform):
+    here = {"python_version": python, "python_full_version": f"{python}.0"}
+    here |= {"sys_platform": platform, "platform_system": platform.title(), "extra": ""}
+    pinned = {}
+    for requirement, _ in read_lock():
+        if requirement.marker is None or requirement.marker.evaluate(here):
+            name = canonicalize_name(requirement.name)
+            assert name not in pinned
+            pinned[name] = str(requirement.specifier).removeprefix("==")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    for text in (*project["project"]["dependencies"], *project["build-system"]["requires"]):
+        needed = Requirement(text)
+        if needed.marker is None or needed.marker.evaluate(here):
+            assert pinned[canonicalize_name(needed.name)] in needed.specifier, text
+
+
+def test_the_action_installs_by_the_lock_alone():
+    """What pip would build or resolve has no hash."""
+    commands = INSTALL["run"].replace("\\\n", " ").splitlines()
+    installs = [" ".join(line.split()) for line in commands if " install " in line]
+    assert len(installs) == 2
+    assert "--require-hashes --only-binary :all:" in installs[0]
+    assert '--requirement "$ACTION_PATH/action-requirements.txt"' in installs[0]
+    assert '--no-deps --no-build-isolation "$what"' in installs[1]
 
 
 @pytest.mark.slow

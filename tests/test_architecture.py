@@ -10,8 +10,9 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
 
 BASE = (
-    *("errors", "extras", "suggestions", "parallel", "isolated", "storage"),
-    *("dependencies", "workspace", "diagnostic"),
+    *("control_characters", "errors", "extras", "suggestions", "parallel", "landlock", "isolated"),
+    *("limited", "exchange", "leftovers", "storage", "dependencies", "file_access", "workspace"),
+    *("git_command", "diagnostic"),
 )
 """Modules that know nothing of robots, each of which may import those before it."""
 
@@ -22,10 +23,10 @@ BELOW = {
     "model": ("source", *BASE),
     "finding": ("source", "diagnostic"),
     "output": BASE,
-    "terminal": (),
-    "console": ("terminal", *BASE),
-    "configuration": BASE,
-    "geometry": ("model", *BASE),
+    "terminal": ("control_characters",),
+    "console": BASE,
+    "configuration": ("source", *BASE),
+    "geometry": ("model", "source", *BASE),
     "mechanics": ("model",),
     "drawing": ("geometry", "model", *BASE),
     "inertia": (
@@ -79,8 +80,9 @@ PLACES = {
     "concurrent": (),
     "subprocess": (
         "isolated.py",
-        "bundle/origin.py",  # git
-        "compare/revision.py",  # git
+        "limited.py",  # TimeoutExpired
+        "source/expansion_process.py",
+        "git_command.py",
         "formats/sdf/verify/loader.py",  # gz sdf
     ),
     "xacro": (),  # source/xacro_hooks.py loads a copy
@@ -102,8 +104,8 @@ PLACES = {
     "newton": ("formats/usd/newton_child.py",),
     "mujoco": ("formats/mjcf/", "simulation/engines/mujoco/"),
     "PIL": (
-        *("drawing/", "formats/mjcf/texture.py", "geometry/scene.py"),
-        *("formats/mjcf/verify_looks.py", "bundle/textures.py"),
+        *("drawing/", "formats/mjcf/texture.py", "geometry/scene.py", "geometry/image_file.py"),
+        *("formats/mjcf/verify_looks.py", "formats/common/asset_filter.py", "bundle/textures.py"),
     ),
     "pybullet": ("simulation/engines/pybullet/",),
     "matplotlib": ("simulation/plot.py",),
@@ -178,9 +180,9 @@ def test_a_file_is_one_idea(path):
 # What may be called in one place only.
 CALLS = {
     "os.replace": ("storage.py",),
-    "os.rename": ("storage.py",),
+    "os.rename": ("storage.py", "leftovers.py"),
     "os.link": ("storage.py",),
-    "os.fork": (),
+    "os.fork": ("limited.py", "source/expansion_process.py"),
     "get_close_matches": ("suggestions.py",),
 }
 
@@ -288,6 +290,117 @@ def patches(tree):
 def test_no_function_of_another_module_is_replaced(path):
     found = {f"{path.name}: {name}" for name in patches(TREES[path])}
     assert not found - set(KNOWN_PATCHES)
+
+
+OUTPUTS = "output of this or an earlier run"
+CHECKED = "the path comes from `Description.resolve` or a checked companion"
+TEMPORARY = "a temporary file of this run"
+OWN = "data of the package"
+NAMED = "a file that the user names"
+MEMORY = "an image in memory"
+OPENERS = {
+    "bundle/check.py": "a bundle that the user names; links in it are defects",
+    "bundle/from_other.py": TEMPORARY,
+    "bundle/manifest.py": "content of the bundle",
+    "bundle/mesh_formats.py": CHECKED,
+    "bundle/origin.py": "license files and package.xml around files that are read",
+    "bundle/output.py": OUTPUTS,
+    "bundle/presets.py": CHECKED,
+    "bundle/store.py": CHECKED,
+    "cli.py": "standard streams",
+    "collision/cache.py": CHECKED,
+    "collision/cluster.py": CHECKED,
+    "collision/mesh_files.py": OUTPUTS,
+    "commands/inertia_write.py": OUTPUTS,
+    "dependencies.py": "digests of what the workspace read",
+    "formats/common/actuator_config.py": NAMED,
+    "formats/common/asset_filter.py": CHECKED,
+    "formats/common/directory.py": OUTPUTS,
+    "formats/mjcf/cache.py": CHECKED,
+    "formats/mjcf/convert.py": CHECKED,
+    "formats/mjcf/home_contacts.py": TEMPORARY,
+    "formats/mjcf/texture.py": MEMORY,
+    "formats/mjcf/verify_looks.py": CHECKED,
+    "formats/mjcf/write.py": "lists SRDF files, which the workspace opens",
+    "formats/sdf/page.py": OWN,
+    "formats/sdf/verify/reader.py": OUTPUTS,
+    "formats/sdf/verify/source.py": CHECKED,
+    "formats/usd/files.py": OUTPUTS,
+    "formats/verify/mesh_measure.py": CHECKED,
+    "formats/verify/names.py": NAMED,
+    "formats/written.py": "content of the export",
+    "geometry/collada_scene.py": CHECKED,
+    "geometry/gltf_file.py": CHECKED,
+    "geometry/obj.py": CHECKED,
+    "geometry/ply.py": CHECKED,
+    "geometry/points.py": CHECKED,
+    "geometry/stl.py": CHECKED,
+    "geometry/stl_header.py": CHECKED,
+    "geometry/thin.py": CHECKED,
+    "geometry/image_file.py": CHECKED,
+    "inertia/mass_file.py": NAMED,
+    "leftovers.py": "names beside an output",
+    "parallel.py": "memory of this process",
+    "source/expansion_process.py": "the null device",
+    "lint/baseline.py": NAMED,
+    "lint/cache.py": "entries of the cache",
+    "lint/discover.py": "lists the folder that the user names",
+    "lint/moot.py": OWN,
+    "output.py": OUTPUTS,
+    "report/findings_html.py": OWN,
+    "viewer/server.py": OWN,
+    "report/rule_pages.py": OWN,
+    "rules/file_rewrites.py": "the workspace materializes the path",
+    "rules/mesh/files.py": "the workspace materializes the path",
+    "simulation/engines/mujoco/scene.py": TEMPORARY,
+    "simulation/hull_cache.py": CHECKED,
+    "storage.py": OUTPUTS,
+    "terminal.py": "standard streams",
+    "workspace.py": "the one place that opens files for a description",
+}
+"""Modules that open, list or copy files without the workspace, with the reason."""
+
+_OPENS = {"open", "io.open", "os.open", "os.scandir", "os.listdir", "os.walk", "glob.glob"}
+_OF_PATHS = {"read_bytes", "read_text", "glob", "rglob", "iterdir", "open"}
+_VIEWS = ("workspace", "files", "_workspace", "_get_workspace(robot)", "webbrowser")
+
+
+def openings(tree):
+    """Yield the calls that open, list or copy files, except by a workspace."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        called = ast.unparse(node.func)
+        holder, _, name = called.rpartition(".")
+        if (
+            called in _OPENS
+            or called.startswith(("shutil.copy", "trimesh.load"))
+            or (holder and name in _OF_PATHS and holder.rpartition(".")[2] not in _VIEWS)
+        ):
+            yield called
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_files_are_opened_through_the_workspace(path):
+    name = path.relative_to(PACKAGE).as_posix()
+    assert name in OPENERS or not list(openings(TREES[path]))
+
+
+def test_listed_openers_open():
+    for name in OPENERS:
+        assert list(openings(TREES[PACKAGE / name])), name
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        *("open(path)", "path.open()", "path.read_bytes()", "Path(a).read_text()", "os.listdir(a)"),
+        *("shutil.copyfile(a, b)", "Image.open(path)", "trimesh.load(path)", "folder.rglob('*')"),
+    ],
+)
+def test_openings_are_seen(code):
+    assert list(openings(ast.parse(code)))
+    assert not list(openings(ast.parse("self.workspace.open(a); files.read_bytes(b)")))
 
 
 KNOWN_CYCLES: tuple[set[str], ...] = ()
@@ -467,3 +580,38 @@ def test_decisions_by_text_are_seen(code):
 def test_listed_readers_of_texts_exist():
     for name, function in READ_TEXTS:
         assert function in [found for found, _ in _text_decisions(TREES[PACKAGE / name])]
+
+
+FORMS_WITH_CODE = frozenset(("pickle", "cPickle", "marshal", "shelve", "dill", "joblib"))
+"""Libraries whose files may run code when they are read."""
+
+BETWEEN_PROCESSES = ("isolated.py", "parallel.py")
+"""Modules that pickle what another process of urdftool reads from a pipe."""
+
+
+def forms_with_code(tree):
+    """Yield the uses of forms that may run code: imports, and arrays in files of numpy."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names = [getattr(node, "module", None) or "", *(alias.name for alias in node.names)]
+            yield from FORMS_WITH_CODE.intersection(name.partition(".")[0] for name in names)
+        elif isinstance(node, ast.Call):
+            called = ast.unparse(node.func)
+            words = {word.value for word in node.args if isinstance(word, ast.Constant)}
+            if called in ("np.load", "numpy.load") or (
+                called.endswith("import_module") and words & FORMS_WITH_CODE
+            ):
+                yield called
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_no_file_is_read_in_a_form_that_runs_code(path):
+    if path.relative_to(PACKAGE).as_posix() not in BETWEEN_PROCESSES:
+        assert not list(forms_with_code(TREES[path]))
+
+
+def test_forms_that_run_code_are_seen():
+    code = "import pickle\nfrom marshal import loads\nnp.load(f)\nimport_module('shelve')"
+    assert sorted(forms_with_code(ast.parse(code))) == [
+        *("import_module", "marshal", "np.load", "pickle"),
+    ]

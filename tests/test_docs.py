@@ -145,3 +145,17 @@ def test_the_site_builds_without_a_warning(tmp_path):
     assert "howto/untrusted-input.html" in (tmp_path / "site/howto/strangers.html").read_text()
     rule = (tmp_path / "site/rules/axis-not-unit.html").read_text("utf-8")
     assert "--fix --unsafe-fixes" in re.sub(r"<[^>]+>", "", rule)
+
+
+def test_promises_have_tests():
+    """The tests that a page names exist, in files that run."""
+    text = (ROOT / "docs" / "howto" / "untrusted-input.md").read_text("utf-8")
+    rows = [row for row in text.splitlines() if "`tests/" in row]
+    assert len(rows) >= 20
+    for row in rows:
+        assert row.startswith("| "), row
+        for path, name in re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", row):
+            tree = ast.parse((ROOT / path).read_text("utf-8"))
+            functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+            assert name in functions, f"{path}::{name}"
+        assert row.count("`tests/") == len(re.findall(r"`tests/[\w/]+\.py::\w+`", row)), row

@@ -98,14 +98,62 @@ def test_a_cache_gives_back_what_it_was_given_and_nothing_damaged(tmp_path):
 
 def test_the_oldest_entries_go_first(tmp_path):
     cache = DiskCache(tmp_path)
-    for age, key in enumerate(("new", "older", "oldest")):
+    (tmp_path / "notes.txt").write_bytes(bytes(9000))
+    os.utime(tmp_path / "notes.txt", times=(0, 0))
+    new, older, oldest = (digit * 64 for digit in "abc")
+    for age, key in enumerate((new, older, oldest)):
         cache.put(key, bytes(1000))
         (path,) = tmp_path.rglob(key)
         os.utime(path, times=(path.stat().st_mtime - 100 * age,) * 2)
     assert cache.trim(most=2500) == 1
-    assert cache.get("oldest") is None
-    assert cache.get("older") is not None
+    assert cache.get(oldest) is None
+    assert cache.get(older) is not None
     assert cache.trim(most=0) == 0  # once a day
+    assert (tmp_path / "notes.txt").exists()  # only entries go
+
+
+def make_pipe(path, _):
+    os.mkfifo(path)
+
+
+def make_folder(path, _):
+    path.mkdir()
+
+
+def make_large(path, _):
+    with path.open("wb") as stream:
+        os.truncate(stream.fileno(), 1 << 40)
+
+
+@pytest.mark.parametrize(
+    "put",
+    [
+        make_pipe,
+        make_folder,
+        lambda path, _: path.symlink_to("/dev/zero"),
+        lambda path, _: path.symlink_to(path),
+        lambda path, other: path.symlink_to(other),
+        make_large,
+    ],
+    ids=["pipe", "folder", "device", "loop", "link", "large"],
+)
+@pytest.mark.skipif(os.name != "posix", reason="needs links and pipes")
+def test_what_is_not_an_entry_is_neither_read_nor_written_through(tmp_path, put):
+    """A cache folder may be writable by others."""
+    other = tmp_path / "other"
+    other.write_bytes(b"precious")
+    cache = DiskCache(tmp_path / "cache")
+    key = "a" * 64
+    cache.put(key, b"result")
+    for place in (tmp_path / "cache" / "aa" / key, tmp_path / "cache" / "trimmed"):
+        place.unlink(missing_ok=True)
+        put(place, other)
+    assert cache.get(key) is None
+    os.utime(tmp_path / "cache" / "trimmed", times=(0, 0), follow_symlinks=False)
+    cache.trim()
+    cache.put(key, b"result")
+    assert other.read_bytes() == b"precious"
+    assert cache.get(key) == (None if put is make_folder else b"result")
 
 
 def test_a_key_has_the_version_the_facts_and_the_bounds_of_the_inputs(monkeypatch):

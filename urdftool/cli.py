@@ -19,6 +19,7 @@ import click
 from . import __version__
 from .commands.general_options import accept_general_options, make_general_options
 from .console import Console
+from .control_characters import escape_controls
 from .errors import UrdftoolError
 from .extras import find_missing_library, make_missing_error
 from .terminal import install, open_streams
@@ -29,6 +30,7 @@ COMMANDS = (
 )
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
+_LONGEST_NAME = 80
 
 
 class ClosedPipe(Exception):  # noqa: N818 -- reads as what happened
@@ -120,8 +122,7 @@ def run(arguments: list[str] | None = None) -> None:
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # warnings of libraries are for developers
     open_streams()
-    if sys.platform != "win32":  # on Windows click translates colors for the console
-        install()
+    install()
     gc.set_threshold(500_000, 50, 50)  # short process with many small, long-lived objects
     try:
         code = call(arguments)
@@ -182,6 +183,15 @@ def call(arguments: list[str] | None = None) -> int:
     except (KeyboardInterrupt, click.Abort):
         console.print_message("stopped")
         return 130
+    except UnicodeEncodeError as error:
+        if console.debug:
+            raise
+        name = escape_controls(str(error.object))
+        console.print_message(
+            f"'{name[:_LONGEST_NAME]}' has bytes or characters that {error.encoding} cannot "
+            "represent; rename the file or part"
+        )
+        return 2
     except ClosedPipe:
         return _report_closed_pipe()
     except MemoryError:
@@ -208,9 +218,9 @@ def call(arguments: list[str] | None = None) -> int:
             )
             return 2
         console.print_message(
-            f"bug in urdftool {__version__} (not in the robot): {type(error).__name__}: {error}\n"
-            f"  Please report it at {REPORT_BUGS} with the command, the file and\n"
-            f"  the output of the command with --debug."
+            f"bug in urdftool {__version__} (not in the robot): {type(error).__name__}: {error}",
+            f"  Please report it at {REPORT_BUGS} with the command, the file and",
+            "  the output of the command with --debug.",
         )
         return 3
 
@@ -229,7 +239,7 @@ def _print_usage(error: click.ClickException) -> None:
         return
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "urdftool"
-    message = error.format_message().rstrip(".")
+    message = escape_controls(error.format_message()).rstrip(".")
     with suppress(OSError):
         click.echo(f"urdftool: {message}\nTry '{command} --help'.", err=True)
 

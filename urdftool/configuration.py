@@ -7,12 +7,15 @@ ROS packages without a ``pyproject.toml``, at the top level.
 from __future__ import annotations
 
 import os
+import re
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
+from .source.packages import ConfiguredFolder
 from .suggestions import suggest_name
 from .workspace import Workspace, memoize_by_workspace
 
@@ -30,7 +33,8 @@ class Configuration:
 
     Attributes:
         path: Path of the file; None if there is no configuration file.
-        packages: Absolute folders by ROS package name.
+        packages: Absolute folders by ROS package name; in a file that the user did not name, with
+            their places, because it may have come with an untrusted description.
         lint: The ``lint`` table as written.
         collision: The ``collision`` table as written.
         simulate: The ``simulate`` table as written.
@@ -38,7 +42,7 @@ class Configuration:
     """
 
     path: str | None = None
-    packages: dict[str, Path] = field(default_factory=dict)
+    packages: Mapping[str, Path | ConfiguredFolder] = field(default_factory=dict)
     lint: dict[str, Any] = field(default_factory=dict)
     collision: dict[str, Any] = field(default_factory=dict)
     simulate: dict[str, Any] = field(default_factory=dict)
@@ -94,7 +98,7 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
         import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
     try:
         table: Any = tomllib.loads(data.decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ConfigError(f"is not valid TOML: {error}", path=path) from None
     if in_pyproject or "tool" in table:
         table = table.get("tool", {}).get("urdftool", {})
@@ -119,12 +123,24 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
     folder = Path(os.path.abspath(path)).parent
     return Configuration(
         str(path),
-        {name: folder / value for name, value in packages.items()},
+        {
+            name: folder / value
+            if required
+            else ConfiguredFolder(folder / value, str(path), _find_line(name, data))
+            for name, value in packages.items()
+        },
         lint,
         collision,
         simulate,
         gltf_up,
     )
+
+
+def _find_line(name: str, data: bytes) -> int:
+    """Return the line of a key."""
+    text = data.decode("utf-8")
+    found = re.search(rf"^[ \t\"']*{re.escape(name)}[ \t\"']*=", text, re.MULTILINE)
+    return 1 if found is None else text.count("\n", 0, found.start()) + 1
 
 
 def _suggest_name(name: str) -> str:

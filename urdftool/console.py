@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from .control_characters import escape_controls
 from .errors import UrdftoolError
-from .terminal import escape_controls
 
 if TYPE_CHECKING:
     from .source.description import GltfUp
@@ -55,9 +55,11 @@ class Console:
             return True
         return getattr(sys, stream).isatty() and os.environ.get("TERM") != "dumb"
 
-    def print_message(self, message: str) -> None:
-        """Print a message at every verbosity."""
+    def print_message(self, message: str, *more: str) -> None:
+        """Print a message at every verbosity, and more lines."""
         self._write(f"urdftool: {message}")
+        for line in more:
+            self._write(line)
 
     def print_note(self, message: str, level: int = 0) -> None:
         """Print a message if the verbosity is at least ``level``."""

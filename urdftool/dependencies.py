@@ -188,3 +188,5 @@ _ANSWERS: dict[str, Callable[[str], str]] = {
     "list": _digest_listing,
     "env": _digest_variable,
 }
+KINDS = frozenset(_ANSWERS)
+"""Kinds of queries."""

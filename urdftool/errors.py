@@ -7,6 +7,7 @@ Defects of a *robot* are findings (``urdftool.finding``): data, any number of th
     ├── SourceError            the text cannot be read or used
     │   ├── XmlError           it is not well-formed
     │   ├── XacroError         its expansion failed
+    │   ├── AccessError        it names a file that it may not read
     │   └── PackageNotFound    the package of $(find …) or package:// was not found
     ├── ModelError             well-formed, but not a usable robot description
     ├── MeshError              a mesh cannot be read, or lacks a required volume
@@ -94,6 +95,10 @@ class XmlError(SourceError):
 
 class XacroError(SourceError):
     """Error for a failed xacro expansion."""
+
+
+class AccessError(SourceError):
+    """Error for a file that a description may not read."""
 
 
 class PackageNotFound(SourceError):  # noqa: N818 -- reads as what happened

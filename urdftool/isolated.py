@@ -14,7 +14,7 @@ from importlib import import_module
 from queue import Empty, SimpleQueue
 from threading import TIMEOUT_MAX, Thread
 from time import monotonic
-from typing import Any, TypeVar
+from typing import IO, Any, TypeVar
 
 from .errors import UrdftoolError
 from .parallel import ignore_interrupts, limit_resources
@@ -48,7 +48,7 @@ class ProcessTimeout(UrdftoolError):  # noqa: N818
 _START = f"import sys; sys.path[:] = sys.argv[2:]; from {__name__} import serve; serve()"
 """Code of the process; it uses the parent's module search path, not its working directory."""
 
-_READY = b"\0urdftool listens\n"
+READY = b"\0urdftool listens\n"
 """Marker sent first; the parent discards output before it, printed during start-up."""
 
 _MESSAGE, _ANSWER, _DIED = "message", "answer", "died"
@@ -98,7 +98,8 @@ class IsolatedProcess:
             self._listener.join()
         for pipe in (self._process.stdin, self._process.stdout):
             with suppress(OSError):  # unread input is discarded
-                pipe.close()  # type: ignore[union-attr]
+                if pipe is not None:
+                    pipe.close()
         self._errors.close()
 
     def call(
@@ -128,8 +129,19 @@ class IsolatedProcess:
         """
         most = min(time_limit, _LONGEST) + 5 if processor_limit is None else processor_limit
         job = pickle.dumps((module, function, arguments, most, on_message is not None))
+        return self._receive(job, arguments, time_limit, on_message)
+
+    def _receive(
+        self,
+        job: bytes,
+        arguments: Sequence[Any],
+        time_limit: float,
+        on_message: Callable[[Any], None] | None = None,
+    ) -> Any:
+        """Send a call, and return its result."""
         received: SimpleQueue[tuple[str, Any]] = SimpleQueue()
-        listener = Thread(target=self._exchange, args=(job, received), daemon=True)
+        exchange = (job, arguments, received)
+        listener = Thread(target=self._exchange, args=exchange, daemon=True)
         try:
             listener.start()
         except RuntimeError as error:  # thread limit of the system reached
@@ -151,34 +163,34 @@ class IsolatedProcess:
             raise value
         return value
 
-    def _exchange(self, job: bytes, received: SimpleQueue[tuple[str, Any]]) -> None:
+    def _exchange(
+        self, job: bytes, arguments: Sequence[Any], received: SimpleQueue[tuple[str, Any]]
+    ) -> None:
         """Send the call to the process and queue its messages and its result."""
         stdin, stdout = self._process.stdin, self._process.stdout
-        assert stdin is not None
         assert stdout is not None
         try:
-            stdin.write(job)
-            stdin.flush()  # stays open: its end signals the end of the parent
+            if stdin is not None:
+                stdin.write(job)
+                stdin.flush()  # stays open: its end signals the end of the parent
             for line in stdout:
-                if line.endswith(_READY):
+                if line.endswith(READY):
                     break
             kind = ""
             while kind != _ANSWER:
-                kind, value = pickle.load(stdout)
+                kind, value = _Unpickler(stdout, arguments).load()
                 received.put((kind, value))
         except Exception:  # the process died within a message
             received.put((_DIED, None))
 
     def _make_death_error(self) -> ProcessDied:
-
         try:
-            self._process.wait(timeout=_DYING)
+            code = self._process.wait(timeout=_DYING)
         except subprocess.TimeoutExpired:  # alive, but its output is unreadable
             self._process.kill()
-            self._process.wait()
+            code = self._process.wait()
         self._errors.seek(0)
         lines = self._errors.read().decode("utf-8", "replace").strip().splitlines()
-        code = self._process.returncode
         how = f"exit code {code}"
         if code < 0:
             with suppress(ValueError):
@@ -186,16 +198,21 @@ class IsolatedProcess:
         return ProcessDied(how, code, [line[:200] for line in lines[-3:]])
 
 
-def serve() -> None:
-    """Run one call and send its result; the main function of an isolated process."""
-    if sys.platform == "linux":  # end when the parent ends, also when it is killed
+def begin() -> None:
+    """End this process when its parent ends, also when that is killed; ignore Ctrl-C."""
+    if sys.platform == "linux":
         import ctypes
 
         ctypes.CDLL(None).prctl(_PARENT_ENDED, signal.SIGKILL)
     ignore_interrupts()
+
+
+def serve() -> None:
+    """Run one call and send its result; the main function of an isolated process."""
+    begin()
     answer = os.dup(1)
     os.dup2(2, 1)
-    os.write(answer, _READY)
+    os.write(answer, READY)
     for library in filter(None, sys.argv[1].split(",")):
         with suppress(ImportError):
             import_module(library)
@@ -203,19 +220,67 @@ def serve() -> None:
     with suppress(RuntimeError):  # thread limit of the system reached
         Thread(target=_end_with_input, daemon=True).start()
     limit_resources(processor=processor_limit)
+    run_call(getattr(import_module(module), function), arguments, answer, talks=talks)
+
+
+def run_call(
+    function: Callable[..., Any], arguments: Sequence[Any], answer: int, *, talks: bool = False
+) -> None:
+    """Call a function, send its result, and exit.
+
+    Args:
+        function: The function.
+        arguments: Its arguments.
+        answer: File descriptor for the result.
+        talks: Whether the function gets a function that sends messages.
+    """
     with os.fdopen(answer, "wb") as out:
 
         def emit(value: Any, kind: str = _MESSAGE) -> None:
-            pickle.dump((kind, value), out)
+            _Pickler(out, arguments).dump((kind, value))
             out.flush()
 
         try:
             more = (emit,) if talks else ()
-            result = getattr(import_module(module), function)(*arguments, *more)
+            result = function(*arguments, *more)
         except UrdftoolError as error:
             result = error
         emit(result, _ANSWER)
     os._exit(0)  # a library may crash while it is unloaded
+
+
+class _Pickler(pickle.Pickler):
+    """Pickler that sends the arguments of a call as their numbers."""
+
+    def __init__(self, out: IO[bytes], arguments: Sequence[Any]) -> None:
+        super().__init__(out, pickle.HIGHEST_PROTOCOL)
+        kept = [(number, one) for number, one in enumerate(arguments) if _is_shared(one)]
+        self._numbers = {id(one): number for number, one in kept}
+
+    def _get_number(self, value: Any) -> int | None:
+        """Return the number of an argument; None for another object."""
+        return self._numbers.get(id(value))
+
+    persistent_id = _get_number
+
+
+class _Unpickler(pickle.Unpickler):
+    """Unpickler that takes the arguments of a call from this process."""
+
+    def __init__(self, stream: IO[bytes], arguments: Sequence[Any]) -> None:
+        super().__init__(stream)
+        self._arguments = arguments
+
+    def _get_argument(self, number: Any) -> Any:
+        """Return an argument."""
+        return self._arguments[number]
+
+    persistent_load = _get_argument
+
+
+def _is_shared(argument: object) -> bool:
+    """Tell whether an argument has an identity, which numbers and text have not."""
+    return type(argument).__module__ != "builtins"
 
 
 def _end_with_input() -> None:

@@ -23,6 +23,9 @@ R = TypeVar("R")
 Progress = Callable[[int, Sequence[T]], None]
 """Callback that gets the number of finished tasks and the running tasks."""
 
+WATCHER = "urdftool-watcher"
+"""Name of the thread of a worker that waits for the end of the parent, and holds no lock."""
+
 _LEAVING = 3.0  # s: time to remove temporary files after SIGTERM
 
 
@@ -266,7 +269,7 @@ def _run_worker(function: Callable[[Any], Any], memory_limit: int | None, connec
 
     ignore_interrupts()
     with suppress(RuntimeError):  # thread limit of the system reached
-        Thread(target=_leave_with_parent, daemon=True).start()
+        Thread(target=_leave_with_parent, name=WATCHER, daemon=True).start()
     with terminate_gracefully():
         _unblock_signals()
         if memory_limit is not None:
@@ -282,10 +285,10 @@ def _send_result(function: Callable[[Any], Any], task: object, connection: Any) 
     except ConnectionError:
         raise
     except Exception as error:
-        connection.send((None, _make_picklable(error)))
+        connection.send((None, make_picklable(error)))
 
 
-def _make_picklable(error: Exception) -> Exception:
+def make_picklable(error: Exception) -> Exception:
     """Return an error that can be pickled, replacing one that cannot."""
     import pickle
 
@@ -336,24 +339,59 @@ def end_processes(processes: Sequence[Any]) -> None:
             process.join()
 
 
-def limit_resources(*, processor: float | None = None, memory: int | None = None) -> None:
+def limit_resources(
+    *,
+    processor: float | None = None,
+    memory: int | None = None,
+    data: int | None = None,
+    files: int | None = None,
+) -> None:
     """Limit the resources of this process, where the system supports it; disable core dumps.
 
     Args:
         processor: Processor time [s] after which the system ends the process.
         memory: Address space [bytes] beyond which allocations fail.
+        data: Memory that is not of files [bytes] beyond which allocations fail.
+        files: Number of files beyond which none can be opened; 0 also forbids to write to files.
     """
     try:
         import resource
     except ImportError:  # Windows
         return
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    bounds: dict[int, tuple[int, int]] = {resource.RLIMIT_CORE: (0, 0)}
     if processor is not None:
-        with suppress(ValueError):  # the hard limit is lower
-            resource.setrlimit(resource.RLIMIT_CPU, (int(processor), int(processor) + 1))
+        bounds[resource.RLIMIT_CPU] = int(processor), int(processor) + 1
     if memory is not None:
-        with suppress(ValueError):
-            resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+        bounds[resource.RLIMIT_AS] = memory, memory
+    if data is not None:
+        bounds[resource.RLIMIT_DATA] = data, data
+    if files is not None:
+        bounds[resource.RLIMIT_NOFILE] = files, files
+    if files == 0:
+        bounds[resource.RLIMIT_FSIZE] = 0, 0
+    for limit, bound in bounds.items():
+        with suppress(ValueError, OSError):  # the hard limit is lower
+            resource.setrlimit(limit, bound)
+
+
+def measure_memory() -> tuple[int, int] | None:
+    """Return the address space of this process and the part that is data [bytes], if known."""
+    try:
+        with open("/proc/self/statm", "rb") as stream:
+            pages = stream.read().split()
+    except OSError:
+        return None
+    size = os.sysconf("SC_PAGE_SIZE")
+    return int(pages[0]) * size, int(pages[5]) * size
+
+
+def can_fork() -> bool:
+    """Tell whether a fork of this process can go on: on Linux, without threads that hold locks."""
+    import threading
+
+    here = threading.current_thread()
+    others = (one for one in threading.enumerate() if one is not here)
+    return sys.platform == "linux" and all(one.name == WATCHER for one in others)
 
 
 def ignore_interrupts() -> None:

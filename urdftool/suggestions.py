@@ -9,6 +9,10 @@ from functools import lru_cache
 _NUMBER = re.compile(r"([0-9]+)")
 
 
+MAX_COMPARISONS = 200_000
+"""Number of comparisons with the same candidates, about 2 s; later names get no suggestion."""
+
+
 def find_nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
     """Return the known name nearest to an unknown one; empty if none is near.
 
@@ -25,16 +29,41 @@ def find_nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
 
 @lru_cache(4096)  # robots of one family have the same typos
 def _find_nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
-    from difflib import get_close_matches
+    return _get_candidates(known).find_nearest(name, cutoff)
 
-    names = [other for other in known if other and other != name]
-    folded = fold(name)
-    for other in names:
-        if fold(other) == folded:
-            return other
-    names = [other for other in names if not _is_numbered_alike(folded, fold(other))]
-    near = get_close_matches(name, names, 1, cutoff)
-    return near[0] if near else ""
+
+@lru_cache(64)
+def _get_candidates(known: tuple[str, ...]) -> _Candidates:
+    return _Candidates(known)
+
+
+class _Candidates:
+    """Known names, compared with unknown ones at most :data:`MAX_COMPARISONS` times."""
+
+    def __init__(self, known: tuple[str, ...]) -> None:
+        self._names = [name for name in known if name]
+        self._by_folded: dict[str, list[str]] = {}
+        for name in self._names:
+            self._by_folded.setdefault(fold(name), []).append(name)
+        self._comparisons = 0
+
+    def find_nearest(self, name: str, cutoff: float) -> str:
+        from difflib import get_close_matches
+
+        folded = fold(name)
+        for other in self._by_folded.get(folded, ()):
+            if other != name:
+                return other
+        self._comparisons += len(self._names)
+        if self._comparisons > MAX_COMPARISONS:
+            return ""
+        names = [
+            other
+            for other in self._names
+            if other != name and not _is_numbered_alike(folded, fold(other))
+        ]
+        near = get_close_matches(name, names, 1, cutoff)
+        return near[0] if near else ""
 
 
 def _is_numbered_alike(name: str, other: str) -> bool:
@@ -42,7 +71,7 @@ def _is_numbered_alike(name: str, other: str) -> bool:
     texts, others = _NUMBER.split(name), _NUMBER.split(other)
     if texts[::2] != others[::2]:
         return False
-    return [int(text) for text in texts[1::2]] != [int(text) for text in others[1::2]]
+    return [text.lstrip("0") for text in texts[1::2]] != [text.lstrip("0") for text in others[1::2]]
 
 
 def suggest_name(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:

@@ -2,58 +2,67 @@
 
 Names, paths and lines of a file may contain sequences that move the cursor, set the title, hide
 text or change its direction. Terminal output passes through :class:`SanitizingStream`; pipes and
-files get results unchanged. Color codes and clearing a line are kept, since urdftool writes them.
+files get results unchanged. Kept are the colors and the clearing of a line that urdftool writes.
 """
 
 from __future__ import annotations
 
+import codecs
 import io
 import os
 import re
 import sys
 from typing import Any, BinaryIO, cast
 
-_OBEYED = re.compile(
-    rb"\x1b\[[0-9;]*m|\r\x1b\[K|\r\n"  # written by urdftool, kept
-    rb"|([\0-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xd8\x9c"
-    rb"|\xe2\x80[\x8e\x8f\xa8-\xae]|\xe2\x81[\xa6-\xa9])"
-)
+from .control_characters import LINES, escape_controls
+
+_COLOR = r"\x1b\[(?:(?:[0-3]|3[1-6]|9[0-7])(?:;(?:[0-3]|3[1-6]|9[0-7]))*)?m"
+_OURS = {
+    "stdout": re.compile(rf"({_COLOR}|\r\n)"),
+    "stderr": re.compile(rf"({_COLOR}|\r\n|\r\x1b\[K)"),
+}
+"""Written by urdftool, by stream: bold, dim, italic and the colors of text; on standard error also
+the start of a line of progress. Not concealed or blinking text, and no color of the background.
+"""
+
+_UNFINISHED = re.compile(r"(?:\r(?:\x1b\[?)?|\x1b(?:\[[0-9;]{0,16})?)\Z")
 
 
-_CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+def escape_text(text: str, name: str = "stdout") -> str:
+    """Return a text with control characters escaped, except those that urdftool writes.
 
-
-def escape_controls(text: str) -> str:
-    """Return a message with all control characters escaped except tab and line feed."""
-    return _CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
-
-
-def escape_bytes(data: bytes) -> bytes:
-    """Return UTF-8 text with control characters escaped, except those that urdftool writes."""
-    return _OBEYED.sub(_escape_match, data)
-
-
-def _escape_match(match: re.Match[bytes]) -> bytes:
-    if match[1] is None:
-        return match[0]
-    return match[1].decode("utf-8").encode("unicode_escape")
+    Args:
+        text: The text.
+        name: Stream for which it is meant: ``stdout`` or ``stderr``.
+    """
+    if text.isprintable():
+        return text
+    parts = _OURS[name].split(text)
+    parts[::2] = [escape_controls(part, LINES) for part in parts[::2]]
+    return "".join(parts)
 
 
 class SanitizingStream(io.RawIOBase):
-    """Stream that escapes control characters on the way to a terminal."""
+    """Stream that escapes control characters on the way to a terminal.
 
-    def __init__(self, stream: BinaryIO) -> None:
-        """Wrap a binary stream of a terminal."""
+    A character or sequence that is cut by the end of a write is completed by the next one.
+    """
+
+    def __init__(self, stream: BinaryIO, name: str = "stdout", encoding: str = "utf-8") -> None:
+        """Wrap the binary stream of a name in an encoding; what is written here is UTF-8."""
         super().__init__()
-        self.stream = stream
+        self.stream, self.encoding = stream, encoding
+        self._name = name
+        self._decoder = codecs.getincrementaldecoder("utf-8")("surrogateescape")
+        self._rest = ""
 
     def writable(self) -> bool:
         """Return True."""
         return True
 
     def isatty(self) -> bool:
-        """Return True."""
-        return True
+        """Tell whether the wrapped stream is a terminal."""
+        return self.stream.isatty()
 
     def fileno(self) -> int:
         """Return the file descriptor of the wrapped stream."""
@@ -61,20 +70,45 @@ class SanitizingStream(io.RawIOBase):
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
         """Write escaped bytes and flush; return the number of bytes given."""
-        self.stream.write(escape_bytes(bytes(data)))
-        self.stream.flush()
+        text = self._rest + self._decoder.decode(bytes(data))
+        cut = _UNFINISHED.search(text)
+        end = len(text) if cut is None else cut.start()
+        self._rest = text[end:]
+        self._write(text[:end])
         return len(data)
+
+    def close(self) -> None:
+        """Write what an end of the output left incomplete."""
+        if not self.closed:
+            self._write(self._rest + self._decoder.decode(b"", final=True))
+            self._rest = ""
+        super().close()
+
+    def _write(self, text: str) -> None:
+        self.stream.write(escape_text(text, self._name).encode(self.encoding, "backslashreplace"))
+        self.stream.flush()
 
 
 def install() -> None:
-    """Route standard output and standard error through :class:`SanitizingStream` on terminals."""
+    """Route standard error, and standard output on a terminal, through :class:`SanitizingStream`.
+
+    A character that the encoding of standard output lacks is escaped there, too.
+    """
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
-        if isinstance(stream, io.TextIOWrapper) and stream.isatty():
-            stream.flush()
-            way: Any = io.BufferedWriter(cast(io.RawIOBase, SanitizingStream(stream.buffer)))
-            text = io.TextIOWrapper(way, stream.encoding, stream.errors, line_buffering=True)
-            setattr(sys, name, text)
+        if not isinstance(stream, io.TextIOWrapper):
+            continue
+        stream.reconfigure(errors="backslashreplace")
+        # on Windows click translates colors for the console, which needs the stream of Python
+        if sys.platform == "win32" or (name == "stdout" and not stream.isatty()):
+            continue
+        if stream is not getattr(sys, f"__{name}__"):  # the null device, or that of a caller
+            continue
+        stream.flush()
+        way: Any = SanitizingStream(stream.buffer, name, stream.encoding)
+        raw = io.BufferedWriter(cast(io.RawIOBase, way))
+        text = io.TextIOWrapper(raw, "utf-8", "backslashreplace", line_buffering=True)
+        setattr(sys, name, text)
 
 
 def open_streams() -> None:

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeVar, cast
 
 from .dependencies import Dependencies
+from .file_access import IRREGULAR, Access, AccessRefused, is_irregular
 
 if TYPE_CHECKING:
     from typing import Concatenate, ParamSpec
@@ -87,26 +88,39 @@ class Workspace:
         self._overlay = {_get_key(path): data for path, data in (overlay or {}).items()}
         self._names = frozenset(map(os.path.basename, self._overlay))
         self._folders = frozenset(map(os.path.dirname, self._overlay))
-        self._known: dict[Hashable, tuple[Any, Dependencies]] = {}
+        self._memos: dict[Hashable, dict[Hashable, tuple[Any, Dependencies]]] = {}
+        self._access: Access | None = None
         self._base: Workspace | None = None
         self._copies = _Copies()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle only the overlay, for another process."""
-        return Workspace, (self._overlay,)
+        """Pickle only the overlay and the restriction, for another process."""
+        return _restore, (self._overlay, self._access)
 
     # Views ---------------------------------------------------------------------------------
 
     def with_record(self) -> Workspace:
         """Return a view with the same overlay and memo and its own dependency record."""
-        view = Workspace.__new__(Workspace)
-        view.__dict__.update(self.__dict__)
+        view = self.restrict(self._access)
         view.dependencies = Dependencies()
         return view
 
+    def restrict(self, access: Access | None) -> Workspace:
+        """Return a view that opens only what a policy allows; it shares overlay and record.
+
+        Values in the memo are shared with the views of equal policies.
+
+        Args:
+            access: The policy; None for all files except devices and pipes.
+        """
+        view = Workspace.__new__(Workspace)
+        view.__dict__.update(self.__dict__)
+        view._access = access
+        return view
+
     def with_empty_memo(self) -> Workspace:
-        """Return a workspace with the same overlay and an empty memo."""
-        return Workspace(self._overlay)
+        """Return a workspace with the same overlay and restriction, and an empty memo."""
+        return _restore(self._overlay, self._access)
 
     def get_with_overlay(self, overlay: Mapping[str, bytes]) -> Workspace:
         """Return a workspace in which some files have other contents.
@@ -116,7 +130,7 @@ class Workspace:
         Args:
             overlay: Contents by path, in addition to the present overlay.
         """
-        other = Workspace({**self._overlay, **overlay})
+        other = _restore({**self._overlay, **overlay}, self._access)
         other._base = self
         other._copies = self._copies
         return other
@@ -131,18 +145,23 @@ class Workspace:
             make: Computes the value, reading through the workspace that it receives. Its reads
                 become dependencies of every view that requests the value.
         """
-        entry = self._known.get(key)
+        memo = self._get_memo(self._access)
+        entry = memo.get(key)
         if entry is None and self._base is not None:
-            entry = self._base._known.get(key)
+            entry = self._base._get_memo(self._access).get(key)
             if entry is not None and self._is_affected(entry[1]):
                 entry = None
             elif entry is not None:
-                self._known[key] = entry
+                memo[key] = entry
         if entry is None:
             entry = self._compute(key, make)
         if self.dependencies is not None:
             self.dependencies.include(entry[1])
         return cast("T", entry[0])
+
+    def _get_memo(self, access: Access | None) -> dict[Hashable, tuple[Any, Dependencies]]:
+        """Return the memo for a policy."""
+        return self._memos.setdefault(None if access is None else access.key, {})
 
     def _is_affected(self, read: Dependencies) -> bool:
         """Tell whether the overlay may change the queried files or folders."""
@@ -158,8 +177,8 @@ class Workspace:
                 self.dependencies.include(read)
             raise
         if self._base is not None and not self._is_affected(read):
-            self._base._known.setdefault(key, entry)
-        return self._known.setdefault(key, entry)
+            self._base._get_memo(self._access).setdefault(key, entry)
+        return self._get_memo(self._access).setdefault(key, entry)
 
     # Queries -------------------------------------------------------------------------------
 
@@ -200,19 +219,39 @@ class Workspace:
         text = self.read_bytes(path).decode("utf-8", "replace")
         return text.replace("\r\n", "\n").replace("\r", "\n")
 
-    def open(self, path: str | Path) -> BinaryIO:
+    def open(self, path: str | Path, *, is_named: bool = False) -> BinaryIO:
         """Open a file for reading.
 
+        Args:
+            path: The file.
+            is_named: Whether the user may have named the file, which may then be a pipe, such as
+                the output of a command, if the view is not restricted.
+
         Raises:
-            OSError: The file cannot be read.
+            OSError: The file cannot be read, or the view may not read it.
         """
-        self.record("file", path)
         data = self.get_overlay(path)
+        if data is None and not (is_named and self._access is None):
+            self._check(path)
+        self.record("file", path)
         if data is None:
             return open(path, "rb")
         stream = BytesIO(data)
         stream.name = os.fspath(path)
         return stream
+
+    def _check(self, path: str | Path) -> None:
+        """Check that the view may read a file, if it exists.
+
+        Raises:
+            AccessRefused: It may not, or the file is a device or a pipe.
+        """
+        if self._access is not None and os.path.lexists(path):
+            reason = self._access.explain_refusal(path, self.restrict(None))
+        else:
+            reason = IRREGULAR if is_irregular(path) else ""
+        if reason:
+            raise AccessRefused(reason, path)
 
     def materialize(self, path: str | Path) -> Path:
         """Return a path with the contents of a file, for libraries that open files themselves.
@@ -220,19 +259,23 @@ class Workspace:
         The path is that of the file, or of a temporary copy of its overlay contents.
 
         Raises:
-            OSError: The copy cannot be written.
+            OSError: The copy cannot be written, or the view may not read the file.
         """
-        self.record("file", path)
         data = self.get_overlay(path)
+        if data is None:
+            self._check(path)
+        self.record("file", path)
         return Path(path) if data is None else self._copies.write(Path(path).name, data)
 
     def get_size(self, path: str | Path) -> int | None:
-        """Return the size of a regular file [bytes]; None if it is not a regular file."""
-        self.record("file", path)
+        """Return the size of a file [bytes]; None if it is not a regular file that may be read."""
         data = self.get_overlay(path)
-        if data is not None:
-            return len(data)
         try:
+            if data is None:
+                self._check(path)
+            self.record("file", path)
+            if data is not None:
+                return len(data)
             status = os.stat(path)
         except (OSError, ValueError):
             return None
@@ -364,6 +407,11 @@ class Workspace:
                     yield folder / entry.name
                 elif entry.is_folder:
                     yield from self._walk_matches(folder / entry.name, rest)
+
+
+def _restore(overlay: Mapping[str, bytes], access: Access | None) -> Workspace:
+    """Return a workspace with an overlay, a restriction and an empty memo."""
+    return Workspace(overlay).restrict(access)
 
 
 def memoize_by_workspace(

@@ -1,16 +1,11 @@
 """Small mesh and image files for tests of bundles."""
 
-import json
 import struct
 
-PNG = b"\x89PNG\r\n\x1a\n" + b"\0" * 32
-TRIANGLE = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
+from tests.assets import make_gltf, make_png, make_stl
 
-
-def stl(size=1.0):
-    """A binary STL of one triangle."""
-    corners = struct.pack("<12f", 0, 0, 1, *(size * x for point in TRIANGLE for x in point))
-    return b"urdftool test".ljust(80) + struct.pack("<I", 1) + corners + b"\0\0"
+PNG = make_png()
+stl = make_stl
 
 
 def obj(library="arm.mtl"):
@@ -25,13 +20,10 @@ def mtl(image="paint.png"):
 
 def gltf_document(buffer, image, size=12):
     """The JSON of a glTF file with a buffer and an image."""
-    return json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "buffers": [{"byteLength": size, "uri": buffer}],
-            "images": [{"uri": image}, {"uri": "data:image/png;base64,AAAA"}],
-        }
-    ).encode()
+    return make_gltf(
+        buffers=[{"byteLength": size, "uri": buffer}],
+        images=[{"uri": image}, {"uri": "data:image/png;base64,AAAA"}],
+    )
 
 
 def glb(document, rest=b""):

@@ -125,7 +125,7 @@ def test_the_command_names_every_preset():
 
 
 def test_a_mesh_that_cannot_be_read_is_kept(urdftool, write, tmp_path):
-    mesh = write("a.dae", "<COLLADA/>")
+    mesh = write("a.dae", "<COLLADA><triangles/></COLLADA>")
     result = urdftool(
         "bundle", write("r.urdf", files.robot((mesh, mesh))), "-o", "o", "--meshes", "obj"
     )

@@ -316,6 +316,7 @@ def test_a_picture_is_a_png(urdftool, box, tmp_path):
 
 
 def test_a_folder_of_robots_goes_into_a_folder(urdftool, write, bracket):
+    write("urdftool.toml", "")
     for name in ("one", "two"):
         write(f"fleet/{name}/{name}.urdf", robot(("a", "../../meshes/bracket.stl", "")))
     done = urdftool("collision", "fleet", "-o", "out", "--method", "hull", "--no-cache")

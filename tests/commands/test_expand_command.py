@@ -168,8 +168,11 @@ def test_packages_are_found_as_told(urdftool, write, xacro_file, tmp_path):
     path = xacro_file("ws/arm.xacro", inside)
     assert urdftool("expand", path).code == 2
     assert urdftool("expand", path, "-p", "my_macros=elsewhere").code == 0
-    write("ws/urdftool.toml", '[packages]\nmy_macros = "../elsewhere"\n')
-
-    assert urdftool("expand", path).code == 0
+    toml = write("ws/urdftool.toml", '[packages]\nmy_macros = "../elsewhere"\n')
+    assert "ws/urdftool.toml:2" in urdftool("expand", path).err  # it may have come with the file
+    assert urdftool("--config", toml, "expand", path).code == 0
+    write("urdftool.toml", '[packages]\nmy_macros = "elsewhere"\n')
+    (tmp_path / "ws" / "urdftool.toml").unlink()
+    assert urdftool("expand", path).code == 0  # below the configuration
     write("other.toml", "[packages]\n")
     assert urdftool("--config", "other.toml", "expand", path).code == 2

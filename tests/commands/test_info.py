@@ -49,7 +49,8 @@ def test_meshes_are_read(urdftool):
 
 
 def test_a_mesh_is_where_its_link_and_origin_put_it(urdftool, write, tmp_path):
-    cube = (FIXTURES / "meshes" / "cube.stl").resolve()
+    cube = tmp_path / "cube.stl"
+    cube.write_bytes((FIXTURES / "meshes" / "cube.stl").read_bytes())
     path = write(
         "r.urdf",
         '<robot name="r"><link name="a"/><link name="b"><visual><origin xyz="1 0 0"/><geometry>'

@@ -3,9 +3,10 @@
 import pytest
 
 import urdftool
+from tests.assets import make_png
 from urdftool.formats.common.assets import find_companions, find_file
 
-PNG = b"\x89PNG\r\n\x1a\n"
+PNG = make_png()
 
 
 @pytest.fixture
@@ -29,6 +30,6 @@ def test_what_is_no_file_is_not_found(robot, uri):
 
 def test_companions_are_what_a_file_names_and_what_is_of_its_kind(robot, tmp_path):
     folder = tmp_path / "meshes"
-    assert list(find_companions(folder / "a.obj")) == [(folder / "a.mtl", "a.mtl")]
-    assert list(find_companions(folder / "a.mtl")) == [(folder / "../a.png", "../a.png")]
-    assert list(find_companions(folder / "secret.png")) == []
+    assert list(find_companions(robot, folder / "a.obj")) == [(folder / "a.mtl", "a.mtl")]
+    assert list(find_companions(robot, folder / "a.mtl")) == [(folder / "../a.png", "../a.png")]
+    assert list(find_companions(robot, folder / "secret.png")) == []

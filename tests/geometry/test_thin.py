@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from urdftool.geometry import thin
 from urdftool.geometry.load import load_mesh
 from urdftool.geometry.mesh import Mesh, Part
 from urdftool.geometry.tessellate import tessellate
 from urdftool.geometry.thin import SMALL_FILE, ThinMeshes, compute_content_key, merge_in_cells
 from urdftool.inertia.bodies import get_cached_mesh_body, integrate_mesh_body
-from urdftool.storage import DiskCache
+from urdftool.storage import DiskCache, join_parts
 
 
 def wavy(count):
@@ -106,3 +107,43 @@ def test_mass_properties_are_kept_by_content(heavy, tmp_path, monkeypatch):
     heavy.write_bytes(heavy.read_bytes()[:-1] + b"\1")
     with pytest.raises(TypeError):
         get_cached_mesh_body(heavy, cache)
+
+
+PART = {"name": "", "first": 0, "count": 1, "rgba": None, "texture": None, "uv": False}
+POINTS, FACE = bytes(72), np.array([0, 1, 2], "<i4").tobytes()
+FORGED = [
+    *(b"", b"7", b"[[1,2,3]]", b"[[NaN,0,0],[0,0,0]]", b"[" * 99_999, b"{}", b"PK\3\4"),
+    *(join_parts(head, [POINTS, FACE]) for head in (None, {"parts": [7], "format": "stl"})),
+    *(
+        join_parts({"parts": [{**PART, **change}], "format": "stl"}, [POINTS, FACE])
+        for change in ({"count": 9}, {"first": -1}, {"uv": True}, {"rgba": 7}, {"texture": 7})
+    ),
+    join_parts({"parts": [PART], "format": "stl"}, [POINTS, b"\xff" * 12]),
+    join_parts({"parts": [PART], "format": "stl"}, [b"\xff" * 72, FACE]),
+]
+
+
+@pytest.mark.parametrize("data", FORGED)
+def test_a_forged_entry_counts_as_absent(data, heavy, tmp_path):
+    cache = DiskCache(tmp_path / "cache")
+    mesh = ThinMeshes(cache).read(heavy, (1, 1, 1), "y", 0.01)
+    body = get_cached_mesh_body(heavy, cache)
+    entries = [path.name for path in (tmp_path / "cache").rglob("*") if path.is_file()]
+    assert len(entries) == 3
+    for entry in entries:
+        cache.put(entry, data)
+    again = ThinMeshes(cache).read(heavy, (1, 1, 1), "y", 0.01)
+    assert again.vertices.tobytes() == mesh.vertices.tobytes()
+    assert get_cached_mesh_body(heavy, cache).unit == body.unit
+
+
+def test_a_thinned_mesh_is_read_as_it_was_written(tmp_path):
+    vertices, faces = wavy(6)
+    uv = np.arange(6.0 * len(faces)).reshape(-1, 3, 2)
+    color = (0.1, 0.2, 0.3, 1.0)
+    part = Part("a", 0, len(faces), color, tmp_path / "a.png", None, uv)
+    mesh = as_mesh(tmp_path / "a.stl", vertices, faces, (part,))
+    again = thin._unpack(thin._pack(mesh), mesh.path)
+    assert (again.parts, again.format, again.path) == (mesh.parts, "stl", mesh.path)
+    for one, other in ((again.vertices, vertices), (again.faces, faces), (again.parts[0].uv, uv)):
+        assert one.tobytes() == other.tobytes()

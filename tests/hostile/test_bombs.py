@@ -96,7 +96,9 @@ def bounded(command, place):
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
     pipe = subprocess.PIPE
-    child = process(command, place, place, stdout=pipe, stderr=pipe, preexec_fn=limit)
+    child = process(
+        command, place, place.parent / "home", stdout=pipe, stderr=pipe, preexec_fn=limit
+    )
     out, err = child.communicate(timeout=SECONDS)
     return child.returncode, out.decode(), err.decode()
 

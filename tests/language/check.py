@@ -104,7 +104,6 @@ NAMES: tuple[tuple[str, str, str], ...] = (
     (r"rules/rule\.py", r"rule|full", "decorators, which name what they make of a function"),
     (r"inertia/solids\.py", r"[a-z_]+", "named by the solid; public"),
     (r"docs/conf\.py", r"setup", "named by Sphinx"),
-    (r"lint/cache\.py", r"persistent_(?:id|load)", "named by pickle"),
     (r"rules/fix\.py", r"safe|unsafe", "make a proposal that is safe or unsafe"),
     (r"(?:terminal|console)\.py", r"isatty|fileno|flush|writable|readable", "named by io"),
 )

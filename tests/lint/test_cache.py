@@ -1,7 +1,11 @@
 """Reports that are kept: they are what a check without them would say, whatever changes."""
 
+import copy
+import dataclasses
+import json
 import os
 import pickle
+import random
 import shutil
 import subprocess
 import sys
@@ -18,9 +22,10 @@ from urdftool import dependencies
 from urdftool.lint import cache as cache_module
 from urdftool.lint import run
 from urdftool.lint.cache import Cache
-from urdftool.lint.outcome import Options, Report
+from urdftool.lint.outcome import Options
 from urdftool.lint.parallel import check_files
 from urdftool.rules import get_rule
+from urdftool.source.location import SourceFile
 from urdftool.storage import DiskCache, cache_folder
 
 ARM = FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro"
@@ -286,14 +291,168 @@ class Evil:
         return os.mkdir, ("evil",)
 
 
-@pytest.mark.parametrize("what", [Evil(), ([], pickle.dumps(Evil())), 7, ([1], b""), ([], b"x")])
-def test_a_forged_entry_runs_nothing(lint, write, what):
+FORGED = {
+    "pickle": pickle.dumps(Evil()),
+    "number": b"7",
+    "list": b"[]",
+    "no report": b'{"rows":[],"files":[]}',
+    "other class": b'{"rows":[],"files":[],"calls":[],"report":{"__class__":"os.system"}}',
+    "wrong type": b'{"rows":[],"files":[],"calls":[],"report":{"path":7}}',
+    "wrong item": b'{"rows":[],"files":[],"calls":[],"report":{"path":"a","findings":[7]}}',
+    "surrogate": b'{"rows":[["file","\\ud800","-",null]],"files":[],"calls":[],"report":{}}',
+    "zero byte": b'{"rows":[["file","a\\u0000","-",null]],"files":[],"calls":[],"report":{}}',
+    "depth": b"[" * 200_000,
+    "depth of data": b'{"rows":[],"files":[],"calls":[],"report":{"path":' + b'{"a":' * 90_000,
+    "digits": b'{"rows":[],"files":[],"calls":[],"report":{"path":' + b"9" * 9000 + b"}}",
+    "unknown query": b'{"rows":[["run","ls","-",null]],"files":[],"calls":[],"report":{}}',
+    "device": b'{"rows":[["file","/dev/zero","x",null]],"files":[["/dev/zero","utf-8",null,"x"]],'
+    b'"calls":[],"report":{"path":"r.urdf"}}',
+    "codec": b'{"rows":[],"files":[["r.urdf","hex","a",""]],"calls":[],"report":{"path":"r.urdf"}}',
+    "no query": b'{"rows":[],"files":[],"calls":[],"report":{"path":"r.urdf"}}',
+    "other file": b'{"rows":[],"files":[["r.urdf","utf-8",null,null]],"calls":[],"report":'
+    b'{"path":"r.urdf"}}',
+}
+
+
+@pytest.mark.parametrize("name", FORGED)
+def test_a_forged_entry_runs_nothing_and_counts_as_absent(lint, write, name):
     path = write("r.urdf", "<robot><link name='a'/></robot>")
+    os.mkdir("kept")  # before its folder is listed
     first = lint(path, "--cache-dir", "kept")
     (entry,) = entries("kept")
-    DiskCache("kept").put(entry.name, pickle.dumps(what))
+    DiskCache("kept").put(entry.name, FORGED[name])
     assert lint(path, "--cache-dir", "kept") == first
     assert not os.path.exists("evil")
+
+
+def test_a_set_of_queries_that_contains_itself_does_not_hold(lint, write):
+    path = write("r.urdf", "<robot><link name='a'/></robot>")
+    os.mkdir("kept")  # before its folder is listed
+    first = lint(path, "--cache-dir", "kept")
+    (entry,) = entries("kept")
+    row = ["many", entry.name, "", None]
+    forged = {"rows": [row], "files": [], "calls": [], "report": {"path": path}}
+    DiskCache("kept").put(entry.name, json.dumps(forged).encode())
+    assert lint(path, "--cache-dir", "kept") == first
+
+
+@pytest.mark.parametrize("span", [[-1, 2], [2, 1], [0, 10**6], [10**6, 10**6]])
+def test_a_place_outside_of_its_file_is_damage(lint, write, span):
+    path = write("r.urdf", "<robot><link name='a'/></robot>")
+    os.mkdir("kept")  # before its folder is listed
+    first = lint(path, "--cache-dir", "kept")
+    (entry,) = entries("kept")
+    forged = json.loads(DiskCache("kept").get(entry.name))
+    forged["report"]["findings"][0]["message"] = "forged"
+    DiskCache("kept").put(entry.name, json.dumps(forged).encode())
+    assert "forged" in lint(path, "--cache-dir", "kept").out  # its digest has no key
+    forged["report"]["findings"][0]["location"][1:3] = span
+    DiskCache("kept").put(entry.name, json.dumps(forged).encode())
+    assert lint(path, "--cache-dir", "kept") == first
+
+
+def replace_value(table, path, value):
+    """Return a copy of nested lists and tables with another value at one place."""
+    if not path:
+        return value
+    changed = copy.copy(table)
+    changed[path[0]] = replace_value(table[path[0]], path[1:], value)
+    return changed
+
+
+def list_paths(table, path=()):
+    yield path
+    if isinstance(table, dict | list):
+        for key in table if isinstance(table, dict) else range(len(table)):
+            yield from list_paths(table[key], (*path, key))
+
+
+OTHERS = (
+    *(None, True, -1, 0, 1, 2**60, 10**400, 1.5, float("nan"), float("inf"), "", "a", "\ud800"),
+    *([], [[]], {}, {"tuple": []}, {"dict": [[[], 1]]}, {"set": [[]]}, {"eval": ["1"]}),
+)
+
+
+@pytest.mark.parametrize("style", ["full", "json", "sarif", "html"])
+def test_an_entry_with_any_wrong_value_is_no_crash(lint, write, style):
+    """An entry of the right types is believed: its digest has no key."""
+    path = write(
+        "r.urdf.xacro",
+        XACRO.format(
+            '<xacro:macro name="m" params="n"><link name="${n}"><inertial><mass value="0"/>'
+            "</inertial></link></xacro:macro>"
+            '<xacro:m n="a"/><xacro:m n="a"/><!-- urdftool: ignore -->'
+        ),
+    )
+    os.mkdir("kept")  # before its folder is listed
+    words = [path, "--cache-dir", "kept", "--format", style, "--exit-zero"]
+    assert lint(*words).code == 0
+    (entry,) = entries("kept")
+    whole = json.loads(DiskCache("kept").get(entry.name))
+    assert whole["report"]["findings"]
+    places = list(list_paths(whole))
+    dice = random.Random(style)
+    for _ in range(int(os.environ.get("CACHE_FORGERIES", "60"))):
+        forged = replace_value(whole, dice.choice(places), dice.choice(OTHERS))
+        DiskCache("kept").put(entry.name, json.dumps(forged).encode())
+        result = lint(*words)
+        assert result.code == 0, forged
+        assert "Traceback" not in result.err
+
+
+ROBOTS = [
+    path
+    for path in sorted(FIXTURES.rglob("*"))
+    if path.name.endswith((".urdf", ".xacro")) and path.is_file()
+]
+
+
+@pytest.mark.parametrize(
+    "paths", [ROBOTS[::7], pytest.param(ROBOTS, marks=pytest.mark.slow)], ids=["some", "all"]
+)
+def test_a_report_of_the_cache_equals_the_computed_one(tmp_path, paths):
+    """Also its fixes, and all places in a file share the file."""
+    read = 0
+    for path in paths:
+        options = Options(fixes=True, cache=Cache(DiskCache(tmp_path)))
+        computed = run.check_file(path, options)
+        cached = run.find_cached_report(path, Options(fixes=True, cache=Cache(DiskCache(tmp_path))))
+        if cached is not None:
+            read += 1
+            assert describe(cached) == describe(computed)
+            assert len(list_files(cached)) == len(list_files(computed))
+    assert read >= 0.95 * len(paths)
+
+
+def describe(value):
+    """Return values with their types, and source files as their contents."""
+    if isinstance(value, SourceFile):
+        return value.path, value.data, value.encoding, value.part
+    if dataclasses.is_dataclass(value):
+        return type(value), [describe(getattr(value, f.name)) for f in dataclasses.fields(value)]
+    if isinstance(value, dict):
+        return type(value), [(key, describe(item)) for key, item in value.items()]
+    if isinstance(value, list | tuple):
+        return type(value), [describe(item) for item in value]
+    return type(value), value
+
+
+def list_files(report):
+    """Return the source files of a report, each once."""
+    found, seen, todo = [], set(), [report]
+    while todo:
+        value = todo.pop()
+        if isinstance(value, SourceFile):
+            if id(value) not in seen:
+                seen.add(id(value))
+                found.append(value)
+        elif dataclasses.is_dataclass(value):
+            todo += [getattr(value, field.name) for field in dataclasses.fields(value)]
+        elif isinstance(value, dict):
+            todo += value.values()
+        elif isinstance(value, list | tuple):
+            todo += value
+    return found
 
 
 def test_a_folder_that_cannot_be_written_is_no_error(lint, write):
@@ -391,19 +550,11 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
 def test_old_entries_go(tmp_path):
     store = DiskCache(tmp_path)
     for number in range(6):
-        store.put(f"{number}0", b"x" * 1000)
+        store.put(f"{number}" * 64, b"x" * 1000)
     for number, days in ((0, 40), (1, 31)):
-        entry = tmp_path / f"{number}0" / f"{number}0"
+        entry = tmp_path / (f"{number}" * 2) / (f"{number}" * 64)
         os.utime(entry, (time.time() - days * 86400,) * 2)
     assert store.trim(days=30, most=3 * 1100) == 3
     assert len(entries(tmp_path)) == 3
-    store.put("70", b"x" * 9000)
+    store.put("7" * 64, b"x" * 9000)
     assert store.trim(days=30, most=1) == 0  # once a day
-
-
-def test_what_is_not_ours_is_no_report(tmp_path):
-    cache = Cache(DiskCache(tmp_path))
-    cache.store.put("a", pickle.dumps(([], pickle.dumps(Report("a")))))
-    assert cache.read("a") == Report("a")
-    cache.store.put("a", pickle.dumps(([], pickle.dumps(["a"]))))
-    assert cache.read("a") is None

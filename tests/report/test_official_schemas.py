@@ -11,6 +11,7 @@ from lxml import etree
 
 from tests.conftest import FIXTURES
 from tests.report.test_findings_formats import HOSTILE, HOSTILE_NAMES, NAMELESS, WHEELS
+from urdftool.control_characters import escape_controls
 
 SCHEMAS = Path(__file__).parent / "schemas"
 SARIF = jsonschema.Draft4Validator(json.loads((SCHEMAS / "sarif-2.1.0-rtm.4.json").read_text()))
@@ -103,7 +104,7 @@ def test_annotations_come_back_as_they_were(runs, urdftool):
             assert level == {"info": "notice"}.get(finding["severity"], finding["severity"])
             assert properties["title"] == finding["rule"]
             assert (properties["file"], properties["line"]) == (
-                *(finding["path"], str(finding["line"])),
+                *(escape_controls(finding["path"], "\r\n"), str(finding["line"])),
             )
             first = re.sub(r" \(in \d+ expansions\)$", "", message.splitlines()[0])
             assert first.startswith(finding["message"][:20])

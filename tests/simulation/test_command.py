@@ -14,7 +14,7 @@ BOX = body('<box size="0.4 0.3 0.2"/>', 2, (0.0216667, 0.0333333, 0.0416667))
 MIRA = FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf"
 
 
-TINY = f'<mesh filename="{FIXTURES / "meshes" / "cube.stl"}" scale="1e-20 1e-20 1e-20"/>'
+TINY = '<mesh filename="cube.stl" scale="1e-20 1e-20 1e-20"/>'
 JOINT_AND_END = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
 LIMIT = '<limit lower="-1" upper="1" effort="9" velocity="1"/>'
 
@@ -94,6 +94,7 @@ def test_a_box_that_is_dropped_stands(urdftool, write):
     ],
 )  # fmt: skip
 def test_what_no_engine_can_be_given_is_refused_in_one_message(urdftool, write, text, said):
+    write("cube.stl", (FIXTURES / "meshes" / "cube.stl").read_bytes())
     result = urdftool("simulate", write("r.urdf", text))
     assert result.code == 2
     assert said in result.err

@@ -6,6 +6,13 @@ from tests.conftest import FIXTURES
 from tests.simulation import planted
 from tests.simulation.robots import simulated
 
+
+@pytest.fixture(autouse=True)
+def trusted(monkeypatch):
+    """Let copies of a robot in other folders read its meshes."""
+    monkeypatch.setenv("URDFTOOL_TRUST", "1")
+
+
 ROBOTS = FIXTURES / "robots"
 BASE = ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro"
 ARM = ROBOTS / "ros2_arm" / "urdf" / "robot2_sound.urdf.xacro"

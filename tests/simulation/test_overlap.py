@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 
 import numpy as np
 import pytest
@@ -42,7 +43,8 @@ INERTIAL = (
 @pytest.fixture
 def depth(tmp_path):
     """How deep two cubes of 1 m are in each other, of which one is moved and turned."""
-    mesh = f'<mesh filename="{(FIXTURES / "meshes" / "cube.stl").as_posix()}"/>'
+    shutil.copy(FIXTURES / "meshes" / "cube.stl", tmp_path)
+    mesh = '<mesh filename="cube.stl"/>'
 
     def found(xyz, rpy="0 0 0", least=0.0):
         path = tmp_path / "two.urdf"

@@ -10,6 +10,13 @@ from tests.conftest import FIXTURES
 from tests.simulation import planted
 from tests.simulation.robots import kinds, simulated
 
+
+@pytest.fixture(autouse=True)
+def trusted(monkeypatch):
+    """Let copies of a robot in other folders read its meshes."""
+    monkeypatch.setenv("URDFTOOL_TRUST", "1")
+
+
 ROBOTS = FIXTURES / "robots"
 MIRA = ROBOTS / "mira_description" / "urdf" / "mira.urdf"
 BASE = ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro"

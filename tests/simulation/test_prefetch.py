@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import threading
 from unittest import mock
 
@@ -49,8 +50,8 @@ INSIDE = """\
 @pytest.fixture
 def robot(tmp_path):
     path = tmp_path / "inside.urdf"
-    meshes = (FIXTURES / "meshes").as_posix()
-    path.write_text(INSIDE.replace("package://meshes", meshes))
+    shutil.copy(FIXTURES / "meshes" / "cube.stl", tmp_path)
+    path.write_text(INSIDE.replace("package://meshes/", ""))
     return load(path)
 
 

@@ -206,13 +206,14 @@ CUBE = FIXTURES / "meshes" / "cube.stl"
     [
         ('<box size="300 200 100"/>', 'size="0.3 0.2 0.1"', "shape-in-millimeters"),
         (
-            f'<mesh filename="{CUBE}" scale="500 500 500"/>',
+            '<mesh filename="cube.stl" scale="500 500 500"/>',
             'scale="0.5 0.5 0.5"',
             "mesh-in-millimeters",
         ),
     ],
 )
 def test_sizes_in_millimeters_are_told_by_how_they_are_written(write, shape, remedy, rule):
+    write("cube.stl", CUBE.read_bytes())
     """A box has no mesh, and a mesh may have been scaled the wrong way."""
     text = link("base", 30, '<box size="0.4 0.4 0.2"/>') + link("head", 3, shape)
     text += link("ear", 1, '<box size="0.1 0.1 0.1"/>')

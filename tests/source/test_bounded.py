@@ -20,9 +20,9 @@ MANY = safe_builtins.MAX_LENGTH // 1000 + 1
         (safe_builtins.compute_remainder, ("%99999d", 1)),
         (safe_builtins.round_number, (1.5, safe_builtins.MAX_DIGITS + 1)),
         (safe_builtins.MATH["factorial"], (5001,)),
-        (safe_builtins.METHODS["ljust"], ("a", safe_builtins.MAX_WIDTH + 1)),
-        (safe_builtins.METHODS["join"], ("", [TEXT] * MANY)),
-        (safe_builtins.METHODS["replace"], (TEXT, "a", "b" * 10 * MANY)),
+        (safe_builtins.BOUNDED_METHODS["ljust"][1], ("a", safe_builtins.MAX_WIDTH + 1)),
+        (safe_builtins.BOUNDED_METHODS["join"][1], ("", [TEXT] * MANY)),
+        (safe_builtins.BOUNDED_METHODS["replace"][1], (TEXT, "a", "b" * 10 * MANY)),
     ],
 )
 def test_just_beyond_the_bound(function, arguments):
@@ -34,7 +34,7 @@ def test_within_the_bounds_it_is_pythons_own():
     assert safe_builtins.multiply(TEXT, 2) == TEXT * 2
     assert safe_builtins.add([1], [2]) == [1, 2]
     assert safe_builtins.compute_power(2, 10) == 1 << 10
-    assert safe_builtins.METHODS["replace"]("abc", "b", "x") == "axc"
+    assert safe_builtins.BOUNDED_METHODS["replace"][1]("abc", "b", "x") == "axc"
 
 
 def test_lists_in_lists_count_as_often_as_they_stand_there():

@@ -158,6 +158,7 @@ def test_a_folder_of_the_name_stands_for_a_package_that_is_not_found(tmp_path, i
     home = tmp_path / "panda"
     (home / "meshes" / "collision").mkdir(parents=True)
     (home / "meshes" / "collision" / "base.obj").write_text("")
+    (home / ".git").mkdir()
     finder = Packages(robot(home / inside))
     found = finder.resolve("package://meshes/collision/base.obj")
     assert found == home / "meshes" / "collision" / "base.obj"

@@ -46,6 +46,23 @@ def evaluate(tmp_path, monkeypatch):
 SECRET = "the-secret"
 
 INSIDES = [
+    "${(x for x in [1]).\uff47i_frame}",
+    "${(x for x in [1]).\\&#10;gi_frame}",
+    "${'\\x7b0.__class__\\x7d'.\uff46ormat(1)}",
+    "${\uff3f\uff3fimport\uff3f\uff3f('os')}",
+    "${[g := 1]}",
+    "${(lambda x: x)(1)}",
+    "${f'a'}",
+    "${len(*[[1]])}",
+    "${dict(**dict(a=1))}",
+    "${b'a'.hex()}",
+    "${python.list[1]}",
+    "${python.str.join}",
+    "${'a'.encode()}",
+    "${(1).to_bytes(2, 'big')}",
+    "${len.real}",
+    "${[0 for python.x in [1]]}",
+    "${python['__builtins__']}",
     "${().__class__}",
     "${[x.__class__ for x in [1]]}",
     "${(lambda: (1).__class__)()}",
@@ -130,15 +147,15 @@ def test_no_expression_takes_all_time_or_memory(evaluate, text):
         ("${'{:04d} {}'.format(7, 'x')}", "0007 x"),
         ("${'-'.join(['a', 'b']).replace('a', 'c')}", "c-b"),
         ("${'7'.zfill(3)}", "007"),
-        ("$(eval f'{0.5:.2f}')", "0.50"),
         ("${[2 * x for x in python.range(3)]}", "[0, 2, 4]"),
         ("${python.sum([1, 2])} ${round(1.26, 1)} ${math.prod([2, 3])}", "3 1.3 6"),
         ("${math.factorial(5)} ${factorial(4)}", "120 24"),
-        ("${python.type(1) == int}", "True"),
         ("${dict(format=3).get('format')}", "3"),
         ("$(eval 2 * 3)", "6"),
         ("$(eval pi > 3 and 'a' == 'a')", "True"),
-        ("${(lambda x: x + 1)(2)}", "3"),
+        ("${'a b'.upper().split()[-1]} ${[1, 2, 3][1:][0]} ${[1, 2, 3][::-1]}", "B 2 [3, 2, 1]"),
+        ("${python.any(x > 1 for x in [1, 2])}", "True"),
+        ("${python.isinstance('a', str) and len(dict(a=1)) == 1}", "True"),
     ],
 )
 def test_what_descriptions_do_works(evaluate, text, value):
@@ -222,13 +239,18 @@ def test_a_link_does_not_lead_out(evaluate, outside):
         expand(_write(evaluate.folder, LOADS[0].replace("KEYS", "own.yaml")))
 
 
-def test_a_link_into_a_package_is_followed(evaluate, outside):
+def test_a_link_into_a_package_of_ros_is_followed(evaluate, outside, monkeypatch):
     """As colcon --symlink-install makes them."""
     (outside / "package.xml").write_text("<package><name>p</name></package>")
-    (evaluate.folder / "own.yaml").symlink_to(outside / "keys.yaml")
-    assert "hidden-value" in expand(
-        _write(evaluate.folder, LOADS[0].replace("KEYS", str(evaluate.folder / "own.yaml")))
-    )
+    share = outside.parent.parent / "install" / "share" / "p"
+    share.mkdir(parents=True)
+    for name in ("package.xml", "keys.yaml"):
+        (share / name).symlink_to(outside / name)
+    path = _write(evaluate.folder, LOADS[0].replace("KEYS", f"{share}/keys.yaml"))
+    with pytest.raises(UrdftoolError, match="a link to"):
+        expand(path)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(share.parent.parent))
+    assert "hidden-value" in expand(path)
 
 
 def test_a_package_that_is_named_can_be_read(evaluate, outside):
@@ -236,7 +258,8 @@ def test_a_package_that_is_named_can_be_read(evaluate, outside):
     assert "hidden-value" in expand(path, packages={"p": outside})
 
 
-def test_a_sibling_folder_can_be_read(evaluate):
+def test_a_sibling_folder_in_the_repository_can_be_read(evaluate):
+    (evaluate.folder.parent / ".git").mkdir()
     (evaluate.folder.parent / "config").mkdir()
     (evaluate.folder.parent / "config" / "c.yaml").write_text("key: 7\n")
     body = LOADS[0].replace("KEYS", str(evaluate.folder.parent / "config" / "c.yaml"))
@@ -283,7 +306,7 @@ def test_tables_do_not_lead_to_what_was_replaced(evaluate, text):
 
 LOOPS = [
     "${[0 for x in python.range(999999) if [y for y in python.range(999)]]}",
-    "${[f := 0, [f := f + 1 for x in python.range(999999) for y in python.range(999)]]}",
+    "${[0 for x in python.range(999999) for y in python.range(999) if x < 0]}",
     "$(eval [0 for x in [0] * 9999 for y in [0] * 9999 if x or y])",
 ]
 
@@ -309,8 +332,8 @@ def test_an_expansion_of_many_slow_expressions_is_ended(evaluate, monkeypatch):
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
 def test_memory_is_bounded_too(evaluate, monkeypatch):
     monkeypatch.setattr(limits, "MEMORY", 200 << 20)
-    with pytest.raises(UrdftoolError, match=r"of memory|longer than"):
-        evaluate("${[a := [0] * 100000, [a.extend(a) for _ in python.range(12)]]}")
+    with pytest.raises(UrdftoolError, match="memory"):
+        evaluate("${[[x] * 100000 for x in python.range(900)]}")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no pipes with names")

@@ -91,14 +91,14 @@ def test_a_slider_a_toggle_a_click_and_a_reload(arm):
         # the description is broken, and mended with another name for a joint's limit
         text = arm.read_text("utf-8")
         arm.write_text(text.replace("</robot>", ""), "utf-8")
-        tab.until(SAYS.format("the file ends while elements are open"))
-        assert tab.run(SAYS.format("Shown is the robot as it was read last."))
+        tab.until(SAYS.format("the file ends before all elements are closed"))
+        assert tab.run(SAYS.format("The page shows the last valid version."))
         renamed = text.replace('name="$(arg prefix)demo_arm"', 'name="other_arm"')
         renamed = renamed.replace('<robot name="demo_arm"', '<robot name="other_arm"')
         assert renamed != text
         arm.write_text(renamed, "utf-8")
         tab.until(SAYS.format("other_arm"))
-        assert not tab.run(SAYS.format("the file ends while elements are open"))
+        assert not tab.run(SAYS.format("the file ends before all elements are closed"))
 
         # the pose is kept
         tab.click(*tab.place(tab_named("Joints")))
@@ -126,12 +126,12 @@ def test_a_link_is_clicked(write):
         tab = new_tab()
         tab.open(url)
         tab.until("seen.types.MeshMessage > 0")
-        tab.until(SAYS.format("No joint of this robot moves."))
+        tab.until(SAYS.format("The robot has no movable joints."))
         settled(tab)
         tab.click(*tab.place(tab_named("Parts")))
         tab.until(SAYS.format("Click a link"))
         tab.click(600, 420)
-        tab.until(SAYS.format("none, it is a root"))
+        tab.until(SAYS.format("none (root link)"))
         assert tab.run("[...document.querySelectorAll('b')].some(e => e.innerText === '<b>lump')")
 
 
@@ -143,7 +143,7 @@ def test_names_are_no_markup(write):
         "hostile.urdf",
         f"<robot name={quoteattr(name)}><link name={quoteattr(name)}/>"
         f"<link name='tip'/><joint name={quoteattr(name + 'j')} type='continuous'>"
-        f"<parent link={quoteattr(name)}/><child link='tip'/></joint></robot>",
+        f"<parent link={quoteattr(name)}/><child link='tip'/><axis xyz='0 0 2'/></joint></robot>",
     )
     with served(path) as url, chromium.chromium() as new_tab:
         tab = new_tab(400, 800)
@@ -152,6 +152,16 @@ def test_names_are_no_markup(write):
         tab.click(*tab.place(tab_named("Parts")))
         tab.until(SAYS.format("{1+1}"))
         tab.click(*tab.place(tab_named("Findings")))
-        tab.until(SAYS.format("axis-omitted"))
+        tab.until(SAYS.format("axis-not-unit"))
         assert tab.run("document.querySelectorAll('img[src=x]').length") == 0
+
+        # neither would run if a name became markup
+        tab.run(
+            "document.body.insertAdjacentHTML('beforeend', "
+            '\'<img src=x onerror="window.owned = 1"><a id=way href="javascript:owned = 2">a</a>'
+            '<iframe srcdoc="<script>parent.owned = 3</script>"></iframe>\')'
+        )
+        tab.run("document.getElementById('way').click()")
+        time.sleep(1)
+        assert tab.run("String(window.owned)") == "undefined"
         assert "onerror" in tab.run("document.title")

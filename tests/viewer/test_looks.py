@@ -1,4 +1,5 @@
 import io
+import shutil
 
 import numpy as np
 import pytest
@@ -53,8 +54,9 @@ def test_a_colour_is_a_mesh(tmp_path):
 
 def test_an_image_comes_as_gltf_that_others_read(tmp_path):
     trimesh = pytest.importorskip("trimesh")
-    mesh = FIXTURES / "meshes" / "textured.obj"
-    inside = f'<visual><geometry><mesh filename="file://{mesh}"/></geometry></visual>'
+    for name in ("textured.obj", "textured.mtl", "quadrants.png"):
+        shutil.copy(FIXTURES / "meshes" / name, tmp_path)
+    inside = '<visual><geometry><mesh filename="textured.obj"/></geometry></visual>'
     shapes = read_robot_shapes(read(tmp_path / "r.urdf", urdf(link("a", inside))))
     packed = [look for _, look in list_render_meshes(shapes) if look.glb is not None]
     assert packed, shapes.problems

@@ -20,7 +20,7 @@ pytest.importorskip("viser")
 
 @pytest.fixture(scope="module")
 def running():
-    running = server.start("127.0.0.1", free_port(), lambda: "t")
+    running = server.start("127.0.0.1", free_port(), server.make_token(), lambda: "t")
     yield running
     running.stop()
 

@@ -1,4 +1,5 @@
 import http.client
+import re
 import socket
 
 import pytest
@@ -11,31 +12,65 @@ from .serving import free_port
 pytest.importorskip("viser")
 
 
+TOKEN = "AZ09_-az" * 4  # fixed, since it is in the names of tests
+
+
 @pytest.fixture(scope="module")
 def page():
     """The port of a server that shows nothing."""
     port = free_port()
-    running = server.start("127.0.0.1", port, lambda: "</title><b>robot</b>")
+    running = server.start("127.0.0.1", port, TOKEN, lambda: "</title><b>robot</b>")
     yield port
     running.stop()
 
 
-def get(port, path="/", **headers):
+def ask(port, *lines):
+    """Send a request line by line; gives the status and the answer."""
+    with socket.create_connection(("127.0.0.1", port), timeout=10) as link:
+        link.sendall("\r\n".join([*lines, "Connection: close", "", ""]).encode())
+        answer = b""
+        while piece := link.recv(65536):
+            answer += piece
+    return int(answer.split(b" ")[1]), answer
+
+
+def get(port, path=f"/{TOKEN}/", **headers):
     link = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
     link.request("GET", path, headers={name.replace("_", "-"): v for name, v in headers.items()})
     answer = link.getresponse()
     return answer.status, dict(answer.getheaders()), answer.read().decode("utf-8", "replace")
 
 
+def read_policy(port):
+    """Return the sources of each directive."""
+    policy = get(port)[1]["Content-Security-Policy"]
+    return {words[0]: words[1:] for words in map(str.split, policy.split("; "))}
+
+
 def test_the_page_has_our_title_and_may_fetch_nothing(page):
     status, headers, text = get(page)
     assert status == 200
     assert "<title>&lt;/title&gt;&lt;b&gt;robot&lt;/b&gt;</title>" in text
-    policy = headers["Content-Security-Policy"]
-    assert policy.startswith("default-src 'self' data: blob:")
-    assert f"ws://127.0.0.1:{page}" in policy
-    for scheme in ("http:", "https:", "*"):
-        assert f" {scheme}" not in policy
+    policy = read_policy(page)
+    assert policy["default-src"] == ["'none'"]
+    assert policy["connect-src"] == ["data:", "blob:", f"ws://127.0.0.1:{page}"]
+    assert headers["Referrer-Policy"] == "no-referrer"
+    assert headers["Cache-Control"] == "no-store"
+
+
+def test_only_scripts_and_styles_of_the_page_run(page):
+    policy = read_policy(page)
+    (nonce,) = policy["style-src"]
+    assert policy["script-src"] == [nonce, "'wasm-unsafe-eval'"]
+    words = {word for sources in policy.values() for word in sources}
+    assert not words & {"'unsafe-inline'", "'unsafe-eval'", "*", "'self'", "http:", "https:"}
+    _, headers, text = get(page)
+    nonce = headers["Content-Security-Policy"].split("'nonce-")[1].split("'")[0]
+    tags = re.findall(r"<(?:script|style)\b[^>]{0,200}", text)
+    assert len(tags) == 3
+    assert all(f'nonce="{nonce}"' in tag for tag in tags)
+    assert nonce not in get(page)[2]  # each answer has its own
+    assert "style=" not in re.sub(r"<script.*?</script>", "", text, flags=re.DOTALL)
 
 
 def test_the_page_names_no_address_of_the_network(page):
@@ -46,9 +81,28 @@ def test_the_page_names_no_address_of_the_network(page):
     assert 'src="http' not in text
 
 
-def upgrade(port, **headers):
+@pytest.mark.parametrize(
+    "path",
+    ["/", "", f"/{TOKEN[:-1]}/", f"/{TOKEN}x/", f"/{TOKEN.swapcase()}/", f"//{TOKEN}/",
+     "/index.html", f"/?token={TOKEN}", "/assets/x.js", f"/x/{TOKEN}/", "/%00/", "/\xff/"],
+)  # fmt: skip
+def test_nothing_is_served_without_the_token(page, path):
+    path = path or "/"
+    status, answer = ask(page, f"GET {path} HTTP/1.1", f"Host: 127.0.0.1:{page}")
+    assert status in (400, 403)
+    assert b"<script" not in answer
+    assert upgrade(page, path.replace("\xff", "y")) == 403
+
+
+def test_tokens_differ():
+    tokens = {server.make_token() for _ in range(100)}
+    assert len(tokens) == 100
+    assert all(re.fullmatch(r"[\w-]{20,}", token) for token in tokens)
+
+
+def upgrade(port, path=f"/{TOKEN}", **headers):
     return get(
-        port, Upgrade="websocket", Connection="Upgrade", Sec_WebSocket_Version="13",
+        port, path, Upgrade="websocket", Connection="Upgrade", Sec_WebSocket_Version="13",
         Sec_WebSocket_Key="AAAAAAAAAAAAAAAAAAAAAA==", **headers,
     )[0]  # fmt: skip
 
@@ -56,12 +110,33 @@ def upgrade(port, **headers):
 def test_another_site_may_not_talk_to_it(page):
     assert upgrade(page, Origin="http://evil.example") == 403
     assert upgrade(page, Origin=f"http://127.0.0.1:{page + 1}") == 403
+    assert upgrade(page, Origin="null") == 403
     assert get(page, Origin="http://evil.example")[0] == 403
 
 
 def test_a_name_that_leads_here_is_not_enough(page):
     assert get(page, Host=f"evil.example:{page}")[0] == 403
     assert get(page, Host=f"localhost:{page}")[0] == 200
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["Host: {here}", "Host: {here}"],
+        ["Host: {here}", "Host: evil.example"],
+        [],
+        ["Host: {here}", "Origin: http://{here}", "Origin: http://evil.example"],
+        ["Host: {here}", "Origin: http://{here}", "Origin: http://{here}"],
+        ["Host: {here}", "Upgrade: websocket", "Upgrade: h2c"],
+        ["Host: [::1"],
+        ["Host: {here}", "Origin: http://[::1"],
+    ],
+)
+@pytest.mark.parametrize("path", ["/", f"/{TOKEN}/"])
+def test_repeated_and_malformed_headers_are_bad_requests(page, path, lines):
+    here = f"127.0.0.1:{page}"
+    status, answer = ask(page, f"GET {path} HTTP/1.1", *(line.format(here=here) for line in lines))
+    assert status == 400, answer
 
 
 PATHS = (
@@ -76,17 +151,12 @@ PATHS = (
 )
 
 
+@pytest.mark.parametrize("start", ["", f"/{TOKEN}", f"/{TOKEN}/"])
 @pytest.mark.parametrize("path", PATHS)
-def test_no_path_leads_out_of_the_page(page, path):
-    with socket.create_connection(("127.0.0.1", page), timeout=10) as link:
-        link.sendall(
-            f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{page}\r\nConnection: close\r\n\r\n".encode()
-        )
-        answer = b""
-        while piece := link.recv(65536):
-            answer += piece
+def test_no_path_leads_out_of_the_page(page, path, start):
+    status, answer = ask(page, f"GET {start}{path} HTTP/1.1", f"Host: 127.0.0.1:{page}")
     assert b"root:" not in answer
-    assert answer.split(b" ")[1] in (b"400", b"403", b"404"), answer[:80]
+    assert status in (400, 403, 404), answer[:80]
     assert len(answer) < 1000
 
 
@@ -95,7 +165,7 @@ def test_its_own_page_may_talk_to_it(page):
     from websockets.sync.client import connect
 
     with connect(
-        f"ws://127.0.0.1:{page}/",
+        f"ws://127.0.0.1:{page}/{TOKEN}",
         subprotocols=[f"viser-v{viser.__version__}"],
         origin=f"http://127.0.0.1:{page}",
     ) as socket_:
@@ -111,7 +181,7 @@ def test_it_opens_no_tunnel(page, monkeypatch):
     import viser._viser as library
 
     monkeypatch.setattr(library, "ViserTunnel", lambda *_: pytest.fail("a tunnel was opened"))
-    running = server.start("127.0.0.1", free_port(), lambda: "t")
+    running = server.start("127.0.0.1", free_port(), TOKEN, lambda: "t")
     try:
         assert running.request_share_url() is None
     finally:
@@ -120,11 +190,11 @@ def test_it_opens_no_tunnel(page, monkeypatch):
 
 def test_a_page_that_cannot_be_guarded_is_not_served(monkeypatch):
     monkeypatch.setattr(
-        server, "_handle_request", lambda host, title, answer, *request: answer(*request)
+        server, "_handle_request", lambda host, token, title, answer, *request: answer(*request)
     )
     port = free_port()
-    with pytest.raises(AddressError, match="cannot refuse requests"):
-        server.start("127.0.0.1", port, lambda: "t")
+    with pytest.raises(AddressError, match="without the token"):
+        server.start("127.0.0.1", port, TOKEN, lambda: "t")
     assert server.is_free("127.0.0.1", port)
 
 
@@ -164,11 +234,12 @@ def test_what_is_the_loopback(host, loopback):
 
 
 def test_addresses():
-    assert server.make_url("127.0.0.1", 8733) == "http://127.0.0.1:8733/"
-    assert server.make_url("::1", 8733) == "http://[::1]:8733/"
+    assert server.make_url("127.0.0.1", 8733, "t") == "http://127.0.0.1:8733/t/"
+    assert server.make_url("::1", 8733, "t") == "http://[::1]:8733/t/"
 
 
-@pytest.mark.parametrize("asked", ["a b", "x; script-src *", "", "x, y"])
+@pytest.mark.parametrize("asked", ["a b", "x; script-src *", "", "x, y", "x'y", "x*"])
 def test_a_hostile_host_says_nothing_in_the_policy(asked):
-    assert server.make_policy(asked).count(";") == server.make_policy("localhost:1").count(";")
-    assert "script-src" not in server.make_policy(asked)
+    policy = server.make_policy(asked, "n")
+    assert policy.count(";") == server.make_policy("localhost:1", "n").count(";")
+    assert "connect-src data: blob: ws://;" in policy

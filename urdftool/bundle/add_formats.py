@@ -33,12 +33,8 @@ def add_srdf(bundle: Bundle, robot: Robot, path: Path) -> None:
     Raises:
         SourceError: It cannot be read or expanded, or is not an SRDF.
     """
-    finder = None if robot.source is None else robot.source.packages
-    description = read_description(
-        path,
-        packages=None if finder is None else {**finder.named, **finder.used},
-        package_paths=() if finder is None else finder.paths,
-    )
+    finder = None if robot.source is None else robot.source.packages.make_finder_for(path)
+    description = read_description(path, finder=finder)
     if description.document.root.tag != "robot":
         raise SourceError("is not an SRDF: its root element is not <robot>", path=path)
     name = Path(bundle.description).with_suffix(".srdf").as_posix()
@@ -77,6 +73,9 @@ def add_formats(
                 place.symlink_to(os.path.abspath(content))
         robot = make_robot(read_description(staged / bundle.description))
         assert robot.source is not None
+        for content in bundle.files.values():
+            if isinstance(content, Path):
+                robot.source.packages.access.allow(content)
         for file in robot.source.files:
             file.path = bundle.description
         for other in others:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import stat
-import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
@@ -21,8 +19,8 @@ from .defect import Defect
 from .manifest import MANIFEST, compute_digest, parse_manifest, read_digests
 from .output import is_zip
 from .references import find_references, has_references, list_readings
+from .zip_file import open_zip
 
-_MOST_BYTES = 8 << 30
 _NAMES_A_FILE = {
     "mesh": ("filename", "file"),
     "texture": ("filename", "file"),
@@ -74,12 +72,8 @@ def open_bundle(path: str | Path) -> Iterator[Path]:
         return
     with TemporaryDirectory(prefix="urdftool-") as name:
         place = Path(os.path.realpath(name))
-        try:
-            with zipfile.ZipFile(path) as archive:
-                _check_entries(archive, path)
-                archive.extractall(place)
-        except (zipfile.BadZipFile, OSError, NotImplementedError, RuntimeError) as error:
-            raise SourceError(f"cannot be read as a zip file: {error}", path=path) from None
+        with open_zip(path) as archive:
+            archive.extractall(place)
         manifests = sorted(place.glob(f"*/{MANIFEST}"))
         others = [entry for entry in place.iterdir() if not (entry / MANIFEST).is_file()]
         if len(manifests) != 1 or others:
@@ -87,25 +81,6 @@ def open_bundle(path: str | Path) -> Iterator[Path]:
                 f"is not a bundle: it requires one folder with a {MANIFEST}", path=path
             )
         yield manifests[0].parent
-
-
-def _check_entries(archive: zipfile.ZipFile, path: str | Path) -> None:
-    """Refuse entries that leave the folder, links, and immense content.
-
-    Raises:
-        SourceError: The zip file has such an entry.
-    """
-    size = 0
-    for entry in archive.infolist():
-        name = PurePosixPath(entry.filename.replace("\\", "/"))
-        mode = entry.external_attr >> 16
-        if name.is_absolute() or ".." in name.parts or ":" in entry.filename:
-            raise SourceError(f"has an entry outside of its folder: {entry.filename}", path=path)
-        if stat.S_ISLNK(mode):
-            raise SourceError(f"has a symbolic link: {entry.filename}", path=path)
-        size += entry.file_size
-    if size > _MOST_BYTES:
-        raise SourceError(f"has {size / 1e9:.1f} GB of content, more than the limit", path=path)
 
 
 def _list_errors(document: Mapping[str, Any]) -> dict[str, float]:

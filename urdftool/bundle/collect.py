@@ -22,6 +22,7 @@ from ..formats.defects import make_defect
 from ..model.elements import Link, Material, Mesh, Part, Robot
 from ..source.document import Element
 from ..source.location import Place
+from ..workspace import Workspace
 from .references import Reference, find_references, has_references, list_readings
 
 LARGEST_FILE = 1 << 30
@@ -52,6 +53,13 @@ class Asset:
     def suffix(self) -> str:
         """Return the suffix in lower case, with its dot."""
         return self.path.suffix.lower()
+
+    def list_companions(self) -> set[Path]:
+        """Return the real paths of the files that it refers to, directly or by its materials."""
+        found = set()
+        for other in filter(None, self.references.values()):
+            found |= {other.path.resolve(), *other.list_companions()}
+        return found
 
 
 @dataclass
@@ -161,7 +169,7 @@ def _follow(
     if asset.references or not has_references(asset.suffix):
         return
     try:
-        data = asset.path.read_bytes()
+        data = _get_workspace(robot).read_bytes(asset.path)
     except OSError:
         return
     for reference in find_references(asset.suffix, data):
@@ -188,11 +196,18 @@ def _find_referenced(robot: Robot, mesh: Path, reference: Reference) -> Path | N
                 path = robot.source.resolve(name) if robot.source is not None else mesh / name
             else:
                 path = Path(os.path.normpath(mesh.parent / name))
-            if os.path.isfile(path) and _is_expected(path, reference):
+            is_there = _get_workspace(robot).get_size(path) is not None
+            if is_there and _is_expected(path, reference):
                 return path
         except (OSError, ValueError, UrdftoolError):
             continue
     return None
+
+
+def _get_workspace(robot: Robot) -> Workspace:
+    """Return the workspace that opens only what the description may read."""
+    assert robot.source is not None
+    return robot.source.workspace
 
 
 def _explain_size(path: Path) -> str:

@@ -57,4 +57,7 @@ def convert_to_urdf(robot: Robot, folder: Path, *, force: bool = False) -> Conve
     file = SourceFile(str(main), main.read_bytes())
     file = SourceFile(str(main), rewrite(file, uris, set()))
     gltf_up = "y" if robot.source is None else robot.source.gltf_up
-    return Converted(make_robot(read_description(main, file=file, gltf_up=gltf_up)), written.losses)
+    made = read_description(main, file=file, gltf_up=gltf_up)
+    if robot.source is not None:  # its meshes are files that the source may read
+        made.packages.access.include(robot.source.packages.access)
+    return Converted(make_robot(made), written.losses)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Collection
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from ..drawing.normals import compute_corner_normals
-from ..formats.common.asset_filter import is_image
 from ..geometry.color import convert_to_linear
 from ..geometry.mesh import Array, Faces, Mesh, Part, Points
 from ..source.description import GltfUp
@@ -38,14 +39,19 @@ class MaterialNames:
     images: dict[int, str]
 
 
-def read_image(part: Part) -> bytes | None:
-    """Return the image of a part's material; None if it has none or the file is not an image."""
+def read_image(part: Part, companions: Collection[Path]) -> bytes | None:
+    """Return the image of a part's material; None if it has none or the file is not collected.
+
+    Args:
+        part: Part of a mesh.
+        companions: Real paths of the images that the bundle may contain.
+    """
     if part.uv is None:
         return None
     if part.image is not None:
         return part.image
     try:
-        if part.texture is None or not is_image(part.texture):
+        if part.texture is None or part.texture.resolve() not in companions:
             return None
         return part.texture.read_bytes()
     except OSError:
@@ -125,12 +131,15 @@ def encode_mtl(mesh: Mesh, names: MaterialNames) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def encode_glb(mesh: Mesh, gltf_up: GltfUp, shading: Array | None = None) -> bytes:
+def encode_glb(
+    mesh: Mesh, gltf_up: GltfUp, companions: Collection[Path], shading: Array | None = None
+) -> bytes:
     """Encode a mesh as binary glTF with its images.
 
     Args:
         mesh: The mesh.
         gltf_up: Up axis of the file: ``y`` as in the standard, or ``z``.
+        companions: Real paths of the images that the bundle may contain.
         shading: Unit normal at each corner, shape (m, 3, 3); None computes them.
     """
     buffer = _Buffer()
@@ -140,7 +149,7 @@ def encode_glb(mesh: Mesh, gltf_up: GltfUp, shading: Array | None = None) -> byt
     primitives = []
     for part in mesh.parts:
         rows = slice(part.first, part.first + part.count)
-        image = read_image(part)
+        image = read_image(part, companions)
         uv = part.uv if image is not None else None
         primitives.append(
             _encode_part(buffer, mesh.vertices, mesh.faces[rows], normals[rows], uv, gltf_up)

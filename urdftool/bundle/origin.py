@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha1, sha256
 from pathlib import Path
 
+from ..git_command import run_git
 from ..source.packages import find_own_package
 from .layout import make_portable
 
@@ -149,7 +149,10 @@ def _list_licenses(folder: Path) -> Iterator[Path]:
         path = folder / name
         if not _LICENSE.fullmatch(name) or not path.is_file():
             continue
-        if os.path.dirname(os.path.realpath(path)) != os.path.realpath(folder):
+        real = os.path.realpath(path)
+        if os.path.dirname(real) != os.path.realpath(folder):
+            continue
+        if not _LICENSE.fullmatch(os.path.basename(real)):
             continue
         with open(path, "rb") as stream:
             data = stream.read(_MOST_BYTES + 1)
@@ -189,9 +192,8 @@ def _compute_blob_name(data: bytes) -> str:
 
 def _run_git(folder: Path, *words: str) -> bytes | None:
     """Return the output of git; None if it fails or is not installed."""
-    command = ["git", "-C", str(folder), "--literal-pathspecs", *words]
     try:
-        done = subprocess.run(command, capture_output=True, check=False)
+        done = run_git(folder, "--literal-pathspecs", *words)
     except OSError:
         return None
     return done.stdout if done.returncode == 0 else None

@@ -13,12 +13,14 @@ import zipfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from ..errors import OutputError
+from ..errors import OutputError, SourceError
+from ..leftovers import restore_folder
 from ..output import check_folder, write_file
 from ..storage import write_folder
 from .make import Bundle
 from .manifest import MANIFEST, compute_digest, read_digests
 from .store import Content
+from .zip_file import open_zip
 
 _BLOCK = 1 << 20
 _DATE = (1980, 1, 1, 0, 0, 0)
@@ -50,6 +52,7 @@ def write_bundle(target: str | Path, bundle: Bundle, *, overwrite: bool = False)
         return
     folder = Path(os.path.realpath(target))
     check_folder(folder.parent, target)
+    restore_folder(folder)
     if os.path.lexists(folder) and not folder.is_dir():
         raise OutputError("is a file; give the name of a folder or of a .zip file", path=target)
     old = _check_files(folder, target, bundle.files, overwrite, sources)
@@ -90,7 +93,7 @@ def check_zip(target: str | Path, *, overwrite: bool) -> None:
     if overwrite or not path.is_file():
         return
     try:
-        with zipfile.ZipFile(path) as archive:
+        with open_zip(path) as archive:
             names = [name for name in archive.namelist() if name.endswith("/" + MANIFEST)]
             top = names[0].removesuffix(MANIFEST) if len(names) == 1 else ""
             digests = read_digests(archive.read(names[0])) if top else None
@@ -98,7 +101,7 @@ def check_zip(target: str | Path, *, overwrite: bool) -> None:
                 compute_digest(archive.read(top + name)) == value for name, value in digests.items()
             )
             complete = digests is not None and len(archive.namelist()) == len(digests) + 1
-    except (zipfile.BadZipFile, KeyError, OSError, ValueError, NotImplementedError):
+    except (SourceError, KeyError, ValueError):
         unmodified = complete = False
     if not (unmodified and complete):
         raise OutputError(f"is not an unmodified bundle; {_OVERWRITE}", path=target)

@@ -199,7 +199,8 @@ class _Store:
         if target in ("obj", "dae"):
             data = self._encode_text(asset, used, target, shading)
         elif target == "glb":
-            data = encode_glb(used, "y" if conversion is None else conversion.gltf_up, shading)
+            gltf_up = "y" if conversion is None else conversion.gltf_up
+            data = encode_glb(used, gltf_up, asset.list_companions(), shading)
         else:
             data = encode_stl(used)
         if losses := describe_losses(mesh, target):
@@ -231,7 +232,7 @@ class _Store:
 
         images = {}
         for number, part in enumerate(mesh.parts):
-            image = read_image(part)
+            image = read_image(part, asset.list_companions())
             if image is not None:
                 path = part.texture or asset.path
                 place = self._put_companion(path, "image", image, get_image_suffix(image))

@@ -13,11 +13,18 @@ from ..geometry.mesh import Array, Faces, Points
 
 _BATCH = 2048
 _NEAREST = 2  # triangles of each size that give the first bound
+_PAIRS = 200_000  # points with triangles that are measured at a time
+_MOST_PAIRS = 2_000_000  # for one surface, about 1 s of processor time
 _NEGLIGIBLE = 1e-5  # distance relative to the size that is not measured exactly
 
 
 class ExactSurface:
-    """Triangles, grouped by size, with a search structure for each group."""
+    """Triangles, grouped by size, with a search structure for each group.
+
+    Of triangles that are long and near each other, such as those of a polygon of 30,000 corners,
+    each point has thousands to measure; after many the bound counts as the distance, which is
+    larger.
+    """
 
     def __init__(self, corners: Points) -> None:
         """Build the search structures.
@@ -32,6 +39,7 @@ class ExactSurface:
         middles = (corners.min(axis=1) + corners.max(axis=1)) / 2
         radii = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
         octaves = np.ceil(np.log2(np.maximum(radii, 1e-12)) / 2).astype(np.int64)
+        self._pairs = 0
         self._groups = []
         for octave in np.unique(octaves):
             rows = np.flatnonzero(octaves == octave)
@@ -54,8 +62,18 @@ class ExactSurface:
             batch = order[first : first + _BATCH]
             if bounds[batch[0]] <= max(largest, self._negligible) or largest > limit:
                 break
-            largest = max(largest, float(self._measure(points[batch], bounds[batch]).max()))
+            for part in self._split(points, bounds, batch):
+                largest = max(largest, float(self._measure(points[part], bounds[part]).max()))
         return largest
+
+    def _split(self, points: Points, bounds: Array, rows: Faces) -> list[Faces]:
+        """Split points so that each part has few triangles near it."""
+        pairs = sum(
+            tree.query_ball_point(points[rows], bounds[rows] + radius, return_length=True)
+            for radius, _, tree in self._groups
+        )
+        number = np.cumsum(pairs) // _PAIRS
+        return np.split(rows, np.flatnonzero(np.diff(number)) + 1)
 
     def _bound(self, points: Points) -> Array:
         """Return upper bounds of the distances: those to triangles whose middles are nearest."""
@@ -71,10 +89,13 @@ class ExactSurface:
         """Return the distance of each point [m], given an upper bound."""
         best: Array = bounds.copy()
         for radius, rows, tree in self._groups:
+            if self._pairs > _MOST_PAIRS:
+                break
             found = tree.query_ball_point(points, best + radius, return_sorted=False)
             counts = np.array([len(one) for one in found])
             if not counts.any():
                 continue
+            self._pairs += int(counts.sum())
             near: Faces = rows[np.concatenate([one for one in found if one]).astype(np.int64)]
             owners = np.repeat(np.arange(len(points)), counts)
             exact = to_triangles(points[owners], self._corners[near])

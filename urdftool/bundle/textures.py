@@ -5,10 +5,11 @@ from __future__ import annotations
 import io
 import json
 import struct
-import warnings
 from typing import Any, NamedTuple
 
+from ..errors import MeshError
 from ..extras import require
+from ..geometry.image_file import open_image
 
 _HEAD = struct.Struct("<4sIIII")
 _BINARY = b"BIN\0"
@@ -46,20 +47,18 @@ def shrink_image(data: bytes, limit: int) -> Shrunk | None:
     from PIL import Image
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
-            image: Image.Image = Image.open(io.BytesIO(data))
-            kind, before = str(image.format), image.size
-            if max(before) <= limit or kind not in _WRITTEN:
-                return None
-            scale = limit / max(before)
-            after = max(1, round(before[0] * scale)), max(1, round(before[1] * scale))
-            if image.mode == "P":
-                image = image.convert("RGBA" if "transparency" in image.info else "RGB")
-            small = image.resize(after, Image.Resampling.LANCZOS)
-            stream = io.BytesIO()
-            small.save(stream, kind, **({"quality": 90} if kind in ("JPEG", "WEBP") else {}))
-    except (OSError, ValueError, SyntaxError, Warning, Image.DecompressionBombError):
+        image = open_image(data)
+        kind, before = str(image.format), image.size
+        if max(before) <= limit or kind not in _WRITTEN:
+            return None
+        scale = limit / max(before)
+        after = max(1, round(before[0] * scale)), max(1, round(before[1] * scale))
+        if image.mode == "P":
+            image = image.convert("RGBA" if "transparency" in image.info else "RGB")
+        small = image.resize(after, Image.Resampling.LANCZOS)
+        stream = io.BytesIO()
+        small.save(stream, kind, **({"quality": 90} if kind in ("JPEG", "WEBP") else {}))
+    except (MeshError, OSError, ValueError, SyntaxError):
         return None
     return Shrunk(stream.getvalue(), before, after)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import UrdftoolError
+from ..errors import AccessError, UrdftoolError
 from ..extras import require
 from ..geometry.mesh import Array
 from ..model.elements import Joint, Robot
@@ -46,6 +46,8 @@ def load_robot(robot: Robot, **options: Any) -> Any:
     def resolve(fname: str) -> str:
         try:
             return fname if source is None else str(source.resolve(fname))
+        except AccessError:
+            return f"refused/{Path(fname).name}"  # yourdfpy would open it
         except (UrdftoolError, ValueError):
             return fname
 

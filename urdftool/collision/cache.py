@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..source.access import list_companions
 from ..storage import DiskCache, cache_key
 from .compute import Result, Task, parse_result
 
@@ -27,7 +28,7 @@ def compute_key(task: Task) -> str | None:
     try:
         inputs = [task.path.read_bytes()]
         if suffix == ".gltf":  # buffers are separate files
-            for path in sorted(task.path.parent.glob("*.bin")):
+            for path in list_companions(task.path, "*.bin"):
                 inputs += [path.name.encode(), path.read_bytes()]
     except OSError:
         return None

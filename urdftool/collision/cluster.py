@@ -12,6 +12,7 @@ from typing import Any
 
 from ..errors import UrdftoolError
 from ..extras import make_missing_error
+from ..source.access import list_companions
 from .compute import Task, try_compute
 
 
@@ -76,5 +77,5 @@ def _read_files(path: Path) -> dict[str, bytes]:
     """Read the mesh file, and the buffers in its folder if it is glTF."""
     paths = [path]
     if path.suffix.lower() == ".gltf":
-        paths += sorted(path.parent.glob("*.bin"))
+        paths += list_companions(path, "*.bin")
     return {file.name: file.read_bytes() for file in paths if file.is_file()}

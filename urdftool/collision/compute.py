@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
@@ -34,6 +34,14 @@ class Task:
     scale: Vector = (1.0, 1.0, 1.0)
     settings: Settings = field(default_factory=Settings)
     gltf_up: GltfUp = "y"
+
+
+MEASURES = (
+    *("error", "reach", "excess", "size", "hausdorff", "mean", "visual_to_collision"),
+    *("collision_to_visual", "buried", "uncovered", "volume", "volume_ratio", "outside"),
+    *("enclosed", "pieces", "triangles", "vertices"),
+)
+"""Names in :meth:`Measures.as_dict`, whose module is not imported to read a result."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,16 +103,27 @@ def parse_result(data: bytes, *, cached: bool = False) -> Result:
     try:
         table = json.loads(data)
         return Result(
-            table["method"],
+            str(table["method"]),
             [parse_piece(piece) for piece in table["pieces"]],
-            table["measures"],
-            table["before"],
+            _read_numbers(table["measures"], MEASURES),
+            _read_numbers(table["before"], ("triangles", "vertices")),
             tuple(unpack_note(note) for note in table["notes"]),
             float(table["seconds"]),
             cached,
         )
-    except (KeyError, TypeError, AttributeError) as error:
+    except (LookupError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
         raise ValueError(f"a result that cannot be read: {error}") from error
+
+
+def _read_numbers(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
+    """Return the numbers of these names, of which there must be no others.
+
+    Raises:
+        ValueError: A name or a number is missing.
+    """
+    if set(table) != set(names) or any(type(table[name]) not in (int, float) for name in names):
+        raise ValueError("a result that cannot be read: other measures")
+    return dict(table)
 
 
 def compute(task: Task, cores: int = 1) -> Result:

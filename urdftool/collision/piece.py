@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.mesh import Faces, Points
+from ..geometry.plain_form import check_triangles
 from ..geometry.tessellate import tessellate
 from .vec3 import compute_bounds
 
@@ -125,11 +126,19 @@ def make_primitive(
 
 
 def parse_piece(table: dict[str, Any]) -> Piece:
-    """Create the piece that :meth:`Piece.as_dict` describes."""
+    """Create the piece that :meth:`Piece.as_dict` describes.
+
+    Raises:
+        ValueError: A number is not finite, or a triangle has a point that does not exist.
+    """
     if table["kind"] in PRIMITIVES:
-        return make_primitive(
-            table["kind"], tuple(table["size"]), np.array(table["rotation"]), table["center"]
-        )
+        rotation = np.array(table["rotation"], dtype=np.float64).reshape(3, 3)
+        center = np.array(table["center"], dtype=np.float64).reshape(3)
+        piece = make_primitive(table["kind"], tuple(map(float, table["size"])), rotation, center)
+        if not np.isfinite(piece.vertices).all():
+            raise ValueError("a number is not finite")
+        return piece
     vertices = np.array(table["vertices"], dtype=np.float64).reshape(-1, 3)
     faces = np.array(table["faces"], dtype=np.int64).reshape(-1, 3)
+    check_triangles(vertices, faces)
     return make_mesh_piece(vertices, faces, convex=table["kind"] == "convex")

@@ -125,6 +125,7 @@ def command(
     from ..bundle.output import write_bundle
     from ..formats.defects import Refused
     from ..lint.validate import require as require_purpose
+    from .export_report import report_refused, restore_output
 
     if output is None:
         if check and is_bundle(robot[0]):
@@ -144,12 +145,11 @@ def command(
                     add_srdf(bundle, model, srdf)
                 add_formats(bundle, formats, force=options.force, srdf=srdf)
         except Refused as refused:
-            from .export_report import report_refused
-
             return report_refused(refused.findings, as_json=False)
         _report_notes(console, bundle)
         if options.limits.is_set:
             _report_sizes(console, bundle)
+        restore_output(console, output)
         write_bundle(output, bundle, overwrite=overwrite)
         _report(console, bundle, output)
         return _check(console, output, model) if check else 0

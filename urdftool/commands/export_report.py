@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..control_characters import escape_controls
 from ..report.counted import format_count
-from ..terminal import escape_controls
 
 if TYPE_CHECKING:
     from ..finding import Finding
@@ -32,6 +32,14 @@ def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
         click.echo(escape_controls(line), err=True)
     click.echo(f"urdftool: no file was written: {format_count(len(report), 'error')}", err=True)
     return 2
+
+
+def restore_output(console: Console, output: str) -> None:
+    """Restore an output folder that a killed process left under a temporary name."""
+    from ..leftovers import restore_folder
+
+    if restore_folder(output):
+        console.print_note(f"{output} was restored: the process that replaced it was killed")
 
 
 def run_export(
@@ -80,6 +88,8 @@ def run_export(
     except Refused as refused:
         return report_refused(refused.findings, as_json=as_json)
     place = None if output == "-" else output
+    if place is not None:
+        restore_output(console, place)
     checks = finish_export(
         target, robot, options, written, place, verify=verify, overwrite=overwrite
     )
@@ -144,9 +154,7 @@ def report_written(
         if checks:
             from ..report.exports import check_table
 
-            click.echo(
-                escape_controls(check_table(checks, not_compared)), nl=False, err=output == "-"
-            )
+            click.echo(check_table(checks, not_compared), nl=False, err=output == "-")
     if output != "-":
         more = f", {format_count(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:

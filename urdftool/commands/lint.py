@@ -29,6 +29,7 @@ _GROUPS = {
     "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
     "Rules": "select extend_select ignore target baseline write_baseline",
     "Output": "style whole output_file statistics fail_on exit_zero",
+    "Input": "no_expand",
     "Performance": "jobs",
 }
 
@@ -71,6 +72,11 @@ _GROUPS = {
 )
 @click.option(
     "--statistics", is_flag=True, help="Print the number of findings per rule, not the findings."
+)
+@click.option(
+    "--no-expand",
+    is_flag=True,
+    help="Evaluate no xacro: check only the source of xacro files, without their robots.",
 )
 @click.option("--fix", is_flag=True, help="Apply safe fixes to the files.")
 @click.option(
@@ -117,6 +123,7 @@ def command(
     whole: bool,
     output_file: str | None,
     statistics: bool,
+    no_expand: bool,
     fix: bool,
     unsafe_fixes: bool,
     fix_meshes: bool,
@@ -183,7 +190,7 @@ def command(
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):
             raise click.UsageError(f"{option} requires --fix or --diff")
-    folder = choose_cache_folder("lint", cache_dir, no_cache)
+    folder = choose_cache_folder("lint", cache_dir, no_cache or no_expand)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up, options.workspace = console.gltf_up, workspace
     options.read_other = read_other_format
@@ -192,6 +199,7 @@ def command(
         from ..storage import DiskCache
 
         options.cache = Cache(DiskCache(folder))
+    options.expand = not no_expand
     options.fixes = style is None or style in _WITH_FIXES
     output = OutputOptions(
         style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline

@@ -89,7 +89,7 @@ def report(
     _report_unread(console, outcome.reports)
     _report_skipped(console, outcome.reports, output.paths)
     broken = _report_errors(console, outcome.reports)
-    if any(report.checked or report.stopped for report in outcome.reports):
+    if any(report.checked or report.stopped or report.unexpanded for report in outcome.reports):
         console.print_note(summarize(outcome))
         for line in list_skipped_rules(outcome):
             console.print_note(line)

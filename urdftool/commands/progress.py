@@ -10,6 +10,7 @@ from time import monotonic
 import click
 
 from ..console import Console
+from ..control_characters import escape_controls
 
 PATIENCE = 1.0
 """Time after which progress is shown [s]."""
@@ -68,7 +69,7 @@ class Progress:
             count: Number of all items.
             running: Names of the items in work.
         """
-        names = running if isinstance(running, str) else ", ".join(running)
+        names = escape_controls(running if isinstance(running, str) else ", ".join(running))
         self._state = done, count, names
         if not self.wanted or self.timed:
             return

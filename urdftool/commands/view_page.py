@@ -46,7 +46,7 @@ def serve_page(
     """
     from ..model.kinematics import check_positions
     from ..viewer.page import Page, require_viewable
-    from ..viewer.server import LOOPBACK, choose_port, is_loopback, make_url, start
+    from ..viewer.server import LOOPBACK, choose_port, is_loopback, make_token, make_url, start
 
     robot = require_viewable(read())
     check_positions(robot, pose)
@@ -54,10 +54,12 @@ def serve_page(
     port = choose_port(host, port)
     if not is_loopback(host):
         console.print_message(
-            f"warning: everyone with network access to {host} can see and move the robot"
+            f"warning: everyone with network access to {host} and the address below can see and "
+            "move the robot; the connection is not encrypted"
         )
     pages: list[Page] = []
-    server = start(host, port, lambda: pages[0].title if pages else "urdftool")
+    token = make_token()
+    server = start(host, port, token, lambda: pages[0].title if pages else "urdftool")
     try:
         page = Page(
             server,
@@ -69,7 +71,7 @@ def serve_page(
             shown=("errors", *(("visual", "collision") if show == "both" else (show,))),
         )
         pages.append(page)
-        where = make_url(host, port)
+        where = make_url(host, port, token)
         write_result(f"{where}\n", None)
         console.print_note("press Ctrl-C to stop")
         if opened and not webbrowser.open(where):

@@ -8,15 +8,15 @@ and images are omitted, since reading a description does not need them.
 from __future__ import annotations
 
 import os
-import subprocess
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from ..errors import MissingDependency, SourceError, UrdftoolError
+from ..git_command import run_git
 from ..model.elements import Mesh, Robot
 from ..source.packages import find_packages
 
@@ -188,6 +188,7 @@ def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
     )
     (folder / ".git").mkdir(parents=True)  # empty; ends the search for packages
     at = 0
+    links: list[tuple[Path, str]] = []
     for path, blob in blobs.items():
         end = data.index(b"\n", at)
         size = int(data[at:end].rsplit(b" ", 1)[1])
@@ -196,21 +197,34 @@ def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
         target = folder / path
         if ".." in target.parts or ".git" in Path(path).parts:
             continue
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if not blob.is_link:
-            target.write_bytes(content)
+        if blob.is_link:
+            links.append((target, os.fsdecode(content)))
             continue
-        goal = os.path.normpath(target.parent / os.fsdecode(content))
-        if goal.startswith(f"{folder}{os.sep}"):  # links must not leave the revision
-            target.symlink_to(os.fsdecode(content))
+        with suppress(OSError):  # a path that is a file and a folder
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(content)
+    _write_links(links, folder)
+
+
+def _write_links(links: Sequence[tuple[Path, str]], folder: Path) -> None:
+    """Create links after all files; those that leave the revision are removed again."""
+    made = []
+    for target, goal in links:
+        with suppress(OSError, ValueError):
+            if Path(os.path.realpath(target.parent)).is_relative_to(folder):
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.symlink_to(goal)
+                made.append(target)
+    for target in made:
+        if not Path(os.path.realpath(target)).is_relative_to(folder):
+            target.unlink()
 
 
 def _run_git(
     folder: str | Path, *words: str, fail: str | None = None, given: bytes | None = None
 ) -> bytes:
-    command: Sequence[str] = ["git", "-C", str(folder), *words]
     try:
-        done = subprocess.run(command, input=given, capture_output=True, check=False)
+        done = run_git(folder, *words, given=given)
     except FileNotFoundError:
         raise MissingDependency(
             "REVISION:FILE requires git, which is not installed; pass a file instead"

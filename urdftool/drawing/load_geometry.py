@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -75,16 +76,31 @@ class Gathering:
     read: Callable[[MeshGeometry], Mesh] | None = None
     """Reader of a mesh with less detail; None reads files as they are."""
 
-    def load_image(self, source: object, at: MeshGeometry | Material) -> int:
+    def load_image(self, source: Path | bytes, at: MeshGeometry | Material) -> int:
         """Return the row of an image; -1 with a problem recorded if it cannot be read."""
         if source not in self.image_rows:
             self.image_rows[source] = -1
             try:
-                self.images.append(read_texture(source))  # type: ignore[arg-type]
+                self.images.append(read_texture(self._read_image(source)))
                 self.image_rows[source] = len(self.images) - 1
             except MeshError as error:
                 self.record_problem(f"texture of {_get_name(at)}: {error}", at)
         return self.image_rows[source]
+
+    def _read_image(self, source: Path | bytes) -> Path | bytes:
+        """Return the content of an image file that the description may read.
+
+        Raises:
+            MeshError: It may not.
+        """
+        if isinstance(source, bytes) or self.robot.source is None:
+            return source
+        try:
+            return self.robot.source.workspace.read_bytes(source)
+        except FileNotFoundError:
+            return source  # reported by the reader
+        except OSError as error:
+            raise MeshError(f"the image is not read: it {error.strerror}", path=source) from None
 
     def record_problem(
         self, message: str, at: MeshGeometry | Material | Visual | Collision

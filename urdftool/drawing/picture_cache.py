@@ -16,6 +16,9 @@ _REVISION = 1
 """Increment it when the same shapes give another picture."""
 
 _SLOW = 0.3  # time [s] to draw a picture from which it is kept
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+"""First bytes of a PNG file."""
+
 _MOST = 200_000_000  # size of the cache [bytes]
 
 
@@ -36,7 +39,7 @@ def draw_or_read(shapes: Shapes, facts: object, draw: Callable[[], Image]) -> by
     cache = DiskCache(cache_folder("pictures"))
     key = _compute_key(shapes, facts)
     found = cache.get(key)
-    if found is not None:
+    if found is not None and found.startswith(_SIGNATURE):
         return found
     begin = perf_counter()
     data = encode_png(draw())

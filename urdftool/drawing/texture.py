@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
+from ..geometry.image_file import open_image
 from .raster import Floats
 
 Texels = npt.NDArray[np.uint8]
@@ -25,12 +24,9 @@ def read_texture(source: Path | bytes) -> Texels:
     Raises:
         MeshError: The file does not exist or is not an image.
     """
-    from PIL import Image
-
-    if isinstance(source, Path) and os.path.exists(source) and not os.path.isfile(source):
-        raise MeshError("is not a file; a texture requires an image file", path=source)
+    image = open_image(source)
     try:
-        with Image.open(BytesIO(source) if isinstance(source, bytes) else source) as image:
+        with image:
             image.draft("RGB", (LARGEST, LARGEST))
             if max(image.size) > LARGEST:
                 image.thumbnail((LARGEST, LARGEST))
@@ -38,8 +34,6 @@ def read_texture(source: Path | bytes) -> Texels:
     # image readers raise arbitrary exceptions for damaged files
     except Exception as error:
         path = None if isinstance(source, bytes) else source
-        if isinstance(error, FileNotFoundError):
-            raise MeshError("image file does not exist", path=path) from error
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(f"the image cannot be read ({reason})", path=path) from error
     return np.ascontiguousarray(pixels[::-1])

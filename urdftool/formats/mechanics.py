@@ -140,7 +140,7 @@ def get_origin_matrix(origin: Origin | None) -> Array:
         size = math.hypot(*origin.quaternion)
         angle = 2 * math.atan2(float(np.linalg.norm(vector)), scalar) if size else 0.0
         pose[:3, :3] = turn(vector, angle)
-    else:
+    elif any(origin.rpy):
         for axis, angle in zip(np.eye(3), origin.rpy, strict=True):
             pose[:3, :3] = turn(axis, angle) @ pose[:3, :3]
     pose[:3, 3] = origin.xyz

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
 from ..diagnostic import Severity
+from ..errors import ModelError
 from ..finding import Finding
+from ..isolated import ProcessDied
+from ..limited import LimitExceeded, Limits
 from ..model.elements import Robot
+from ..source.access import is_trusted
 from ..source.document import STDIN, read_file
 from ..source.location import Place, SourceFile
 from ..source.packages import Packages
@@ -81,7 +86,7 @@ def _count(names: Iterable[str]) -> str:
 
 
 class Opened(NamedTuple):
-    """File of a description, finder of the files that it names, and access to files."""
+    """File of a description, finder of the files that it names, and access to those."""
 
     file: SourceFile
     packages: Packages
@@ -108,4 +113,32 @@ def open_description(
     workspace = workspace or Workspace()
     file = file or read_file(path, workspace)
     packages = packages or Packages(None if file.path == STDIN else file.path, workspace=workspace)
-    return Opened(file, packages, workspace)
+    return Opened(file, packages, packages.workspace)
+
+
+def choose_limits(limits: Limits, workspace: Workspace) -> Limits:
+    """Return the limits of a library that reads a description; only of time for trusted input."""
+    return Limits(limits.time) if is_trusted(workspace) else limits
+
+
+@contextmanager
+def report_limits(library: str, what: str, place: Place) -> Iterator[None]:
+    """Report that a library in another process crashed on a description or exceeded its limits.
+
+    Args:
+        library: Name of the library.
+        what: What it reads: ``model`` or ``stage``.
+        place: Location in the description.
+
+    Raises:
+        ModelError: It did.
+    """
+    try:
+        yield
+    except LimitExceeded as error:
+        text = f"{library} needs more than {error.message} for the {what}, which is not read"
+        help_ = "simplify it, or pass --trust to lift the limits"
+        raise ModelError(f"{text}; {help_}", at=place) from None
+    except ProcessDied as error:
+        text = f"{library} crashes on the {what}"
+        raise ModelError(text, at=place, notes=error.output) from None

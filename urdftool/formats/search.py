@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from ..errors import UrdftoolError
 from ..extras import is_installed
+from ..lint.discover import list_files
 from ..source.document import read_file
 from .detect import format_of
 
@@ -40,7 +41,8 @@ def find_other_descriptions(paths: Iterable[str]) -> Found:
         paths: Files and folders; files are ignored.
     """
     found, models = Found(), {}
-    for path in _list_files(path for path in paths if os.path.isdir(path)):
+    folders = [path for path in paths if os.path.isdir(path)]
+    for path in (path for folder in folders for path in list_files(folder, _ENDINGS)):
         try:
             file = read_file(path)
         except UrdftoolError as error:
@@ -57,15 +59,6 @@ def find_other_descriptions(paths: Iterable[str]) -> Found:
                 found.skipped[path] = "SDF without a link of its own"
     _add_models(found, models)
     return found
-
-
-def _list_files(folders: Iterable[str]) -> Iterator[str]:
-    for folder in folders:
-        for root, inner, names in os.walk(folder):
-            inner[:] = sorted(name for name in inner if not name.startswith("."))
-            for name in sorted(names):
-                if name.endswith(_ENDINGS):
-                    yield os.path.normpath(os.path.join(root, name))
 
 
 def _add_models(found: Found, models: dict[str, tuple[str, bytes]]) -> None:

@@ -81,7 +81,7 @@ def read_points(path: Path) -> Points | None:
     with _raise_mesh_errors(path):
         document = Document(path)
         found = [
-            transform_points(triangles.select_used_points(), instance.matrix)
+            transform_points(triangles.points, instance.matrix)
             for instance in document.find_instances()
             for triangles in document.read_triangles(instance.geometry)
         ]

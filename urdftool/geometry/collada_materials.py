@@ -33,6 +33,10 @@ class Materials:
         self._root = root
         self._space = space
         self._path = path
+        self._shaders: dict[Element, Element | None] = {}
+        self._parameters: dict[Element, dict[str, Element]] = {}
+        self._bindings: dict[Element, dict[str, Element]] = {}
+        self._appearances: dict[Element, Appearance] = {}
         self._named = {
             (element.tag[len(space) :], element.get("id")): element
             for element in root.iter()
@@ -41,7 +45,9 @@ class Materials:
 
     def has_broken_binding(self) -> bool:
         """Tell whether an instance binds a material that lacks its properties or its image."""
-        return any(map(self._is_broken, self._root.iter(f"{self._space}instance_material")))
+        bindings = self._root.iter(f"{self._space}instance_material")
+        by_target = {binding.get("target"): binding for binding in bindings}
+        return any(map(self._is_broken, by_target.values()))
 
     def _is_broken(self, binding: Element) -> bool:
         shader = self._find_shader(binding)
@@ -55,16 +61,27 @@ class Materials:
 
     def find_bindings(self, instance: Element) -> Mapping[str, Element]:
         """Return the ``<instance_material>`` elements of an instance, by symbol."""
-        path = "/".join(
-            self._space + name
-            for name in ("bind_material", "technique_common", "instance_material")
-        )
-        return {element.get("symbol") or "": element for element in instance.iterfind(path)}
+        if instance not in self._bindings:
+            path = "/".join(
+                self._space + name
+                for name in ("bind_material", "technique_common", "instance_material")
+            )
+            self._bindings[instance] = {
+                element.get("symbol") or "": element for element in instance.iterfind(path)
+            }
+        return self._bindings[instance]
 
     def read_appearance(self, binding: Element | None) -> Appearance:
         """Return what a binding shows; nothing for None and a broken material."""
-        shader = self._find_shader(binding) if binding is not None else None
-        if binding is None or shader is None:
+        if binding is None:
+            return Appearance()
+        if binding not in self._appearances:
+            self._appearances[binding] = self._read_appearance(binding)
+        return self._appearances[binding]
+
+    def _read_appearance(self, binding: Element) -> Appearance:
+        shader = self._find_shader(binding)
+        if shader is None:
             return Appearance()
         color = shader.find(f"{self._space}diffuse/{self._space}color")
         if color is not None:
@@ -92,6 +109,11 @@ class Materials:
         effect = self._find_effect(binding)
         if effect is None:
             return None
+        if effect not in self._shaders:
+            self._shaders[effect] = self._find_shader_of(effect)
+        return self._shaders[effect]
+
+    def _find_shader_of(self, effect: Element) -> Element | None:
         technique = effect.find(f"{self._space}profile_COMMON/{self._space}technique")
         found = (
             technique.find(self._space + name) if technique is not None else None
@@ -109,16 +131,20 @@ class Materials:
     def _find_image(self, effect: Element | None, texture: Element) -> Element | None:
         """Return the image of a texture, which leads to it by a sampler and a surface."""
         name = texture.get("texture") or ""
-        parameters = {
-            element.get("sid"): element
-            for element in (effect.iter(f"{self._space}newparam") if effect is not None else ())
-        }
+        parameters = self._list_parameters(effect) if effect is not None else {}
         for names in ("sampler2D/source", "surface/init_from"):
             parameter = parameters.get(name)
             path = "/".join(self._space + part for part in names.split("/"))
             link = parameter.find(path) if parameter is not None else None
             name = (link.text or "").strip() if link is not None else name
         return self._named.get(("image", name))
+
+    def _list_parameters(self, effect: Element) -> dict[str, Element]:
+        """Return the ``<newparam>`` elements of an effect by ``sid``."""
+        if effect not in self._parameters:
+            found = effect.iter(f"{self._space}newparam")
+            self._parameters[effect] = {element.get("sid") or "": element for element in found}
+        return self._parameters[effect]
 
     def _read_image_path(self, image: Element) -> Path | None:
         source = image.find(f"{self._space}init_from")

@@ -13,14 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
+from .limits import check_instances, check_tree
 from .mesh import Array, Faces, MeshNote, Points
-from .points import IDENTITY
+from .points import IDENTITY, select_used
 
 MAX_DEPTH = 256
 """Largest depth of nested nodes; deeper files are rejected, as instances may form a cycle."""
-
-MAX_NODES = 1_000_000
-"""Largest number of nodes, counted once for each instance."""
 
 PRIMITIVES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
@@ -55,7 +53,7 @@ class Triangles(NamedTuple):
     """Triangles of one primitive, in the unit and axes of its geometry.
 
     Attributes:
-        points: Shape (n, 3).
+        points: Those that the faces use, shape (n, 3).
         faces: Rows of the points, shape (m, 3).
         material: Symbol that an instance binds to a material.
         texture_sets: Texture coordinates, in the order of the file.
@@ -65,12 +63,6 @@ class Triangles(NamedTuple):
     faces: Faces
     material: str
     texture_sets: list[TextureSet]
-
-    def select_used_points(self) -> Points:
-        """Return the points that the faces use."""
-        is_used = np.zeros(len(self.points), dtype=bool)
-        is_used[self.faces.ravel()] = True
-        return self.points if is_used.all() else self.points[is_used]
 
     def get_texture_coordinates(self, number: str | None) -> Points | None:
         """Return the texture coordinates of each corner, shape (m, 3, 2).
@@ -98,6 +90,20 @@ class _Input(NamedTuple):
     number: str
 
 
+class _Node(NamedTuple):
+    matrix: Array
+    contents: list[Element | Instance]
+
+
+class _Count(NamedTuple):
+    """What a node shows, all instances in it included; ``height`` is its depth of nesting."""
+
+    nodes: int
+    parts: int
+    triangles: int
+    height: int
+
+
 class Document:
     """COLLADA file; sources and primitives are parsed once, on demand.
 
@@ -110,10 +116,13 @@ class Document:
         """Parse the file.
 
         Raises:
-            MeshError: It declares XML entities or an invalid unit, or has no scene.
+            MeshError: It declares XML entities or an invalid unit, has too many elements, or has
+                no scene.
             ElementTree.ParseError: It is not XML.
         """
         data = path.read_bytes()
+        self._size = len(data)
+        check_tree(path, data, b"<")
         if b"<!ENTITY" in data or "<!ENTITY".encode("utf-16-le") in data:
             raise MeshError(
                 "the COLLADA file declares XML entities, which are not read; write their text out",
@@ -130,7 +139,8 @@ class Document:
         }
         self._sources: dict[str, Array] = {}
         self._triangles: dict[Element, list[Triangles]] = {}
-        self._nodes = 0
+        self._nodes: dict[Element, _Node] = {}
+        self._counts: dict[Element, _Count] = {}
         self.unit = self._read_unit()
         shown = self._find(self.root, "scene/instance_visual_scene")
         scene = self._follow(shown, "visual_scene") if shown is not None else None
@@ -175,50 +185,100 @@ class Document:
             yield MeshNote("collada-up-axis", message)
 
     def find_instances(self) -> Iterator[Instance]:
-        """Yield the geometries of the scene, once for each time that one is shown."""
-        matrix: Array = np.diag([self.unit, self.unit, self.unit, 1.0])
-        for child in self._scene:
-            if child.tag == self.space + "node":
-                yield from self._walk(child, matrix, 0)
+        """Yield the geometries of the scene, once for each time that one is shown.
 
-    def _walk(self, node: Element, above: Array, depth: int) -> Iterator[Instance]:
-        self._nodes += 1
-        if depth > MAX_DEPTH or self._nodes > MAX_NODES:
-            limit = f"{MAX_DEPTH} deep" if depth > MAX_DEPTH else f"{MAX_NODES} in number"
+        Raises:
+            MeshError: Nodes are nested too deeply, contain themselves, or exceed a limit with all
+                instances; none was made.
+        """
+        roots = [child for child in self._scene if child.tag == self.space + "node"]
+        for root in roots:
+            self._count(root, 0)
+        counts = [self._counts[root] for root in roots]
+        check_instances(
+            self._path,
+            self._size,
+            triangles=sum(count.triangles for count in counts),
+            parts=sum(count.parts for count in counts),
+            nodes=sum(count.nodes for count in counts),
+        )
+        matrix: Array = np.diag([self.unit, self.unit, self.unit, 1.0])
+        for root in roots:
+            yield from self._walk(root, matrix)
+
+    def _count(self, node: Element, depth: int) -> _Count:
+        """Count what a node shows; each node is counted once, however often it is shown."""
+        known = self._counts.get(node)
+        if depth + (known.height if known is not None else 0) > MAX_DEPTH:
             raise MeshError(
-                f"the nodes of the COLLADA file are more than {limit}; an instance_node may not "
-                "contain itself",
+                f"the nodes of the COLLADA file are more than {MAX_DEPTH} deep; an instance_node "
+                "may not contain itself",
                 path=self._path,
             )
-        matrix = above
-        for child in node:
-            transform = _TRANSFORMS.get(child.tag[len(self.space) :])
-            if transform is not None:
-                matrix = matrix @ transform(_parse_numbers(child.text, np.float64))
-        for child in node:
-            kind = child.tag[len(self.space) :]
-            other: Element | None
-            if kind == "node":
-                yield from self._walk(child, matrix, depth + 1)
-            elif kind == "instance_node":
-                if (other := self._follow(child, "node")) is not None:
-                    yield from self._walk(other, matrix, depth + 1)
-            elif kind == "instance_geometry":
-                if (other := self._follow(child, "geometry")) is not None:
-                    yield Instance(other, matrix, child, is_skin=False)
-            elif kind == "instance_controller":
-                yield from self._find_skin(child, matrix)
+        if known is not None:
+            return known
+        nodes, parts, triangles, height = 1, 0, 0, 0
+        for item in self._read_node(node).contents:
+            if isinstance(item, Instance):
+                count = self._count_geometry(item.geometry)
+            else:
+                count = self._count(item, depth + 1)
+                height = max(height, count.height + 1)
+            nodes, parts = nodes + count.nodes, parts + count.parts
+            triangles += count.triangles
+        self._counts[node] = _Count(nodes, parts, triangles, height)
+        return self._counts[node]
 
-    def _find_skin(self, element: Element, matrix: Array) -> Iterator[Instance]:
+    def _count_geometry(self, geometry: Element) -> _Count:
+        if geometry not in self._counts:
+            primitives = self.read_triangles(geometry)
+            triangles = sum(len(one.faces) for one in primitives)
+            self._counts[geometry] = _Count(1, len(primitives), triangles, 0)
+        return self._counts[geometry]
+
+    def _walk(self, node: Element, above: Array) -> Iterator[Instance]:
+        read = self._read_node(node)
+        matrix = above @ read.matrix
+        for item in read.contents:
+            if isinstance(item, Instance):
+                yield item._replace(matrix=matrix @ item.matrix)
+            else:
+                yield from self._walk(item, matrix)
+
+    def _read_node(self, node: Element) -> _Node:
+        """Return the pose of a node in the one above, and its inner nodes and geometries."""
+        if node not in self._nodes:
+            matrix = IDENTITY
+            contents: list[Element | Instance] = []
+            for child in node:
+                kind = child.tag[len(self.space) :]
+                other: Element | None
+                if kind in _TRANSFORMS:
+                    matrix = matrix @ _TRANSFORMS[kind](_parse_numbers(child.text, np.float64))
+                elif kind == "node":
+                    contents.append(child)
+                elif kind == "instance_node":
+                    if (other := self._follow(child, "node")) is not None:
+                        contents.append(other)
+                elif kind == "instance_geometry":
+                    if (other := self._follow(child, "geometry")) is not None:
+                        contents.append(Instance(other, IDENTITY, child, is_skin=False))
+                elif kind == "instance_controller":
+                    contents += self._find_skin(child)
+            self._nodes[node] = _Node(matrix, contents)
+        return self._nodes[node]
+
+    def _find_skin(self, element: Element) -> Iterator[Instance]:
         """Yield the geometry of a skin in its bind shape."""
         controller = self._follow(element, "controller")
         skin = self._find(controller, "skin") if controller is not None else None
         geometry = self._follow(skin, "geometry", "source") if skin is not None else None
         if skin is None or geometry is None:
             return
+        matrix: Array = IDENTITY
         bind = self._find(skin, "bind_shape_matrix")
         if bind is not None and bind.text:
-            matrix = matrix @ _make_matrix(_parse_numbers(bind.text, np.float64))
+            matrix = _make_matrix(_parse_numbers(bind.text, np.float64))
         yield Instance(geometry, matrix, element, is_skin=True)
 
     def read_triangles(self, geometry: Element) -> list[Triangles]:
@@ -260,11 +320,16 @@ class Document:
         if points.shape[1] < 3:
             raise ValueError(f"the points of geometry {named!r} have less than 3 coordinates")
         sets = [
-            TextureSet(one.number, self._read_source(one.source), corners[:, :, one.offset])
+            TextureSet(
+                one.number,
+                self._read_source(one.source),
+                np.ascontiguousarray(corners[:, :, one.offset]),
+            )
             for one in inputs
             if one.semantic == "TEXCOORD"
         ]
-        return Triangles(points[:, :3], faces, primitive.get("material") or "", sets)
+        points, faces = select_used(points[:, :3], faces)
+        return Triangles(points, faces, primitive.get("material") or "", sets)
 
     def _list_inputs(self, primitive: Element) -> list[_Input]:
         """Return the inputs of a primitive, those of its ``<vertices>`` included."""
@@ -283,12 +348,16 @@ class Document:
 
     def _read_corners(self, primitive: Element, kind: str, stride: int, geometry: str) -> Faces:
         """Return what the three corners of each triangle name, shape (m, 3, stride)."""
-        runs = [
-            _parse_numbers(p.text, np.int64).reshape(-1, stride)
-            for p in primitive.iterfind(f"{self.space}p")
-        ]
-        if not runs:
+        texts = [p.text or "" for p in primitive.iterfind(f"{self.space}p")]
+        if not texts:
             return np.zeros((0, 3, stride), dtype=np.int64)
+        if kind == "polygons":
+            corners = _parse_numbers(" ".join(texts), np.int64).reshape(-1, stride)
+            counts = np.array([len(text.split()) for text in texts])
+            if (counts % stride).any():
+                raise ValueError(f"a polygon of geometry {geometry!r} has a part of a corner")
+            return _split_fans(corners, counts // stride)
+        runs = [_parse_numbers(text, np.int64).reshape(-1, stride) for text in texts]
         if kind == "triangles":
             return np.concatenate(runs).reshape(-1, 3, stride)
         if kind == "tristrips":
@@ -296,16 +365,16 @@ class Document:
         if kind == "polylist":
             table = np.concatenate(runs)
             vcount = self._find(primitive, "vcount")
-            counts = _parse_numbers(vcount.text if vcount is not None else "", np.int64)
-            total = counts.sum(dtype=np.float64) if len(counts) else 0
-            if total > len(table) or (len(counts) and counts.min() < 0):
+            sizes = _parse_numbers(vcount.text if vcount is not None else "", np.int64)
+            total = sizes.sum(dtype=np.float64) if len(sizes) else 0
+            if total > len(table) or (len(sizes) and sizes.min() < 0):
                 raise MeshError(
                     f"the polygons of geometry {geometry!r} of the COLLADA file cannot be cut into "
                     f"triangles (vcount requires {total:.0f} corners, of which there are "
                     f"{len(table)}); export or fetch it again",
                     path=self._path,
                 )
-            return _split_fans(table, counts)
+            return _split_fans(table, sizes)
         return np.concatenate([_split_fans(run, np.array([len(run)])) for run in runs])
 
     def _read_source(self, name: str) -> Array:

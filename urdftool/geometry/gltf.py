@@ -19,8 +19,9 @@ import numpy as np
 
 from ..errors import MeshError
 from .gltf_file import GltfFile
+from .limits import check_instances
 from .mesh import Array, Faces, MeshNote, Piece, Points, Reading
-from .points import IDENTITY, transform_points
+from .points import IDENTITY, select_used, transform_points
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
@@ -56,7 +57,7 @@ def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
         file.check_references()
         pieces = [
             _make_piece(file, mesh, primitive, matrix)
-            for mesh, primitive, matrix in _find_primitives(file, gltf_up)
+            for mesh, primitive, matrix in _list_primitives(file, gltf_up)
         ]
     return Reading(pieces, [MeshNote("gltf-axes", _NOTES[gltf_up])])
 
@@ -77,7 +78,7 @@ def read_points(path: Path, gltf_up: GltfUp = "y") -> Points | None:
         file = GltfFile(path)
         found = [
             transform_points(_read_used_points(file, primitive), matrix)
-            for _, primitive, matrix in _find_primitives(file, gltf_up)
+            for _, primitive, matrix in _list_primitives(file, gltf_up)
         ]
     return np.concatenate(found) if found else None
 
@@ -99,6 +100,26 @@ def _raise_mesh_errors(path: Path) -> Iterator[None]:
         ) from error
 
 
+def _list_primitives(file: GltfFile, gltf_up: GltfUp) -> list[tuple[Any, Any, Array]]:
+    """List the triangle meshes of the scene, as :func:`_find_primitives`.
+
+    Raises:
+        MeshError: They exceed a limit; nothing was read of them.
+    """
+    found: list[tuple[Any, Any, Array]] = []
+    triangles = 0
+    for mesh, primitive, matrix in _find_primitives(file, gltf_up):
+        found.append((mesh, primitive, matrix))
+        corners = (
+            file.count_values(primitive["indices"])
+            if "indices" in primitive
+            else file.count_elements(primitive["attributes"]["POSITION"])
+        )
+        triangles += corners // 3 if primitive.get("mode", _TRIANGLES) == _TRIANGLES else corners
+        check_instances(file.path, file.size, triangles=triangles, parts=len(found))
+    return found
+
+
 def _find_primitives(file: GltfFile, gltf_up: GltfUp) -> Iterator[tuple[Any, Any, Array]]:
     """Yield the triangle meshes of the scene: mesh, primitive and pose, shape (4, 4)."""
     nodes = file.tree.get("nodes", [])
@@ -109,8 +130,9 @@ def _find_primitives(file: GltfFile, gltf_up: GltfUp) -> Iterator[tuple[Any, Any
         children = {child for node in nodes for child in node.get("children", ())}
         roots = [number for number in range(len(nodes)) if number not in children]
     top = _UPRIGHT if gltf_up == "y" else IDENTITY
-    waiting = [(root, top, 0) for root in reversed(roots)]
+    waiting = [(root, top, 0) for root in reversed(dict.fromkeys(roots))]
     walked: set[tuple[int, int]] = set()
+    check_instances(file.path, file.size, nodes=len(nodes))
     while waiting:
         number, above, depth = waiting.pop()
         if depth > MAX_DEPTH or number < 0:
@@ -125,6 +147,7 @@ def _find_primitives(file: GltfFile, gltf_up: GltfUp) -> Iterator[tuple[Any, Any
         for child in reversed(node.get("children", ())):
             if (number, child) not in walked:  # a child of two nodes does not conform
                 walked.add((number, child))
+                check_instances(file.path, file.size, nodes=len(walked))
                 waiting.append((child, matrix, depth + 1))
 
 
@@ -160,23 +183,28 @@ def _make_rotation(quaternion: Any) -> Array:
 def _make_piece(file: GltfFile, mesh: Any, primitive: Any, matrix: Array) -> Piece:
     """Read the triangles and the material of a primitive, placed in the scene."""
     file.check_not_compressed(primitive)
-    vertices = file.read_accessor(primitive["attributes"]["POSITION"]).astype(np.float64)
-    faces = _read_faces(file, primitive, len(vertices))
+    values = file.read_accessor(primitive["attributes"]["POSITION"])
+    faces = _read_faces(file, primitive, len(values))
     if np.linalg.det(matrix[:3, :3]) < 0:
         faces = np.ascontiguousarray(faces[:, ::-1])
+    uv = _read_texture_coordinates(file, primitive, faces, len(values))
+    values, faces = select_used(values, faces)
     rgba, texture, image = None, None, None
     if "material" in primitive:
         rgba, (texture, image) = file.read_material(primitive["material"])
-    points = transform_points(vertices, matrix)
-    uv = _read_texture_coordinates(file, primitive, faces, len(vertices))
+    points = transform_points(values.astype(np.float64), matrix)
     return Piece(points, faces, str(mesh.get("name", "")), rgba, texture, image, uv)
 
 
 def _read_faces(file: GltfFile, primitive: Any, count: int) -> Faces:
     """Read the corners of the triangles, rows of the vertices, shape (m, 3)."""
-    rows: Faces = np.arange(count, dtype=np.int64)
+    rows: Faces
     if "indices" in primitive:
         rows = file.read_accessor(primitive["indices"]).astype(np.int64).ravel()
+        if rows.max(initial=-1) >= count or rows.min(initial=0) < 0:
+            raise ValueError(f"a face names vertex {rows.max()} of {count}")
+    else:
+        rows = np.arange(count, dtype=np.int64)
     mode = primitive.get("mode", _TRIANGLES)
     if mode == _TRIANGLES:
         return rows.reshape(-1, 3)
@@ -198,12 +226,11 @@ def _read_texture_coordinates(
     """
     if "material" not in primitive or "TEXCOORD_0" not in primitive["attributes"]:
         return None
-    points = file.read_accessor(primitive["attributes"]["TEXCOORD_0"]).astype(np.float64)
-    damaged = faces.size and (faces.min() < 0 or faces.max() >= count)
-    if len(points) != count or damaged:  # load.py rejects such faces
+    points = file.read_accessor(primitive["attributes"]["TEXCOORD_0"])
+    if len(points) != count:
         return None
-    points[:, 1] = 1.0 - points[:, 1]
-    uv: Points = points[faces]
+    uv: Points = points[faces].astype(np.float64)
+    uv[..., 1] = 1.0 - uv[..., 1]
     return uv
 
 
@@ -213,11 +240,8 @@ def _read_used_points(file: GltfFile, primitive: Any) -> Points:
     if file.is_compressed(primitive):
         accessor = file.tree["accessors"][number]
         return _make_box_corners(accessor["min"], accessor["max"])
-    points = file.read_accessor(number).astype(np.float64)
-    faces = _read_faces(file, primitive, len(points))
-    is_used = np.zeros(len(points), dtype=bool)
-    is_used[faces[(faces >= 0) & (faces < len(points))]] = True
-    return points if is_used.all() else points[is_used]
+    values = file.read_accessor(number)
+    return select_used(values, _read_faces(file, primitive, len(values)))[0].astype(np.float64)
 
 
 def _make_box_corners(low: Any, high: Any) -> Points:

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from ..errors import MeshError
-from .mesh import Mesh, Part, Piece, Reading
+from .image_file import is_special
+from .mesh import Mesh, MeshNote, Part, Piece, Reading
+from .points import select_used
 from .stl_header import is_lfs_pointer
 
 if TYPE_CHECKING:
@@ -123,15 +125,9 @@ def _check_format(file: Path) -> str:
 
 
 def _drop_unused(piece: Piece) -> Piece:
-    """Drop the vertices that no face uses."""
-    if piece.faces.min() < 0 or piece.faces.max() >= len(piece.vertices):
-        return piece  # rejected by _assemble
-    is_used = np.zeros(len(piece.vertices), dtype=bool)
-    is_used[piece.faces.ravel()] = True
-    if is_used.all():
-        return piece
-    number = np.cumsum(is_used) - 1
-    return replace(piece, vertices=piece.vertices[is_used], faces=number[piece.faces])
+    """Drop the vertices that no face uses; faces out of range are rejected later."""
+    vertices, faces = select_used(piece.vertices, piece.faces)
+    return piece if vertices is piece.vertices else replace(piece, vertices=vertices, faces=faces)
 
 
 def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, ...]) -> Mesh:
@@ -164,9 +160,19 @@ def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, .
     if mirrored:
         faces = np.ascontiguousarray(faces[:, ::-1])
     parts, first = [], 0
+    special: dict[Path, bool] = {}
     for piece in pieces:
         count = len(piece.faces)
         uv = piece.uv[:, ::-1] if mirrored and piece.uv is not None else piece.uv
-        parts.append(Part(piece.name, first, count, piece.rgba, piece.texture, piece.image, uv))
+        texture = piece.texture
+        if texture is not None and texture not in special:
+            special[texture] = is_special(texture)
+        texture = None if texture is None or special[texture] else texture
+        parts.append(Part(piece.name, first, count, piece.rgba, texture, piece.image, uv))
         first += count
-    return Mesh(vertices, faces, tuple(parts), suffix, file, tuple(reading.notes))
+    notes = [
+        MeshNote("special-texture", f"{texture} is not a file, so it is not read.", lossy=True)
+        for texture, is_one in special.items()
+        if is_one
+    ]
+    return Mesh(vertices, faces, tuple(parts), suffix, file, (*reading.notes, *notes))

@@ -11,8 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import MeshError
+from ..source.access import is_companion_allowed
 from .color import Rgba
+from .limits import check_instances
 from .mesh import MeshNote, Piece, Points, Reading
+from .points import select_used
 
 _MOST = 2**48
 """Largest vertex index; a larger one would overflow in numpy."""
@@ -55,11 +58,11 @@ def read(path: Path) -> Reading:
                 f"a face of the OBJ file names vertex {faces.max() + 1} of {len(vertices)}",
                 path=path,
             )
-        kept, inverse = np.unique(faces, return_inverse=True)
+        used_vertices, rows = select_used(vertices, faces)
         pieces.append(
             Piece(
-                vertices[kept],
-                inverse.reshape(-1, 3).astype(np.int64),
+                used_vertices,
+                rows,
                 run.name or run.material,
                 used.rgba,
                 used.texture,
@@ -99,12 +102,17 @@ def _parse_vertices(points: list[str], path: Path) -> Points:
 
 def _read_materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[str, Material]:
     materials: dict[str, Material] = {}
+    seen: set[str] = set()
     for library in dict.fromkeys(libraries):
         file = path.parent / library
-        if not os.path.isfile(file):
+        if not os.path.isfile(file) or not is_companion_allowed(path, file):
             message = f"{library} is not in the folder of the OBJ file; its colors are lost"
             notes.append(MeshNote("obj-without-materials", message, lossy=True))
             continue
+        real = os.path.realpath(file)
+        if real in seen:  # the same file in another spelling
+            continue
+        seen.add(real)
         current = Material()
         for _, line in list_logical_lines(file):
             keyword, _, rest = line.partition(" ")
@@ -163,8 +171,10 @@ def parse(path: Path) -> Statements:
     """Parse the statements of an OBJ file; polygons become fans of triangles.
 
     Raises:
-        MeshError: The file is binary, or a face refers to an invalid vertex.
+        MeshError: The file is binary, a face refers to an invalid vertex, or it has too many parts
+            or triangles.
     """
+    size, triangles = path.stat().st_size, 0
     points: list[str] = []
     texels: list[str] = []
     runs: list[Run] = []
@@ -181,7 +191,8 @@ def parse(path: Path) -> Statements:
             if fresh:
                 runs.append(Run(name, material))
                 fresh = False
-            _add_fan(rest, len(points), runs[-1].corners, path, number)
+            triangles += _add_fan(rest, len(points), runs[-1].corners, path, number)
+            check_instances(path, size, triangles=triangles, parts=len(runs))
             if texels:
                 _add_texture_fan(rest, len(texels), runs[-1])
         elif keyword in ("o", "g"):
@@ -213,8 +224,8 @@ def list_logical_lines(path: Path) -> Iterator[tuple[int, str]]:
             yield number, full
 
 
-def _add_fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> None:
-    """Add the triangles of one ``f`` statement to ``corners``."""
+def _add_fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> int:
+    """Add the triangles of one ``f`` statement to ``corners``; return their number."""
     polygon = []
     for word in rest.split():
         try:
@@ -234,6 +245,7 @@ def _add_fan(rest: str, points: int, corners: list[int], path: Path, number: int
         polygon.append(index)
     for second in range(1, len(polygon) - 1):
         corners += (polygon[0], polygon[second], polygon[second + 1])
+    return max(len(polygon) - 2, 0)
 
 
 def _add_texture_fan(rest: str, texels: int, run: Run) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .mesh import Array, Points
+from .mesh import Array, Faces, Points
 from .stl import read_corners
 from .stl_header import read_stl_header
 
@@ -33,6 +33,29 @@ def select_points(points: Points, rows: Set[int]) -> Points:
     is_used = np.zeros(len(points), dtype=bool)
     is_used[used[(used >= 0) & (used < len(points))]] = True
     return points if is_used.all() else points[is_used]
+
+
+def select_used(points: Points, faces: Faces) -> tuple[Points, Faces]:
+    """Select the points that faces use, in their order.
+
+    The work grows with the faces, so that many parts may share the points of one file.
+
+    Returns:
+        The points and the faces as rows of them; both unchanged if a row is out of range.
+    """
+    if not faces.size or faces.min() < 0 or faces.max() >= len(points):
+        return points, faces
+    if faces.size * _SPARSE < len(points):
+        rows, numbers = np.unique(faces, return_inverse=True)
+        return points[rows], numbers.reshape(faces.shape).astype(np.int64)
+    is_used = np.zeros(len(points), dtype=bool)
+    is_used[faces.ravel()] = True
+    if is_used.all():
+        return points, faces
+    return points[is_used], (np.cumsum(is_used) - 1)[faces]
+
+
+_SPARSE = 16  # points per corner above which sorting the corners is faster than a mask
 
 
 def as_points(values: object) -> Points:

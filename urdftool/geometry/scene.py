@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import UrdftoolError
+from ..errors import MeshError, UrdftoolError
 from ..model.elements import Collision, Material, Mesh, Robot, Visual
 from ..model.kinematics import add_mimic_positions, link_poses
 from ..model.pose import Pose, make_pose
@@ -23,6 +23,7 @@ from ..model.shapes import (
     Sphere,
     UnknownShape,
 )
+from .image_file import open_image
 from .load import load_mesh
 from .mesh import Array, Part
 from .mesh import Mesh as Triangles
@@ -30,6 +31,8 @@ from .tessellate import tessellate
 
 if TYPE_CHECKING:
     import trimesh
+
+    from ..workspace import Workspace
 
 _GRAY = (0.7, 0.7, 0.7, 1.0)
 
@@ -90,7 +93,8 @@ def _make_shapes(
             path = robot.source.resolve(shape.filename)
             loaded[key] = load_mesh(path, shape.scale, gltf_up=robot.source.gltf_up)
         mesh = loaded[key]
-        return [_make_part(mesh, part, rgba) for part in mesh.parts]
+        workspace = robot.source.workspace
+        return [_make_part(mesh, part, rgba, workspace) for part in mesh.parts]
     size = _get_size(shape)
     if size is None:
         return []
@@ -100,11 +104,13 @@ def _make_shapes(
     return [made]
 
 
-def _make_part(mesh: Triangles, part: Part, rgba: tuple[float, ...] | None) -> Any:
+def _make_part(
+    mesh: Triangles, part: Part, rgba: tuple[float, ...] | None, workspace: Workspace
+) -> Any:
     """Return a part of a mesh file with its color or texture; ``rgba`` if the file has none."""
     import trimesh
 
-    image = _read_image(part)
+    image = _read_image(part, workspace)
     faces = mesh.get_part_faces(part)
     if image is not None and part.uv is not None:
         made = trimesh.Trimesh(
@@ -119,15 +125,14 @@ def _make_part(mesh: Triangles, part: Part, rgba: tuple[float, ...] | None) -> A
     return made
 
 
-def _read_image(part: Part) -> Any:
+def _read_image(part: Part, workspace: Workspace) -> Any:
     """Return the image of a part for Pillow; None without an image or without Pillow."""
+    source = part.texture if part.image is None else part.image
     try:
-        from PIL import Image
-
-        if part.image is not None:
-            return Image.open(io.BytesIO(part.image))
-        return None if part.texture is None else Image.open(part.texture)
-    except (ImportError, OSError):
+        if isinstance(source, Path):
+            source = workspace.read_bytes(source)
+        return None if source is None else open_image(source)
+    except (ImportError, MeshError, OSError):
         return None
 
 

@@ -50,7 +50,7 @@ def read_corners(
         ValueError: A corner of a text file is not three numbers.
     """
     if header.kind == "ascii":
-        return np.array(_VERTEX.findall(path.read_bytes()), dtype=bytes).astype(np.float64)
+        return np.array(_VERTEX.findall(path.read_bytes()), dtype=np.float64)
     left = (header.triangles or 0) - first
     records = np.fromfile(
         path,
@@ -147,7 +147,7 @@ def _read_whole_text(path: Path) -> Points:
             path=path,
         )
     try:
-        return np.array(rows, dtype=bytes).astype(np.float64).reshape(-1, 3)
+        return np.array(rows, dtype=np.float64).reshape(-1, 3)
     except ValueError as error:
         raise MeshError(
             f"a vertex of the STL text is not three numbers ({error})", path=path

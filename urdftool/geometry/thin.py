@@ -6,7 +6,6 @@ vertex moves by more than the diagonal of a cell.
 
 from __future__ import annotations
 
-import io
 import json
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,9 +15,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import MeshError
-from ..storage import DiskCache, cache_key
+from ..source.access import list_companions
+from ..storage import DiskCache, cache_key, join_parts, split_parts
 from .load import load_mesh
 from .mesh import Mesh, Part, Points
+from .plain_form import decode_numbers, decode_triangles, encode_triangles
 from .topology import find_used_vertices
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ FINEST = 1024
 """Largest number of cells along the diagonal of a mesh; a finer one is read as it is."""
 
 _COARSEST = 16
-_REVISION = 1
+_REVISION = 2
 _MATERIALS = {".gltf": "*.bin", ".obj": "*.mtl"}  # files that belong to a mesh file
 
 
@@ -52,8 +53,9 @@ class ThinMeshes:
         """
         key = self._make_key(path, scale, gltf_up, "bounds")
         data = None if key is None else self.cache.get(key)
-        if data is not None:
-            return np.array(json.loads(data), dtype=np.float64)
+        known = None if data is None else _unpack_bounds(data)
+        if known is not None:
+            return known
         used = self._read_full(path, scale, gltf_up)
         points = used.vertices[find_used_vertices(used.faces, len(used.vertices))]
         found = np.array([points.min(axis=0), points.max(axis=0)])
@@ -84,8 +86,9 @@ class ThinMeshes:
             return self._read_full(path, scale, gltf_up)
         key = self._make_key(path, scale, gltf_up, count)
         data = None if key is None else self.cache.get(key)
-        if data is not None:
-            return _unpack(data, path)
+        known = None if data is None else _unpack(data, path)
+        if known is not None:
+            return known
         mesh = merge_in_cells(self._read_full(path, scale, gltf_up), diagonal / count)
         if key is not None and all(part.image is None for part in mesh.parts):
             self.cache.put(key, _pack(mesh))
@@ -100,8 +103,8 @@ class ThinMeshes:
     def _make_key(
         self, path: Path, scale: Sequence[float], gltf_up: GltfUp, detail: object
     ) -> str | None:
-        if self.cache.folder is None:
-            return None
+        if self.cache.folder is None or not path.is_file():
+            return None  # load_mesh says what else it is
         if path not in self._keys:
             self._keys[path] = compute_content_key(path)
         facts = [list(scale), gltf_up, detail]
@@ -118,7 +121,7 @@ def compute_content_key(path: Path) -> str:
     try:
         inputs = [path.read_bytes()]
         if pattern := _MATERIALS.get(suffix):
-            for other in sorted(path.parent.glob(pattern)):
+            for other in list_companions(path, pattern):
                 inputs += [other.name.encode(), other.read_bytes()]
     except OSError as error:
         raise MeshError(f"the mesh cannot be read: {error.strerror}", path=path) from error
@@ -164,33 +167,46 @@ def _pack(mesh: Mesh) -> bytes:
             "count": part.count,
             "rgba": part.rgba,
             "texture": None if part.texture is None else str(part.texture),
+            "uv": part.uv is not None,
         }
         for part in mesh.parts
     ]
-    arrays: dict[str, Any] = {
-        f"uv{number}": part.uv for number, part in enumerate(mesh.parts) if part.uv is not None
-    }
-    head = json.dumps({"parts": parts, "format": mesh.format}).encode()
-    stream = io.BytesIO()
-    np.savez(
-        stream,
-        head=np.frombuffer(head, np.uint8),
-        vertices=mesh.vertices,
-        faces=mesh.faces.astype(np.int32),
-        **arrays,
-    )
-    return stream.getvalue()
+    corners = [np.ascontiguousarray(p.uv, "<f8").tobytes() for p in mesh.parts if p.uv is not None]
+    head = {"parts": parts, "format": mesh.format}
+    return join_parts(head, [*encode_triangles(mesh.vertices, mesh.faces), *corners])
 
 
-def _unpack(data: bytes, path: Path) -> Mesh:
-    with np.load(io.BytesIO(data)) as arrays:
-        head = json.loads(arrays["head"].tobytes())
-        parts = []
-        for number, part in enumerate(head["parts"]):
-            rgba = None if part["rgba"] is None else tuple(part["rgba"])
-            texture = None if part["texture"] is None else Path(part["texture"])
-            name = f"uv{number}"
-            uv = arrays.get(name)
-            parts.append(Part(part["name"], part["first"], part["count"], rgba, texture, None, uv))
-        faces = arrays["faces"].astype(np.int64)
-        return Mesh(arrays["vertices"], faces, tuple(parts), head["format"], path)
+def _unpack(data: bytes, path: Path) -> Mesh | None:
+    """Return the mesh of an entry; None if the entry is damaged."""
+    try:
+        head, (points, triangles, *corners) = split_parts(data)
+        vertices, faces = decode_triangles(points, triangles)
+        parts = tuple(_unpack_part(part, corners, len(faces)) for part in head["parts"])
+        return Mesh(vertices, faces, parts, str(head["format"]), path)
+    except (ValueError, TypeError, KeyError, IndexError, OverflowError):
+        return None
+
+
+def _unpack_part(table: dict[str, Any], corners: list[bytes], faces: int) -> Part:
+    """Return a part of a mesh, and remove its texture coordinates from the list."""
+    first, count = int(table["first"]), int(table["count"])
+    if not 0 <= first <= first + count <= faces:
+        raise ValueError("a part has a face that does not exist")
+    rgba = None
+    if table["rgba"] is not None:
+        red, green, blue, alpha = map(float, table["rgba"])
+        rgba = red, green, blue, alpha
+    uv = decode_numbers(corners.pop(0), 3, 2) if table["uv"] else None
+    if uv is not None and len(uv) != count:
+        raise ValueError("a part has other texture coordinates")
+    texture = None if table["texture"] is None else Path(table["texture"])
+    return Part(str(table["name"]), first, count, rgba, texture, None, uv)
+
+
+def _unpack_bounds(data: bytes) -> Points | None:
+    """Return the corners of an entry; None if the entry is damaged."""
+    try:
+        found = np.array(json.loads(data), dtype=np.float64)
+    except (ValueError, TypeError, RecursionError):
+        return None
+    return found if found.shape == (2, 3) and np.isfinite(found).all() else None

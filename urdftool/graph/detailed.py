@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..control_characters import escape_controls
 from ..model.elements import (
     Collision,
     ControlComponent,
@@ -21,7 +22,7 @@ from ..model.elements import (
 )
 from ..model.shapes import get_shape_name
 from .figure import Edge, Figure, Node
-from .formatting import escape_controls, format_numbers, number
+from .formatting import format_numbers, number
 from .links import find_ends
 from .traversal import walk
 

@@ -10,9 +10,10 @@ import os
 import re
 from collections.abc import Iterator
 
+from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from .figure import Edge, Figure, Node
-from .formatting import escape_controls, shorten_name
+from .formatting import shorten_name
 
 COLORS = {Severity.ERROR: "#c0271b", Severity.WARNING: "#c77700", Severity.INFO: "#2f6fb5"}
 

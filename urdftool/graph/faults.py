@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from ..control_characters import escape_controls
 from ..diagnostic import Diagnostic, Severity
 from ..lint.validate import find_problems
 from ..model.elements import Joint, Link, Robot
 from ..rules.rule import Problem
 from ..source.location import Place
-from .formatting import escape_controls
 
 
 @dataclass(slots=True)

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ..control_characters import escape_controls
+
 _LONGEST_FILE_NAME = 200  # bytes; file systems allow 255 with the suffix
 _LONGEST_NAME = 80
-
-
-def escape_controls(name: str) -> str:
-    """Escape line breaks, control characters and other characters that cannot be printed."""
-    if name.isprintable():
-        return name
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in name)
 
 
 def shorten_name(name: str) -> str:

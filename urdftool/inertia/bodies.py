@@ -10,6 +10,7 @@ import json
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,16 @@ from ..storage import DiskCache, cache_key
 from .inertia_error import InertiaError
 
 _REVISION = 2  # of the mass properties of the same mesh
-_PLAIN = ("method", "reliable", "error", "hull_measure", "bodies", "triangles", "surface")
+_PLAIN: dict[str, tuple[type, ...]] = {
+    "method": (str,),
+    "reliable": (bool,),
+    "error": (float,),
+    "hull_measure": (float, NoneType),
+    "bodies": (int,),
+    "triangles": (int,),
+    "surface": (bool,),
+}
+"""Fields that an entry of the cache holds as they are, with their types."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,8 +149,9 @@ def get_cached_mesh_body(
 
     key = cache_key(_REVISION, ["body", surface, gltf_up], [compute_content_key(path).encode()])
     data = cache.get(key)
-    if data is not None:
-        return _unpack(data, path)
+    known = None if data is None else _unpack(data, path)
+    if known is not None:
+        return known
     body = integrate_mesh_body(path, surface=surface, gltf_up=gltf_up)
     cache.put(key, _pack(body))
     return body
@@ -156,14 +167,23 @@ def _pack(body: MeshBody) -> bytes:
     return json.dumps(table).encode()
 
 
-def _unpack(data: bytes, path: Path) -> MeshBody:
-    table = json.loads(data)
-    mass, com, tensor = table["unit"]
-    lower, upper = (np.array(corner) for corner in table["box"])
-    plain = {name: table[name] for name in _PLAIN}
-    unit = SpatialInertia(mass, tuple(com), tuple(tensor))
-    notes = tuple(make_remark(code, message, **more) for code, message, more in table["notes"])
-    return MeshBody(path=path, unit=unit, lower=lower, upper=upper, notes=notes, **plain)
+def _unpack(data: bytes, path: Path) -> MeshBody | None:
+    """Return the body of an entry; None if the entry is damaged."""
+    try:
+        table = json.loads(data)
+        mass, com, tensor = table["unit"]
+        numbers = [mass, *com, *tensor, *table["box"][0], *table["box"][1]]
+        plain = {name: table[name] for name in _PLAIN}
+        if len(numbers) != 16 or not all(type(n) is float and math.isfinite(n) for n in numbers):
+            return None
+        if any(type(plain[name]) not in kinds for name, kinds in _PLAIN.items()):
+            return None
+        lower, upper = np.array(numbers[10:13]), np.array(numbers[13:])
+        unit = SpatialInertia(mass, tuple(com), tuple(tensor))
+        notes = [make_remark(str(code), str(text), **more) for code, text, more in table["notes"]]
+        return MeshBody(path=path, unit=unit, lower=lower, upper=upper, notes=tuple(notes), **plain)
+    except (ValueError, TypeError, KeyError, IndexError, RecursionError):
+        return None
 
 
 def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from copy import copy
 
 from ..errors import SourceError, UrdftoolError
 from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
@@ -86,8 +85,8 @@ def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
         return parse(file)
     from ..source.expand import expand_xacro
 
-    packages = copy(description.packages)
-    packages.workspace = packages.workspace.get_with_overlay(edited)
+    finder = description.packages
+    packages = finder.with_workspace(finder.files.get_with_overlay(edited))
     return expand_xacro(file, description.arguments, packages).make_document()
 
 

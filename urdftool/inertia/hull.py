@@ -5,8 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import MeshError
+from ..geometry.hull import compute_convex_hull, extract_hull_surface
 from ..geometry.mesh import Points
 from .polyhedron import Moments, compute_solid_moments
+
+MAX_QHULL = 20_000
+"""Number of points from which Manifold computes the hull: the time of Qhull grows with the square
+of the corners of a flat side, for 30,000 to minutes."""
 
 
 def compute_hull_moments(points: Points) -> Moments:
@@ -17,6 +22,10 @@ def compute_hull_moments(points: Points) -> Moments:
     """
     from scipy.spatial import ConvexHull, QhullError
 
+    if len(points) > MAX_QHULL:
+        simpler = compute_convex_hull(points)
+        if simpler is not None:
+            return compute_solid_moments(*extract_hull_surface(simpler))
     try:
         hull = ConvexHull(points)
     except QhullError as error:

@@ -46,6 +46,11 @@ class Nesting:
     """Number of cavities."""
 
 
+MAX_BODIES, MAX_RELATIONS = 5000, 10_000
+"""Number of closed bodies, and of pairs whose bounding boxes meet, up to which each pair is looked
+at, about 10 s of processor time; above, bodies count as overlapping."""
+
+
 def nest(corners: list[Array], volumes: Array) -> Nesting:
     """Determine how closed bodies are nested.
 
@@ -54,17 +59,24 @@ def nest(corners: list[Array], volumes: Array) -> Nesting:
         volumes: Signed volume [m³] of each body.
     """
     count = len(corners)
+    unknown = Nesting(np.ones(count, dtype=np.int64), True, 0, 0, 0)
+    if count > MAX_BODIES:
+        return unknown
     low = np.array([body.reshape(-1, 3).min(axis=0) for body in corners])
     high = np.array([body.reshape(-1, 3).max(axis=0) for body in corners])
     sign = np.where(volumes < 0, -1, 1)
     within = np.zeros((count, count), dtype=bool)
     overlaps = False
     bodies = [_Body(body, body.min(axis=1), body.max(axis=1)) for body in corners]
+    relations = 0
     for outer in range(count):
         meets = (low < high[outer]).all(axis=1) & (high > low[outer]).all(axis=1)
         meets &= np.abs(volumes) <= abs(volumes[outer])
         meets[outer] = False
         inners = np.flatnonzero(meets).tolist()
+        relations += len(inners)
+        if relations > MAX_RELATIONS:
+            return unknown
         for inner, number in zip(
             inners, _probe_corners(outer, inners, bodies, low, high), strict=True
         ):

@@ -130,6 +130,18 @@ def compute_winding_numbers(points: Array, boxes: Boxes) -> Array:
     return result / (4 * np.pi)
 
 
+def count_direct_triangles(points: Array, boxes: Boxes) -> float:
+    """Count the triangles near a point, whose solid angles are computed, on average of the points.
+
+    Args:
+        points: A few points [m], shape (n, 3).
+        boxes: The surface, from ``sort_into_boxes``.
+    """
+    each = boxes.boxes
+    off = np.linalg.norm(points[:, None] - each.middle, axis=2)
+    return float(((off <= FAR * each.radius) @ np.diff(each.starts)).mean())
+
+
 def compute_solid_angles(points: Array, corners: Array) -> Array:
     """Compute the signed solid angle [sr] of triangle i at point i; positive from behind it.
 

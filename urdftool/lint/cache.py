@@ -8,9 +8,8 @@ not read again, unless its stamp was too recent to be reliable.
 
 from __future__ import annotations
 
-import io
+import json
 import os
-import pickle
 import sys
 from collections.abc import Iterable, Mapping
 from hashlib import sha256
@@ -21,6 +20,7 @@ from .. import __version__
 from ..configuration import Configuration
 from ..dependencies import (
     ABSENT,
+    KINDS,
     Dependencies,
     Question,
     Stamp,
@@ -31,13 +31,17 @@ from ..dependencies import (
 )
 from ..extras import EXTRA_OF, is_installed
 from ..source.location import SourceFile
-from ..storage import DiskCache
+from ..storage import DiskCache, read_regular_file
 from .outcome import Options, Report
+from .report_form import convert_to_bytes, convert_to_text, read_file, read_report, write_report
 from .settings import Settings
 
-_FORMAT = 2
+_FORMAT = 3
 _DAYS = 30
 _MOST = 200 * 1024 * 1024
+_LARGEST_SOURCE = 256 * 1024 * 1024  # bytes
+_SHARED = "many"
+"""Kind of a row that refers to a large set of queries by the digest of its entry."""
 
 Row = tuple[str, str, str, "Stamp | None"]
 """Query, its answer, and the stamp that proves it unchanged; None if it must be repeated."""
@@ -54,6 +58,7 @@ class Cache:
         """Set the cache on disk."""
         self.store = store
         self._code = _hash_code()
+        self._libraries = [library for library in EXTRA_OF if is_installed(library)]
         self._stamps: dict[Question, Stamp | None] = {}
         self._answers: dict[Question, tuple[str, Stamp | None]] = {}
         self._sets: dict[Dependencies, str] = {}
@@ -76,24 +81,26 @@ class Cache:
                 _list_settings(settings),
             ),
             options.fixes,
-            [library for library in EXTRA_OF if is_installed(library)],
+            self._libraries,
             options.gltf_up or configuration.gltf_up,
         ]
         return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
 
     def read(self, key: str) -> Report | None:
         """Return a report that is still valid; None if there is none."""
-        data = self.store.get(key)
-        if data is None:
-            return None
         try:
-            rows, report = _Reader(io.BytesIO(data)).load()
+            table = self._load(key)
+            if table is None:
+                return None
+            rows = [_read_row(row) for row in table["rows"]]
             if not all(self._holds(row) for row in rows):
                 return None
-            found = _Reader(io.BytesIO(report), self).load()
-        except _NOT_WHOLE:
-            return None
-        return found if isinstance(found, Report) else None
+            digests = _list_digests(rows)
+            files = [self._get_source(file, digests) for file in table["files"]]
+            report = read_report(table, files)
+            return report if os.path.join(os.getcwd(), report.path) in digests else None
+        except (OSError, ValueError, TypeError, KeyError, RecursionError):
+            return None  # a damaged entry counts as absent
 
     def write(self, key: str, report: Report, read: Dependencies) -> None:
         """Store a report, unless it is incomplete or a dependency changed during the check."""
@@ -107,25 +114,41 @@ class Cache:
                 digest = self._set(shared)
                 if digest is None:
                     return
-                rows.append(("many", digest, "", None))
-            stream = io.BytesIO()
-            _Writer(stream, {row[1]: row[2] for row in rows if row[0] == "file"}).dump(report)
-        except (OSError, ValueError, pickle.PicklingError):
+                rows.append((_SHARED, digest, "", None))
+            table, files = write_report(report)
+        except (OSError, ValueError):
             return
-        self.store.put(key, pickle.dumps((rows, stream.getvalue()), 5))
+        digests = _list_digests(rows)
+        table["files"] = [_write_file(file, digests) for file in files]
+        self._store(key, {"rows": rows, **table})
 
-    def get_source(self, path: str, encoding: str, digest: str) -> SourceFile:
-        """Return a file that is unchanged since the check.
+    def _load(self, key: str) -> Any:
+        data = self.store.get(key)
+        return None if data is None else json.loads(data)
+
+    def _store(self, key: str, table: dict[str, Any]) -> None:
+        self.store.put(key, json.dumps(table, separators=(",", ":")).encode())
+
+    def _get_source(self, entry: Any, digests: Mapping[str, str]) -> SourceFile:
+        """Return a source file of an entry.
+
+        Args:
+            entry: Path, encoding, content as text or None if it is that on disk, and digest.
+            digests: Digests of the files on which the report depends, by path.
 
         Raises:
             OSError: It cannot be read.
-            ValueError: It has changed.
+            ValueError: It has changed, or the entry is damaged.
         """
-        with open(path, "rb") as stream:
-            data = stream.read()
+        path, encoding, content, digest = entry
+        if content is not None:
+            return read_file(path, encoding, convert_to_bytes(content))
+        if digests.get(os.path.join(os.getcwd(), path)) != digest:
+            raise ValueError(path)
+        data = read_regular_file(path, _LARGEST_SOURCE)
         if sha256(data).hexdigest() != digest:
             raise ValueError(path)
-        return SourceFile(path, data, encoding)
+        return read_file(path, encoding, data)
 
     def _get_rows(self, read: Dependencies) -> list[Row] | None:
         """Return the queries with their answers; None if a stamp has changed since the query."""
@@ -146,15 +169,14 @@ class Cache:
             rows = self._get_rows(read)
             if rows is None:
                 return None
-            data = pickle.dumps(rows, 5)
-            self._sets[read] = sha256(data).hexdigest()
-            self.store.put(self._sets[read], data)
+            self._sets[read] = sha256(json.dumps(rows).encode()).hexdigest()
+            self._store(self._sets[read], {"rows": rows})
         return self._sets[read]
 
     def _holds(self, row: Row) -> bool:
         """Tell whether a query still has the same answer."""
         kind, path, said, stamp = row
-        if kind == "many":
+        if kind == _SHARED:
             return self._set_holds(path)
         question = kind, path
         if question not in self._stamps:
@@ -169,9 +191,10 @@ class Cache:
 
     def _set_holds(self, digest: str) -> bool:
         if digest not in self._valid:
-            data = self.store.get(digest)
-            rows = [] if data is None else _Reader(io.BytesIO(data)).load()
-            self._valid[digest] = data is not None and all(self._holds(row) for row in rows)
+            self._valid[digest] = False  # an entry that contains itself does not hold
+            table = self._load(digest)
+            rows = None if table is None else [_read_row(row) for row in table["rows"]]
+            self._valid[digest] = rows is not None and all(self._holds(row) for row in rows)
         return self._valid[digest]
 
     def trim(self) -> None:
@@ -179,57 +202,29 @@ class Cache:
         self.store.trim(days=_DAYS, most=_MOST)
 
 
-_NOT_WHOLE = (
-    *(OSError, ValueError, TypeError, AttributeError, KeyError, IndexError, EOFError),
-    *(ImportError, pickle.UnpicklingError),
-)
+def _read_row(row: Any) -> Row:
+    """Return a query of an entry.
+
+    Raises:
+        ValueError: It is damaged.
+        TypeError: It is damaged.
+    """
+    kind, path, said, stamp = row
+    if not (kind == _SHARED or kind in KINDS) or type(path) is not str or type(said) is not str:
+        raise ValueError(row)
+    return kind, path, said, None if stamp is None else tuple(stamp)
 
 
-class _Writer(pickle.Pickler):
-    """Pickler that replaces source files unchanged on disk by path and digest."""
-
-    def __init__(self, stream: io.BytesIO, digests: Mapping[str, str]) -> None:
-        super().__init__(stream, 5)
-        self.digests = digests
-        self.names: dict[int, tuple[str, str, str | bytes]] = {}
-
-    def persistent_id(self, value: Any) -> Any:
-        if not isinstance(value, SourceFile):
-            return None
-        if id(value) not in self.names:
-            digest = sha256(value.data).hexdigest()
-            whole = self.digests.get(os.path.join(os.getcwd(), value.path)) == digest
-            self.names[id(value)] = value.path, value.encoding, digest if whole else value.data
-        return self.names[id(value)]
+def _list_digests(rows: Iterable[Row]) -> dict[str, str]:
+    """Return the digests of the files of queries, by path."""
+    return {path: said for kind, path, said, _ in rows if kind == "file"}
 
 
-class _Reader(pickle.Unpickler):
-    """Unpickler that accepts only classes of urdftool and a few built-in types."""
-
-    def __init__(self, stream: io.BytesIO, cache: Cache | None = None) -> None:
-        super().__init__(stream)
-        self.cache = cache
-        self.files: dict[Any, SourceFile] = {}
-
-    def find_class(self, module: str, name: str) -> Any:
-        if module.startswith("urdftool.") or (module, name) in _BUILTINS:
-            found = super().find_class(module, name)
-            if isinstance(found, type):
-                return found
-        raise pickle.UnpicklingError(f"{module}.{name}")
-
-    def persistent_load(self, pid: Any) -> SourceFile:
-        path, encoding, content = pid
-        if pid not in self.files:
-            if isinstance(content, bytes):
-                self.files[pid] = SourceFile(path, content, encoding)
-            else:
-                assert self.cache is not None
-                self.files[pid] = self.cache.get_source(path, encoding, content)
-        return self.files[pid]
-
-
-_BUILTINS = {("builtins", "frozenset"), ("builtins", "set")}
+def _write_file(file: SourceFile, digests: Mapping[str, str]) -> list[Any]:
+    """Return a source file as path, encoding, content if it is not that on disk, and digest."""
+    digest = sha256(file.data).hexdigest()
+    is_on_disk = digests.get(os.path.join(os.getcwd(), file.path)) == digest
+    return [file.path, file.encoding, None if is_on_disk else convert_to_text(file.data), digest]
 
 
 def _hash_code() -> str:
@@ -259,7 +254,7 @@ def _list_library_folders(path: Iterable[str]) -> Iterable[tuple[str, int]]:
                 continue
 
 
-def _collect_folders(packages: Mapping[str, str | Path]) -> list[tuple[str, str]]:
+def _collect_folders(packages: Mapping[str, object]) -> list[tuple[str, str]]:
     return sorted((name, str(folder)) for name, folder in packages.items())
 
 

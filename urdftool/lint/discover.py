@@ -6,6 +6,8 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 
+from ..source.packages import Packages
+
 ENDINGS = (".urdf", ".urdf.xacro")
 _HEAD = 16_384
 
@@ -13,11 +15,11 @@ _HEAD = 16_384
 def find_descriptions(paths: Iterable[str]) -> list[str]:
     """Return the files to check, each once: named files, and descriptions below named folders.
 
-    Hidden folders are skipped. A path that does not exist is kept, so that it is reported.
+    A named path that does not exist is kept, so that it is reported.
     """
     found: dict[str, str] = {}
     for path in paths:
-        files = _list_files(path) if os.path.isdir(path) else [path]
+        files = list_files(path) if os.path.isdir(path) else [path]
         for file in files:
             found.setdefault(os.path.realpath(file) if file != "-" else file, file)
     return list(found.values())
@@ -26,7 +28,7 @@ def find_descriptions(paths: Iterable[str]) -> list[str]:
 def list_parts(paths: Iterable[str]) -> list[str]:
     """Return the ``.xacro`` files below named folders that are not descriptions by their name."""
     folders = [path for path in paths if os.path.isdir(path)]
-    found = (path for folder in folders for path in _list_files(folder, (".xacro",)))
+    found = (path for folder in folders for path in list_files(folder, (".xacro",)))
     return [path for path in dict.fromkeys(found) if not path.endswith(ENDINGS)]
 
 
@@ -35,7 +37,7 @@ def explain_nothing_found(paths: Iterable[str]) -> str:
     folders = list(paths)
     said = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
     for folder in folders:
-        for path in _list_files(folder, (".xacro",)):
+        for path in list_files(folder, (".xacro",)):
             if _has_name(path):
                 return (
                     f"{said}; .xacro files may be parts of robots: give {path} itself if it is "
@@ -53,9 +55,23 @@ def _has_name(path: str) -> bool:
         return False
 
 
-def _list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
+def list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
+    """Yield the files below a folder by their ending.
+
+    Hidden folders are skipped; so are devices, pipes, and links out of the project of the folder,
+    which came with the files.
+    """
     for root, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(files):
-            if name.endswith(endings):
-                yield os.path.normpath(os.path.join(root, name))
+            path = os.path.normpath(os.path.join(root, name))
+            if name.endswith(endings) and _is_own(path, folder):
+                yield path
+
+
+def _is_own(path: str, folder: str) -> bool:
+    """Tell whether a file below a folder is a file, and no link to another project."""
+    if not os.path.isfile(path):
+        return False
+    access = Packages(os.path.join(folder, "-")).access
+    return not (os.path.islink(path) and access.explain_refusal(path))

@@ -6,7 +6,9 @@ step before a report is written, in all formats.
 
 from __future__ import annotations
 
+import math
 import os
+from bisect import bisect, insort
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -182,25 +184,48 @@ def _combine_fixes(found: Sequence[Finding]) -> tuple[Fix, ...]:
     chosen = safe or fixes
     if not chosen:
         return ()
-    replacements: list[Replacement] = []
-    rewrites: list[FileRewrite] = []
+    edits = _Edits()
+    rewrites: dict[FileRewrite, None] = {}
     covered = 0
     for fix in chosen:
-        new = [r for r in fix.replacements if r not in replacements]
-        if any(_overlaps(one, other) for one in new for other in replacements):
-            continue
-        covered += 1
-        replacements += new
-        rewrites += [rewrite for rewrite in fix.rewrites if rewrite not in rewrites]
+        if edits.add(fix.replacements):
+            covered += 1
+            rewrites.update(dict.fromkeys(fix.rewrites))
     message = chosen[0].message
     if any(fix.message != message for fix in chosen):
         message = f"{message}, and so on"
     if covered < len(found):
         message += f" (covers {covered} of {len(found)} places)"
-    replacements.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
+    replacements = sorted(
+        edits.replacements, key=lambda r: (r.place.path, r.place.start, r.place.end)
+    )
     return (Fix(bool(safe), message, tuple(replacements), tuple(rewrites)),)
 
 
-def _overlaps(one: Replacement, other: Replacement) -> bool:
-    a, b = one.place, other.place
-    return a.path == b.path and a.start < b.end and b.start < a.end
+class _Edits:
+    """Replacements of which no two overlap.
+
+    Attributes:
+        replacements: The replacements, in the order in which they were added.
+    """
+
+    def __init__(self) -> None:
+        self.replacements: dict[Replacement, None] = {}
+        self._spans: dict[str, list[tuple[int, int]]] = {}  # sorted, by path
+
+    def add(self, replacements: Sequence[Replacement]) -> bool:
+        """Add replacements; return False and add none if one overlaps another one's span."""
+        new = [r for r in replacements if r not in self.replacements]
+        if any(map(self._overlaps, new)):
+            return False
+        for one in new:
+            self.replacements[one] = None
+            insort(self._spans.setdefault(one.place.path, []), (one.place.start, one.place.end))
+        return True
+
+    def _overlaps(self, one: Replacement) -> bool:
+        """Tell whether a span overlaps the one before or the one after it; others are farther."""
+        start, end = one.place.start, one.place.end
+        spans = self._spans.get(one.place.path, [])
+        after = bisect(spans, (start, math.inf))
+        return any(a < end and start < b for a, b in spans[max(after - 1, 0) : after + 1])

@@ -11,7 +11,7 @@ from ..finding import Finding
 from ..source.description import Description
 from ..source.document import Element
 from ..source.location import Place, SourceFile
-from ..source.well_formed import STAGE_HEADS
+from ..source.well_formed import STAGE_HEADS, WIDE
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
 _HEAD = 1024
@@ -35,7 +35,7 @@ def refuse_other_files(file: SourceFile) -> None:
             "package",
             path=file.path,
         )
-    text = (b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")  # has zero bytes in UTF-16 and UTF-32
+    text = tuple(start for start, _ in WIDE)  # has zero bytes
     if b"\0" in file.data[:_HEAD] and not file.data.startswith(text + STAGE_HEADS):
         raise SourceError("is a binary file, not a robot description", path=file.path)
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from .cache import Cache
 
 
+NOT_EXPANDED = "xacro, which --no-expand does not expand; only the source was checked"
+
 ReadOther = Callable[[SourceFile, Packages], "Robot | None"]
 
 
@@ -35,6 +37,8 @@ class Options:
         package_paths: Folders that contain packages.
         config: Configuration file named by the user.
         cache: Cache of reports; None disables it.
+        expand: Whether to expand xacro; otherwise only its source is checked, and no expression is
+            evaluated.
         fixes: Whether to compute fixes for findings.
         compute_inertia: Function for fixes that fill in inertia: returns (mass [kg], center of mass
             [m], six tensor elements [kg·m²]) by link, in the link frame, for a robot and link
@@ -51,6 +55,7 @@ class Options:
     package_paths: Iterable[str | Path] = ()
     config: str | None = None
     cache: Cache | None = None
+    expand: bool = True
     fixes: bool = False
     compute_inertia: ComputeInertia | None = None
     read_other: ReadOther | None = None
@@ -105,6 +110,11 @@ class Report:
     def checked(self) -> bool:
         """Tell whether the robot was checked."""
         return not self.skipped and not self.not_checked
+
+    @property
+    def unexpanded(self) -> bool:
+        """Tell whether it is xacro of which only the source was checked."""
+        return self.skipped == NOT_EXPANDED
 
     @property
     def not_checked(self) -> str:

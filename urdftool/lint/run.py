@@ -13,6 +13,7 @@ from ..diagnostic import Severity
 from ..errors import ModelError, SourceError, UrdftoolError, XmlError
 from ..extras import find_missing_library
 from ..finding import Cause, Finding, Group
+from ..model.attached import TooManyAttached
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import applies_to
@@ -22,8 +23,8 @@ from ..rules.table import APPLIES_TO, FIXES
 from ..source.description import Description, is_xacro, read_description
 from ..source.document import STDIN, Document, Element, parse, read_file
 from ..source.location import SourceFile
+from ..source.packages import Packages
 from ..source.well_formed import repair
-from ..workspace import Workspace
 from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import (
@@ -34,7 +35,7 @@ from .motion import (
     is_welded_in_mujoco,
 )
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
-from .outcome import Options, Report
+from .outcome import NOT_EXPANDED, Options, Report
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
@@ -110,7 +111,7 @@ def _list_checks(path: str | Path, options: Options) -> list[_Question]:
     configuration = find_configuration(path, options.config, options.workspace)
     settings = read_settings(path, configuration, options.settings)
     each = [options]
-    if configuration.lint.get("variants") is not None:
+    if options.expand and configuration.lint.get("variants") is not None:
         variants = get_variants(path, configuration)
         if variants and not options.arguments:
             each = [replace(options, arguments=variant) for variant in variants]
@@ -160,6 +161,9 @@ def _check_variant(
                 report.unread = other.unread
                 _check_description(other.source, other, settings, report, [], options)
                 return report
+        if not options.expand and is_xacro(file):
+            packages = _make_packages(file, options, configuration)
+            return _check_source(file, packages, settings, report, options)
         try:
             description = _read(file, options, configuration)
         except SourceError as error:
@@ -187,8 +191,27 @@ def _check_variant(
             settings = replace(settings, select=(), extend_select=())
     if robot is None or description is None:
         report.stopped = failures[0].message
-        description = _make_unexpanded(file, failures, options.workspace)
+        packages = _make_packages(file, options, configuration)
+        description = _make_unexpanded(file, failures, packages)
     _check_description(description, robot, settings, report, failures, options)
+    return report
+
+
+def _check_source(
+    file: SourceFile, packages: Packages, settings: Settings, report: Report, options: Options
+) -> Report:
+    """Check a xacro file as it is written, without the files that it includes."""
+    from ..source.xacro_parse import parse_xacro
+
+    failures: list[UrdftoolError] = []
+    try:
+        parse_xacro(file)
+        report.skipped = NOT_EXPANDED
+    except SourceError as error:
+        failures.append(error)
+        report.stopped = error.message
+    description = _make_unexpanded(file, failures, packages)
+    _check_description(description, None, settings, report, failures, options)
     return report
 
 
@@ -198,17 +221,18 @@ def _read_other(file: SourceFile, options: Options, configuration: Configuration
     Raises:
         UrdftoolError: The file cannot be read.
     """
-    from ..source.packages import Packages
+    assert options.read_other is not None
+    return options.read_other(file, _make_packages(file, options, configuration))
 
-    packages = Packages(
+
+def _make_packages(file: SourceFile, options: Options, configuration: Configuration) -> Packages:
+    return Packages(
         None if file.path == STDIN else file.path,
         named=options.packages,
         paths=options.package_paths,
         configured=configuration.packages,
         workspace=options.workspace,
     )
-    assert options.read_other is not None
-    return options.read_other(file, packages)
 
 
 def _read(file: SourceFile, options: Options, configuration: Configuration) -> Description:
@@ -238,18 +262,16 @@ def _read_mended(
 
 
 def _make_unexpanded(
-    file: SourceFile, failures: list[UrdftoolError], workspace: Workspace
+    file: SourceFile, failures: list[UrdftoolError], packages: Packages
 ) -> Description:
     """Return a description without a robot, for its source files."""
-    from ..source.packages import Packages
-
     files = [file]
     for failure in failures:
         if failure.at is not None:
             files += [failure.at.file, *(call.file for call in failure.at.calls)]
     unique = list({f.path: f for f in files}.values())
     document = Document(file, Element("", {}, None, file, 0), [])
-    return Description(file.path, document, unique, Packages(workspace=workspace))
+    return Description(file.path, document, unique, packages)
 
 
 def _check_description(
@@ -374,6 +396,8 @@ def _run_rule(
         unknown = {key for problem in found for key in problem.effects or ()} - rule.effects.keys()
         if unknown:
             raise LookupError(f"no effect on {sorted(unknown)}")
+    except TooManyAttached:  # analysis-incomplete reports it
+        subjects["robot"].memo.get(TooManyAttached, list).append(rule.name)
     except Exception as error:
         library = find_missing_library(error)
         if library is None:

@@ -8,8 +8,9 @@ from itertools import groupby
 from typing import Any
 
 from ..compare.change import Change
+from ..control_characters import escape_controls
 from .counted import format_count
-from .findings import Painter, escape_controls
+from .findings import Painter
 from .json_text import format_json
 
 _COLORS = {"added": "green", "removed": "red"}

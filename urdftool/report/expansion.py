@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -60,12 +61,17 @@ def format_argument_list(expansion: Expansion) -> str:
     return "".join(f"{a.name}:={a.default}\n" for a in expansion.arguments.values())
 
 
+_SPECIAL = re.compile(r"[\0-\x1f\x7f=%;|&:?*\[\]<>`\"'!~]|\\$")
+"""Characters of names for which make has no escape, or which it interprets."""
+
+
 def make_rule(target: str, files: Iterable[str]) -> str:
     """Format a make rule by which a target depends on files, with an empty rule for each file.
 
-    With the empty rules, make continues after an include was removed.
+    With the empty rules, make continues after an include was removed. A file whose name make would
+    interpret is left out.
     """
-    escaped = [_escape(name) for name in files]
+    escaped = [_escape(name) for name in files if _SPECIAL.search(name) is None]
     rules = "".join(f"\n{name}:\n" for name in escaped[1:])
     return f"{_escape(target)}: " + " \\\n  ".join(escaped) + "\n" + rules
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..control_characters import escape_controls
 from ..finding import Finding
 from ..formats.check import Check, is_faithful
 from ..formats.common.loss_report import merge_instances
@@ -43,7 +44,7 @@ def to_json(
 def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
     """Format comparisons as a table, followed by the differences and the parts not compared."""
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
-    lines = []
+    lines: list[str] = []
     for check in checks:
         worst = "-" if check.tolerance == 0 and check.worst == 0 else f"{check.worst:.1e}"
         bound = "exact" if check.tolerance == 0 else f"{check.tolerance:.0e}"
@@ -54,7 +55,7 @@ def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> st
     if not_compared:
         lines.append(f"not compared: {', '.join(not_compared)}")
     table = render_table(rows, left=range(5), rule=True)
-    return table + "".join(f"{line}\n" for line in lines)
+    return table + "".join(f"{escape_controls(line)}\n" for line in lines)
 
 
 def _format_some(items: Sequence[str], shown: int = 3) -> str:

@@ -7,13 +7,13 @@ from collections.abc import Iterable, Iterator
 
 import click
 
+from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..lint.outcome import Outcome
 from ..rules.table import FIXES
 from .counted import format_count
 from .findings_words import call_lines, format_member_lines, format_message, format_remarks
-from .findings_words import escape_controls as escape_controls
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
 _MOST_LINES = 3
@@ -174,4 +174,7 @@ def summarize(outcome: Outcome) -> str:
     where = f" in {format_count(files, 'file')}" if files else ""
     missing = len(outcome.not_checked)
     unchecked = f", {format_count(missing, 'file')} not checked" if missing else ""
+    written = sum(report.unexpanded for report in outcome.reports)
+    if written:
+        unchecked += f", {format_count(written, 'xacro file')} not expanded and so not checked"
     return f"{what}{hidden}{known}{where}{unchecked}" + (f" (targets: {names})" if files else "")

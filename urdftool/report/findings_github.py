@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..lint.outcome import Outcome
 from .findings import NOT_CHECKED
 from .findings_words import (
     call_lines,
-    escape_controls,
     format_member_lines,
     format_message,
     format_remarks,
@@ -46,4 +46,4 @@ def _escape_data(text: str) -> str:
 
 
 def _escape_property(text: str) -> str:
-    return _escape_data(text).replace(":", "%3A").replace(",", "%2C")
+    return _escape_data(escape_controls(text, "\r\n")).replace(":", "%3A").replace(",", "%2C")

@@ -8,6 +8,7 @@ from html import escape
 from pathlib import Path
 from string import Template
 
+from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..lint.outcome import Outcome, Report
@@ -15,7 +16,6 @@ from .findings import NOT_CHECKED, summarize
 from .findings_screen import sort_by_severity
 from .findings_words import (
     call_lines,
-    escape_controls,
     format_member_lines,
     format_message,
     format_remarks,

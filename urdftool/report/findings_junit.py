@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..extras import make_missing_error
 from ..finding import Finding
@@ -12,7 +13,6 @@ from ..lint.outcome import Outcome, Report
 from .findings import NOT_CHECKED
 from .findings_words import (
     call_lines,
-    escape_controls,
     format_member_lines,
     format_message,
     format_remarks,

@@ -9,6 +9,7 @@ from typing import Any
 from urllib.parse import quote
 
 from .. import __version__
+from ..control_characters import escape_controls
 from ..diagnostic import Fix, Severity
 from ..finding import Finding
 from ..lint.fingerprint import compute_fingerprint
@@ -19,7 +20,6 @@ from ..source.location import Call, Place
 from .findings import NOT_CHECKED
 from .findings_words import (
     call_words,
-    escape_controls,
     format_message,
     format_remarks,
     list_skipped_rules,

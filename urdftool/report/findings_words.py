@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from ..control_characters import escape_controls
 from ..extras import make_missing_error
 from ..finding import Finding
 from ..source.location import Call
@@ -13,13 +14,6 @@ if TYPE_CHECKING:
     from ..lint.outcome import Outcome
 
 _LONGEST_CALL = 90
-
-
-def escape_controls(text: str) -> str:
-    """Escape control characters in text from a file, for output to a terminal."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def format_message(finding: Finding) -> str:

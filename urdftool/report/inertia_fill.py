@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from ..control_characters import escape_controls
 from ..inertia.fill import Filling, Refusal
 from ..mechanics.tensor import get_components
 from ..model.elements import Robot
 from .counted import format_count
-from .findings import escape_controls
 from .inertia_robot import place_dict
 from .json_text import format_json
 from .tables import render_table

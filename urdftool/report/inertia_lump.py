@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..control_characters import escape_controls
 from ..inertia.lump import Lumped
 from ..inertia.rounding import round_properties
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import COMPONENTS
 from ..model.elements import Robot
-from .findings import escape_controls
 from .inertia import build_numbers
 from .json_text import format_json
 from .tables import render_table

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from ..control_characters import escape_controls
 from ..inertia.comparison import Comparison
 from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
@@ -16,7 +17,7 @@ from ..model.elements import Link
 from ..model.pose import make_pose
 from ..source.location import Place
 from .counted import format_count
-from .findings import Painter, escape_controls
+from .findings import Painter
 from .inertia import build_numbers
 from .json_text import format_json
 from .tables import Cell, render_table
@@ -112,15 +113,20 @@ def format_remarks(
             names = said.pop((str(fault.location), fault.code), [])
             if names:
                 who = f"link '{names[0]}'" + f" and {len(names) - 1} more" * (len(names) > 1)
-                yield f"{fault.location}: {paint('error', 'red')}: {who}: {fault.message}"
+                place, message = (
+                    escape_controls(str(fault.location)),
+                    escape_controls(fault.message),
+                )
+                yield f"{place}: {paint('error', 'red')}: {who}: {message}"
         if item.proposal is not None:
             at = item.link.inertial.inertia if item.link.inertial else None
             if not item.faults and at is not None:
+                place = escape_controls(str(at.place))
                 yield (
-                    f"{at.place}: {paint('warning', 'yellow')}: link '{name}': "
+                    f"{place}: {paint('warning', 'yellow')}: link '{name}': "
                     + _format_distance(item)
                 )
-            yield f"  intended, probably: {item.proposal.sentence}"
+            yield f"  intended, probably: {escape_controls(item.proposal.sentence)}"
             yield f"  {_format_tensor(item.proposal.tensor, item.link, form)}"
         elif item.faults and item.implied is not None and item.faults[-1].code != "unreadable":
             yield (
@@ -128,19 +134,23 @@ def format_remarks(
                 f"{_format_short(item.implied)}"
             )
         for note in item.notes:
-            yield f"{item.link.place}: link '{name}': {note.message}"
+            place = escape_controls(str(item.link.place))
+            yield f"{place}: link '{name}': {escape_controls(note.message)}"
         if item.body is not None:
             kind = item.body.source
             for lack in item.body.lacks:
-                yield f"{lack.shape.place}: link '{name}': {kind} geometry ignored: {lack.reason}"
+                place, reason = escape_controls(str(lack.shape.place)), escape_controls(lack.reason)
+                yield f"{place}: link '{name}': {kind} geometry ignored: {reason}"
             for piece in item.body.pieces:
+                place = escape_controls(str(piece.shape.place))
                 if not piece.reliable:
                     yield (
-                        f"{piece.shape.place}: link '{name}': {piece.what} is not closed; "
+                        f"{place}: link '{name}': {escape_controls(piece.what)} is not closed; "
                         f"estimated by {piece.method}, not reliable"
                     )
                 if piece.suspicion is not None:
-                    yield f"{piece.shape.place}: link '{name}': {piece.suspicion.message}"
+                    message = escape_controls(piece.suspicion.message)
+                    yield f"{place}: link '{name}': {message}"
 
 
 def _format_tensor(tensor: SymmetricTensor, link: Link, form: str) -> str:

@@ -7,11 +7,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from typing import Any
 
+from ..control_characters import escape_controls
 from ..info.counts import Counts, Named
 from ..info.size import Measured
 from ..model.elements import Robot
 from .counted import format_count
-from .findings import Painter, escape_controls
+from .findings import Painter
 from .json_text import format_json
 
 _MOST = 6

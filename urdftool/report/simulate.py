@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from ..control_characters import escape_controls
 from ..model.elements import Robot
 from .counted import format_count
-from .findings import Painter, escape_controls
+from .findings import Painter
 from .json_text import format_json, replace_non_finite
 from .tables import Cell, render_table
 

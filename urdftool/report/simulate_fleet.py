@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from .findings import escape_controls
+from ..control_characters import escape_controls
 from .json_text import format_json
 from .simulate import _build_fault
 from .tables import Cell, render_table

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from .findings_words import escape_controls
+from ..control_characters import escape_controls
 
 Cell = str | tuple[str, str | None]
 """A text, or a text and its color."""

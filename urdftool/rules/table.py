@@ -425,7 +425,7 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "control.controllers": ("ros2_control", "transmission"),
     "control.parameter_types": ("ros2_control",),
     "lint.suppressions": (),
-    "lint.analysis": ("mesh", "collision"),
+    "lint.analysis": ("mesh", "collision", "joint"),
 }
 """Elements without which a file of rules finds nothing."""
 

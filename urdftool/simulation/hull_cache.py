@@ -5,19 +5,17 @@ Both are small, and reading the files is most of the time of a short simulation.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import numpy as np
-
 from ..geometry.mesh import Faces, Points
-from ..storage import DiskCache, cache_key
+from ..geometry.plain_form import decode_triangles, encode_triangles
+from ..storage import DiskCache, cache_key, join_parts, split_parts
 
 Cloud = tuple[Points, Faces]
 """Points (n, 3) and triangles (m, 3) of them; m may be zero."""
 
-_VERSION = 2
+_VERSION = 3
 """Version of the results; increase it if the same file gives other results."""
 
 
@@ -61,27 +59,16 @@ def _get_key(path: Path, facts: Sequence[object]) -> str | None:
 
 
 def _get_encoded(clouds: list[Cloud]) -> bytes:
-    head = json.dumps([[len(points), len(faces)] for points, faces in clouds]).encode()
-    arrays = [
-        np.ascontiguousarray(a, k) for cloud in clouds for a, k in zip(cloud, _KINDS, strict=True)
-    ]
-    return b"".join([head, b"\n", *(array.tobytes() for array in arrays)])
+    return join_parts(None, [part for cloud in clouds for part in encode_triangles(*cloud)])
 
 
 def _decode(data: bytes) -> list[Cloud] | None:
     """Decode bytes that this version encoded; None for others."""
-    head, _, body = data.partition(b"\n")
-    clouds, at = [], 0
     try:
-        for counts in json.loads(head):
-            arrays = []
-            for count, kind in zip(counts, _KINDS, strict=True):
-                arrays.append(np.frombuffer(body, kind, 3 * count, at).reshape(count, 3).copy())
-                at += arrays[-1].nbytes
-            clouds.append((arrays[0], arrays[1]))
-    except (ValueError, TypeError):
+        _, parts = split_parts(data)
+        return [
+            decode_triangles(points, faces)
+            for points, faces in zip(parts[::2], parts[1::2], strict=True)
+        ]
+    except ValueError:
         return None
-    return clouds if at == len(body) else None
-
-
-_KINDS = ("<f8", "<i8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from copy import copy
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 from ..workspace import Memo, Workspace
 from .document import STDIN, Document, parse, read_file
 from .location import SourceFile
-from .packages import Packages
+from .packages import ConfiguredFolder, Packages
 
 if TYPE_CHECKING:
     from .expansion import Expansion
@@ -51,13 +50,12 @@ class Description:
 
     @property
     def workspace(self) -> Workspace:
-        """Return the workspace that reads its files."""
+        """Return the workspace that reads its files, and no file that it may not read."""
         return self.packages.workspace
 
     def without_cache(self) -> Description:
         """Return the same description with a workspace that rereads other files."""
-        packages = copy(self.packages)
-        packages.workspace = self.workspace.with_empty_memo()
+        packages = self.packages.with_workspace(self.packages.files.with_empty_memo())
         return replace(self, packages=packages)
 
     def resolve(self, uri: str) -> Path:
@@ -80,10 +78,11 @@ def read_description(
     *,
     packages: Mapping[str, str | Path] | None = None,
     package_paths: Iterable[str | Path] = (),
-    configured: Mapping[str, str | Path] | None = None,
+    configured: Mapping[str, str | Path | ConfiguredFolder] | None = None,
     file: SourceFile | None = None,
     gltf_up: GltfUp = "y",
     workspace: Workspace | None = None,
+    finder: Packages | None = None,
 ) -> Description:
     """Read a description, and expand it if it is xacro.
 
@@ -96,13 +95,14 @@ def read_description(
         file: The file, if it has been read.
         gltf_up: Up axis of glTF meshes.
         workspace: Access to files; None creates a new one.
+        finder: Finder of packages; None creates one of the packages and the workspace.
 
     Raises:
         SourceError: It, or an included file, cannot be read or expanded.
     """
-    workspace = workspace or Workspace()
+    workspace = workspace or (Workspace() if finder is None else finder.files)
     file = file or read_file(path, workspace)
-    finder = Packages(
+    finder = finder or Packages(
         None if file.path == STDIN else file.path,
         named=packages,
         paths=package_paths,

@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 from xml.parsers import expat
 
-from ..errors import SourceError, XmlError
+from ..errors import AccessError, SourceError, XmlError
+from ..file_access import AccessRefused
 from ..workspace import STDIN as STDIN
 from ..workspace import Workspace
 from .location import Call, Place, SourceFile
@@ -149,6 +150,7 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
         workspace: Access to files; None creates a new one.
 
     Raises:
+        AccessError: The workspace may not read it.
         SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``, or
             ``MAX_STAGE_BYTES`` for USD.
     """
@@ -164,12 +166,14 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
             shown = STDIN
             data, limit = _read_bounded(sys.stdin.buffer)
         else:
-            with workspace.open(shown) as stream:
+            with workspace.open(shown, is_named=True) as stream:
                 data, limit = _read_bounded(stream)
     except FileNotFoundError:
         raise SourceError("no such file", path=shown) from None
     except IsADirectoryError:
         raise SourceError("is a folder, not a .urdf or .xacro file", path=shown) from None
+    except AccessRefused as error:
+        raise AccessError(error.strerror or "", path=shown) from None
     except PermissionError:
         raise SourceError("cannot be read: permission denied", path=shown) from None
     except (OSError, ValueError) as error:

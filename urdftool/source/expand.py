@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Mapping
 
-from ..errors import UrdftoolError
 from .expansion import Expansion
+from .expansion_process import expand
 from .location import SourceFile
 from .packages import Packages
-from .xacro_hooks import Run
-
-_lock = threading.RLock()
+from .xml_text import check_writable
 
 
 def expand_xacro(
@@ -31,13 +28,7 @@ def expand_xacro(
         XacroError: The expansion failed; the error has the location of the cause.
         PackageNotFound: The package of ``$(find NAME)`` was not found.
     """
-    with _lock:
-        run = Run(Expansion(file, arguments), packages)
-        with run.install_hooks():
-            try:
-                run.expand()
-            except UrdftoolError:
-                raise
-            except Exception as error:
-                raise run.explain(error) from error
-        return run.result
+    result = Expansion(file, arguments)
+    expand(result, packages)
+    check_writable(result.tree)
+    return result

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from ..control_characters import escape_controls
 from .document import Document, Element
 from .location import Place, SourceFile
 from .xacro_tree import (
@@ -62,7 +63,7 @@ class Expansion:
     @property
     def text(self) -> str:
         """Return the expanded URDF, formatted as xacro prints it."""
-        name = re.sub(r"-+", "-", self.file.path)
+        name = re.sub(r"-+", "-", escape_controls(self.file.path))
         line = "=" * 83
         return write_xml(
             self.tree,
@@ -148,6 +149,8 @@ def _escape_characters(node: Characters, indent: str) -> str:
 def _escape(text: str) -> str:
     if "&" in text or "<" in text or ">" in text:
         text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    if "\r" in text:  # read as a line feed unless escaped
+        text = text.replace("\r", "&#13;")
     return text
 
 
@@ -155,6 +158,6 @@ def _escape_attribute(text: str) -> str:
     text = _escape(text)
     if '"' in text:
         text = text.replace('"', "&quot;")
-    if "\n" in text or "\t" in text or "\r" in text:
-        text = text.replace("\r", "&#13;").replace("\n", "&#10;").replace("\t", "&#9;")
+    if "\n" in text or "\t" in text:
+        text = text.replace("\n", "&#10;").replace("\t", "&#9;")
     return text

@@ -1,115 +1,221 @@
-"""Compilation of expressions in ``${…}`` and ``$(eval …)``, with checked names and bounded cost.
+"""Compilation of expressions in ``${…}`` and ``$(eval …)`` from a list of allowed syntax.
 
-xacro evaluates expressions with Python's ``eval``. This module checks all names in an expression,
-and replaces operators and methods of unbounded result size by functions of ``bounded``.
+xacro evaluates expressions with Python's ``eval``. Here an expression of untrusted input contains
+only the syntax in ``SYNTAX``, and the compiled code does not access attributes: operators, methods
+and subscripts become calls of functions of ``safe_builtins``, which allow methods by the type of
+their owner and bound the size of results. Everything else is an error that names it.
 """
 
 from __future__ import annotations
 
 import ast
-import re
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from types import CodeType
 from typing import Any
 
 from . import safe_builtins
-from .safe_builtins import ForbiddenNameError
+from .safe_builtins import HOW, ForbiddenNameError
 
-_HIDDEN = frozenset(
+MAX_LENGTH = 10_000
+"""Maximum length of an expression [characters]; chosen, the longest in 1,061 real ones has 156."""
+
+SYNTAX: frozenset[type[ast.AST]] = frozenset(
     (
-        *("ag_await", "ag_code", "ag_frame", "cr_await", "cr_code", "cr_frame", "cr_origin"),
-        *("gi_code", "gi_frame", "gi_yieldfrom", "f_back", "f_builtins", "f_code", "f_globals"),
-        *("f_locals", "f_trace", "tb_frame", "tb_next", "mro", "format_map"),
-        *("expandtabs", "translate", "to_bytes"),
+        *(ast.Expression, ast.Constant, ast.Name, ast.Load, ast.Store, ast.IfExp),
+        *(ast.List, ast.Tuple, ast.Dict, ast.Set, ast.Subscript, ast.Slice),
+        *(ast.Attribute, ast.Call, ast.keyword),
+        *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp, ast.comprehension),
+        *(ast.BinOp, ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow),
+        *(ast.LShift, ast.RShift, ast.BitOr, ast.BitXor, ast.BitAnd),
+        *(ast.UnaryOp, ast.UAdd, ast.USub, ast.Not, ast.Invert, ast.BoolOp, ast.And, ast.Or),
+        *(ast.Compare, ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE),
+        *(ast.Is, ast.IsNot, ast.In, ast.NotIn),
     )
 )
-_OPERATORS = {
-    ast.Add: "__total__",
-    ast.Mult: "__product__",
-    ast.Mod: "__remainder__",
-    ast.Pow: "__power__",
-    ast.LShift: "__shift__",
+"""Nodes of the syntax tree that untrusted input may contain."""
+
+CONSTANTS = (str, int, float, bool, type(None))
+"""Types of literals that untrusted input may contain."""
+
+_WORDS = {
+    ast.JoinedStr: "an f-string",
+    ast.Lambda: "lambda",
+    ast.NamedExpr: "the operator :=",
+    ast.Starred: "an unpacked argument (*)",
+    ast.Await: "await",
+    ast.Yield: "yield",
+    ast.YieldFrom: "yield from",
+    ast.MatMult: "the operator @",
 }
 
-# An expression without a match needs no syntax tree.
-_METHODS = "|".join((*safe_builtins.METHODS, *_HIDDEN))
-_SUSPECT = re.compile(rf"[+*%]|<<|\b[fF][rR]?['\"]|\b[rR][fF]['\"]|\.\s*(?:{_METHODS})")
+_OPERATORS: dict[type[ast.operator], Callable[..., Any]] = {
+    ast.Add: safe_builtins.add,
+    ast.Mult: safe_builtins.multiply,
+    ast.Mod: safe_builtins.compute_remainder,
+    ast.Pow: safe_builtins.compute_power,
+    ast.LShift: safe_builtins.shift,
+}
+
+# The functions that replace operators, methods and subscripts are parameters of the compiled code.
+# Their names are not identifiers, so that nothing in an expression or a property refers to them.
+_HELPERS: dict[str, Callable[..., Any]] = {
+    **{f"<{operator.__name__}>": function for operator, function in _OPERATORS.items()},
+    "<attribute>": safe_builtins.get_attribute,
+    "<method>": safe_builtins.get_bounded_method,
+    "<item>": safe_builtins.get_item,
+    "<slice>": slice,
+}
+
+
+class Expression:
+    """Compiled expression."""
+
+    __slots__ = ("_code",)
+
+    def __init__(self, code: CodeType) -> None:
+        """Store code that returns a function of the helpers."""
+        self._code = code
+
+    def evaluate(self, names: dict[str, Any]) -> Any:
+        """Return the value of the expression.
+
+        Args:
+            names: Values by name. Python's built-in names are not available in addition to them.
+        """
+        dict.__setitem__(names, "__builtins__", {})
+        return eval(self._code, names)(*_HELPERS.values())
 
 
 @lru_cache(maxsize=1 << 15)
-def compile_expression(source: str) -> CodeType:
+def compile_expression(source: str, *, trusted: bool = False) -> Expression:
     """Compile an expression.
+
+    Args:
+        source: Its text.
+        trusted: Allow all syntax and all attributes, as xacro does, except for names that begin
+            with two underscores.
 
     Raises:
         SyntaxError: It is not an expression.
-        ForbiddenNameError: It uses a name that gives access to interpreter internals.
+        ForbiddenNameError: It contains what untrusted input may not contain.
+        OverflowError: It is longer than ``MAX_LENGTH``.
     """
     text = source.strip()
-    if not _SUSPECT.search(text):
-        code = compile(text, "<expression>", "eval")
-        _check_names(code)
-        return code
+    if len(text) > MAX_LENGTH:
+        raise OverflowError(f"the expression is longer than the limit of {MAX_LENGTH} characters")
     tree = ast.parse(text, "<expression>", "eval")
-    _check_names(compile(tree, "<expression>", "eval"))
-    _check_attributes(tree)
-    return compile(_Bounded().visit(tree), "<expression>", "eval")
+    _check_names(tree)
+    if not trusted:
+        _check_syntax(tree)
+    body = _Calls(trusted=trusted).visit(tree.body)
+    parameters = [ast.arg(name) for name in _HELPERS]
+    arguments = ast.arguments([], parameters, None, [], [], None, [])
+    function = ast.fix_missing_locations(ast.Expression(ast.Lambda(arguments, body)))
+    code = compile(function, "<expression>", "eval")
+    if not trusted:
+        _check_code(code, {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)})
+    return Expression(code)
 
 
-def _check_names(code: CodeType) -> None:
-    """Check the names in an expression and in its nested functions and comprehensions."""
-    hidden = [name for name in (*code.co_names, *code.co_varnames) if name.startswith("__")]
+def list_names(source: str) -> set[str]:
+    """Return the names that an expression uses; an invalid expression has none."""
+    try:
+        tree = ast.parse(source.strip()[:MAX_LENGTH], "<expression>", "eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return set()
+    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+
+
+def _list_identifiers(tree: ast.AST) -> Iterator[str]:
+    """Yield all identifiers, in the form to which Python normalizes them."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            yield node.id
+        elif isinstance(node, ast.Attribute):
+            yield node.attr
+        elif isinstance(node, (ast.arg, ast.keyword)) and node.arg:
+            yield node.arg
+
+
+def _check_names(tree: ast.AST) -> None:
+    """Check that no name begins with two underscores, as xacro does."""
+    hidden = sorted({name for name in _list_identifiers(tree) if name.startswith("__")})
     if hidden:
         raise ForbiddenNameError(f"names that begin with '__' are not allowed: {', '.join(hidden)}")
-    for inner in code.co_consts:
-        if isinstance(inner, CodeType):
-            _check_names(inner)
 
 
-def _check_attributes(tree: ast.AST) -> None:
-    """Check for attributes that give access to frames and code, or create text of any size."""
+def _check_syntax(tree: ast.AST) -> None:
+    """Check that a tree contains only allowed nodes and literals."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Attribute) and node.attr in _HIDDEN:
-            raise ForbiddenNameError(f"attribute .{node.attr} is not allowed in a description")
+        if type(node) not in SYNTAX:
+            _refuse(_WORDS.get(type(node), type(node).__name__))
+        if isinstance(node, ast.Constant) and type(node.value) not in CONSTANTS:
+            _refuse(f"a literal of type {type(node.value).__name__}")
+        if isinstance(node, ast.keyword) and node.arg is None:
+            _refuse("an unpacked argument (**)")
+        if isinstance(node, ast.Dict) and None in node.keys:
+            _refuse("an unpacked dictionary (**)")
+        if isinstance(node, ast.comprehension) and node.is_async:
+            _refuse("async")
+        if isinstance(node, (ast.Attribute, ast.Subscript)) and not isinstance(node.ctx, ast.Load):
+            _refuse("an assignment")
 
 
-class _Bounded(ast.NodeTransformer):
-    """Transformer that replaces operators and methods by calls of bounded functions."""
+def _refuse(what: str) -> None:
+    raise ForbiddenNameError(f"{what} is not allowed in a description; {HOW}")
+
+
+class _Calls(ast.NodeTransformer):
+    """Transformer that replaces operators, attributes and subscripts by calls of the helpers."""
+
+    def __init__(self, *, trusted: bool) -> None:
+        self.trusted = trusted
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """Replace an operator."""
+        """Replace an operator whose result could be of any size."""
         self.generic_visit(node)
-        function = _OPERATORS.get(type(node.op))
-        return node if function is None else _call(node, function, node.left, node.right)
+        if type(node.op) not in _OPERATORS:
+            return node
+        return _call(f"<{type(node.op).__name__}>", node.left, node.right)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
-        """Replace a method of a string."""
+        """Replace an attribute; in trusted input only methods with a bounded replacement."""
         self.generic_visit(node)
-        if node.attr not in safe_builtins.METHODS:
+        if self.trusted and node.attr not in safe_builtins.BOUNDED_METHODS:
             return node
-        name = ast.copy_location(ast.Constant(node.attr), node)
-        return _call(node, "__method__", node.value, name)
+        helper = "<method>" if self.trusted else "<attribute>"
+        return _call(helper, node.value, ast.Constant(node.attr))
 
-    def visit_FormattedValue(self, node: ast.FormattedValue) -> ast.AST:
-        """Check the width of a formatted value."""
+    def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
+        """Replace a subscript."""
         self.generic_visit(node)
-        for part in getattr(node.format_spec, "values", []):
-            if not isinstance(part, ast.Constant):
-                raise ForbiddenNameError("a format width cannot be an expression")
-            safe_builtins.check_format(str(part.value))
-        return node
+        return node if self.trusted else _call("<item>", node.value, node.slice)
+
+    def visit_Slice(self, node: ast.Slice) -> ast.AST:
+        """Replace the bounds of a slice by a slice object."""
+        self.generic_visit(node)
+        bounds = (bound or ast.Constant(None) for bound in (node.lower, node.upper, node.step))
+        return node if self.trusted else _call("<slice>", *bounds)
+
+    def visit_GeneratorExp(self, node: ast.GeneratorExp) -> ast.AST:
+        """Replace a generator by a list: no frame stays alive."""
+        self.generic_visit(node)
+        return node if self.trusted else ast.ListComp(node.elt, node.generators)
 
 
-def _call(node: ast.expr, function: str, *arguments: ast.expr) -> ast.Call:
-    name = ast.copy_location(ast.Name(function, ast.Load()), node)
-    return ast.copy_location(ast.Call(name, list(arguments), []), node)
+def _call(helper: str, *arguments: ast.expr) -> ast.Call:
+    return ast.Call(ast.Name(helper, ast.Load()), list(arguments), [])
 
 
-# Python searches these names last; _check_names prevents their direct use.
-BUILTINS: dict[str, Any] = {
-    "__power__": safe_builtins.compute_power,
-    "__shift__": safe_builtins.shift,
-    "__product__": safe_builtins.multiply,
-    "__total__": safe_builtins.add,
-    "__remainder__": safe_builtins.compute_remainder,
-    "__method__": safe_builtins.get_method,
-}
+def _check_code(code: CodeType, names: set[str]) -> None:
+    """Check that compiled code refers only to the names of its expression.
+
+    The code has no other way to access an attribute than a name in ``co_names``.
+    """
+    unknown = {*code.co_names} - names
+    if unknown:
+        raise ForbiddenNameError(f"names are not allowed: {', '.join(sorted(unknown))}")
+    for inner in code.co_consts:
+        if isinstance(inner, CodeType):
+            _check_code(inner, names)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from ..workspace import Workspace
 
+_MAX_TEXT, _MAX_VALUE = 1 << 20, 512  # characters of a CMakeLists.txt and of a variable; chosen
 _COMMENT = re.compile(r"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
 _COMMAND = re.compile(r"\b(project|set|install)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)", re.IGNORECASE)
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
@@ -69,7 +70,7 @@ def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> li
         "CATKIN_GLOBAL_SHARE_DESTINATION": "share",
     }
     rules: list[InstallRule] = []
-    for command in _COMMAND.finditer(_COMMENT.sub("", text)):
+    for command in _COMMAND.finditer(_COMMENT.sub("", text[:_MAX_TEXT])):
         words = [
             _VARIABLE.sub(lambda m: variables.get(m[1], m[0]), quoted or bare)
             for quoted, bare in _WORD.findall(command[2])
@@ -78,7 +79,7 @@ def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> li
         if verb == "project" and words:
             variables["PROJECT_NAME"] = variables["CMAKE_PROJECT_NAME"] = words[0]
         elif verb == "set" and len(words) >= 2:
-            variables[words[0]] = " ".join(words[1:])
+            variables[words[0]] = " ".join(words[1:])[:_MAX_VALUE]
         elif verb == "install" and words:
             rules.extend(_install(package_dir, share, words))
     return rules

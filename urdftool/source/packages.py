@@ -14,14 +14,17 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from copy import copy
+from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import PackageNotFound
+from ..errors import AccessError, PackageNotFound
 from ..workspace import Workspace, memoize_by_workspace
+from .access import FileAccess, find_project, is_shared, is_trusted, is_within
 from .install_rules import InstallRule, find_installed, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
-_XML_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_MAX_MANIFEST = 1 << 20  # bytes of a package.xml that are searched; chosen, real ones have 2 kB
 _IGNORE_FILES = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _SKIP_FOLDERS = frozenset(("node_modules", "build", "install", "devel", "log", "__pycache__"))
 _WORKSPACE_MARKS = (".git", ".hg", "src", ".catkin_workspace", ".catkin_tools", ".colcon")
@@ -37,13 +40,14 @@ def _read_package_name(workspace: Workspace, folder: str) -> str | None:
         text = workspace.read_bytes(os.path.join(folder, "package.xml"))
     except OSError:
         return None
-    match = _NAME.search(_XML_COMMENT.sub(b"", text))
+    start, *rest = text[:_MAX_MANIFEST].split(b"<!--")
+    match = _NAME.search(start + b"".join(part.partition(b"-->")[2] for part in rest))
     return match[1].decode("utf-8", "replace") if match else os.path.basename(folder)
 
 
 def find_own_package(path: Path, workspace: Workspace | None = None) -> tuple[str, Path] | None:
     """Return name and folder of the package of a file: the nearest ``package.xml`` above it."""
-    return _find_owner(workspace or Workspace(), os.path.dirname(path))
+    return _find_owner((workspace or Workspace()).restrict(None), os.path.dirname(path))
 
 
 @memoize_by_workspace
@@ -61,7 +65,7 @@ def find_packages(folder: Path, workspace: Workspace | None = None) -> dict[str,
     Hidden folders, build output and folders with an ``…_IGNORE`` file are skipped; packages within
     packages are not searched.
     """
-    return _scan_packages(workspace or Workspace(), str(folder))
+    return _scan_packages((workspace or Workspace()).restrict(None), str(folder))
 
 
 @memoize_by_workspace
@@ -105,11 +109,29 @@ def shorten_path(path: str | Path) -> str:
     return text[len(here) :] if text.startswith(here) else text
 
 
+@dataclass(frozen=True)
+class ConfiguredFolder:
+    """Folder of a package in a configuration file that was found near the description.
+
+    It came with the description, so it may name only folders of the project, and below itself.
+
+    Attributes:
+        folder: The folder.
+        file: The configuration file.
+        line: Line of the entry.
+    """
+
+    folder: Path
+    file: str
+    line: int
+
+
 class Packages:
     """Finder of packages and files for one description.
 
     Attributes:
-        workspace: Access to files.
+        files: Access to files for the search of packages, without restriction.
+        access: Policy that decides which files the description may read.
         file: The description; ``-`` in the current folder for standard input.
         used: Packages found so far, by name.
         assumed: Folders that replace a missing package of their name in ``package://``.
@@ -121,7 +143,7 @@ class Packages:
         *,
         named: Mapping[str, str | Path] | None = None,
         paths: Iterable[str | Path] = (),
-        configured: Mapping[str, str | Path] | None = None,
+        configured: Mapping[str, str | Path | ConfiguredFolder] | None = None,
         workspace: Workspace | None = None,
     ) -> None:
         """Store the search paths; the search starts on demand.
@@ -133,7 +155,8 @@ class Packages:
             configured: Folders by package name, from the configuration.
             workspace: Access to files; None creates a new one.
         """
-        self.workspace = workspace or Workspace()
+        self.files = (workspace or Workspace()).restrict(None)
+        self.access = FileAccess(self)
         self.file = Path.cwd() / "-" if file is None else Path(os.path.abspath(file))
         self.named = {name: Path(os.path.abspath(folder)) for name, folder in (named or {}).items()}
         self.paths = [Path(os.path.abspath(folder)) for folder in paths]
@@ -143,9 +166,62 @@ class Packages:
         self._rules: dict[str, list[InstallRule]] = {}
 
     @property
+    def workspace(self) -> Workspace:
+        """Return the workspace of the description's readers: it opens what the policy allows."""
+        return self.files.restrict(self.access)
+
+    def with_workspace(self, workspace: Workspace) -> Packages:
+        """Return the same finder with another workspace."""
+        other = copy(self)
+        other.files = workspace.restrict(None)
+        other.access = self.access.with_packages(other)
+        return other
+
+    def make_finder_for(self, path: str | Path) -> Packages:
+        """Return a finder for another file of the same robot, which reads what this one reads."""
+        other = Packages(
+            path,
+            named=self.named,
+            paths=self.paths,
+            configured=self.configured,
+            workspace=self.files,
+        )
+        other.used = self.used.copy()
+        other.access.include(self.access)
+        return other
+
+    def find_owner(self, path: Path) -> tuple[str, Path] | None:
+        """Return name and folder of the package of a file: the nearest ``package.xml`` above it."""
+        return find_own_package(path, self.files)
+
+    def find_by_manifest(self, name: str) -> Path | None:
+        """Return the folder in which :meth:`find` finds a package; None without a manifest."""
+        found = (folder for _, folder in self._list_packages(name) if folder is not None)
+        return next((folder for folder in found if self.files.is_folder(folder)), None)
+
+    def list_configured(self) -> list[Path]:
+        """Return the configured folders that the description may read."""
+        return [
+            Path(entry.folder if isinstance(entry, ConfiguredFolder) else entry)
+            for entry in self.configured.values()
+            if not (isinstance(entry, ConfiguredFolder) and self._is_foreign(entry))
+        ]
+
+    def _is_foreign(self, entry: ConfiguredFolder) -> bool:
+        """Tell whether a configured folder is outside of the project and of its configuration."""
+        if is_trusted(self.files):
+            return False
+        above = Path(os.path.dirname(os.path.abspath(entry.file)))
+        roots = {find_project(self.file, self.files)}
+        roots |= {None if is_shared(above, self.files) else above}
+        real = Path(self.files.resolve_links(entry.folder))
+        known = (Path(self.files.resolve_links(root)) for root in roots if root is not None)
+        return not any(is_within(real, root) for root in known)
+
+    @property
     def own(self) -> tuple[str, Path] | None:
         """Return name and folder of the package of the description; None without a package."""
-        return find_own_package(self.file, self.workspace)
+        return find_own_package(self.file, self.files)
 
     def find(self, name: str) -> Path:
         """Return the folder of a package.
@@ -162,7 +238,7 @@ class Packages:
             )
         searched: list[str] = []
         for where, folder in self._list_candidates(name):
-            if folder is not None and self.workspace.is_folder(folder):
+            if folder is not None and self.files.is_folder(folder):
                 self.used[name] = folder
                 return folder
             searched.append(where)
@@ -203,7 +279,7 @@ class Packages:
         parts = inner.split("/")
         named = [folder / name for folder in above[:2]]
         for folder in (*above, *named, *siblings) if inner and ".." not in parts else ():
-            if self.workspace.is_file(folder / inner):
+            if self.files.is_file(folder / inner):
                 return folder
         return None
 
@@ -218,7 +294,7 @@ class Packages:
         if not inner or {"", ".", ".."} & {name, *inner.split("/")}:
             return None
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_NEAR]
-        files = self.workspace
+        files = self.files
         found = [folder / name for folder in above if files.is_file(folder / name / inner)]
         if len({files.resolve_links(folder) for folder in found}) != 1:
             return None
@@ -227,6 +303,18 @@ class Packages:
 
     def _list_candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
         """Yield each searched place: its text for the notes, and the folder, if it exists."""
+        yield from self._list_packages(name)
+        for folder in self.file.parents:
+            if folder.name == name:
+                yield f"a folder above the file named {name}", folder
+        yield f"for a folder named '{name}' above the file", None
+
+    def _list_packages(self, name: str) -> Iterator[tuple[str, Path | None]]:
+        """Yield the places as :meth:`_list_candidates`, without folders above the file.
+
+        Raises:
+            PackageNotFound: A configuration that came with the description names a foreign folder.
+        """
         if name in self.named:
             yield f"--package {name}={self.named[name]} (does not exist)", self.named[name]
         for path in self.paths:
@@ -243,10 +331,18 @@ class Packages:
         for root in self._list_workspace_roots(own[1] if own else None):
             yield f"packages below {root}", self._find_packages(root).get(name)
         if name in self.configured:
-            folder = Path(self.configured[name])
+            entry = self.configured[name]
+            if isinstance(entry, ConfiguredFolder) and self._is_foreign(entry):
+                raise PackageNotFound(
+                    f"package '{name}' is set to {entry.folder} in {shorten_path(entry.file)}:"
+                    f"{entry.line}, which is outside of the project; pass --package "
+                    f"{name}={shorten_path(entry.folder)} to use it",
+                    rule="package-not-found",
+                )
+            folder = Path(entry.folder if isinstance(entry, ConfiguredFolder) else entry)
             yield f"the configuration: {name} = {folder} (does not exist)", folder
         for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
-            value = self.workspace.read_variable(variable) or ""
+            value = self.files.read_variable(variable) or ""
             if not value:
                 yield f"{variable} (not set)", None
             for entry in filter(None, value.split(os.pathsep)):
@@ -254,30 +350,26 @@ class Packages:
                     folder_or_none = self._find_packages(Path(entry)).get(name)
                 else:
                     share = Path(entry) / "share" / name
-                    folder_or_none = share if self.workspace.is_folder(share) else None
+                    folder_or_none = share if self.files.is_folder(share) else None
                 yield f"{variable}: {entry}", folder_or_none
-        for folder in self.file.parents:
-            if folder.name == name:
-                yield f"a folder above the file named {name}", folder
-        yield f"for a folder named '{name}' above the file", None
 
     def _find_packages(self, folder: Path) -> dict[str, Path]:
-        return find_packages(folder, self.workspace)
+        return find_packages(folder, self.files)
 
     def _find_child(self, path: Path, name: str) -> Path | None:
         """Return a folder of that name directly in a search path; it needs no ``package.xml``."""
         folder = path / name
-        return folder if name and self.workspace.is_folder(folder) else None
+        return folder if name and self.files.is_folder(folder) else None
 
     def _list_workspace_roots(self, package: Path | None) -> list[Path]:
         """Return the folders to search, from the parent of the package to the workspace root."""
         start = package.parent if package else self.file.parent
         roots = []
         for folder in (start, *start.parents)[:_MAX_CLIMB]:
-            if len(folder.parts) <= 2:
-                break  # do not search /, /home or /tmp
+            if len(folder.parts) <= 2 or is_shared(folder, self.files):
+                break  # do not search /, /tmp or the home folder
             roots.append(folder)
-            if any(self.workspace.exists(folder / mark) for mark in _WORKSPACE_MARKS):
+            if any(self.files.exists(folder / mark) for mark in _WORKSPACE_MARKS):
                 return roots
         return roots[:1]
 
@@ -291,7 +383,7 @@ class Packages:
             The path itself if it exists or no install rule applies to it.
         """
         path = Path(path)
-        if self.workspace.exists_or_is_link(path):
+        if self.files.exists_or_is_link(path):
             return path
         normal = Path(os.path.normpath(path))
         for name, folder in self.used.items():
@@ -300,8 +392,8 @@ class Packages:
             except ValueError:
                 continue
             if name not in self._rules:
-                self._rules[name] = read_install_rules(folder, name, self.workspace)
-            source = find_installed(self._rules[name], relative.as_posix(), self.workspace)
+                self._rules[name] = read_install_rules(folder, name, self.files)
+            source = find_installed(self._rules[name], relative.as_posix(), self.files)
             if source is not None:
                 return source
         return path
@@ -318,7 +410,16 @@ class Packages:
 
         Raises:
             PackageNotFound: The package was not found.
+            AccessError: The file exists, and the description may not read it.
         """
+        path = self._find_file(uri, relative_to)
+        reason = self.access.explain_refusal(path) if self.files.exists_or_is_link(path) else ""
+        if reason:
+            message = f"{shorten_path(path)} {reason}"
+            raise AccessError(message, data={"reason": reason})
+        return path
+
+    def _find_file(self, uri: str, relative_to: str | Path | None) -> Path:
         scheme, separator, rest = uri.partition("://")
         if separator and scheme in ("package", "model"):
             name, _, inner = rest.lstrip("/").partition("/")

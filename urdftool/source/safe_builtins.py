@@ -6,11 +6,16 @@ one call that cannot be interrupted, or give access to interpreter internals.
 
 from __future__ import annotations
 
+import _string  # type: ignore[import-not-found]
 import math
 import re
 import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
+
+HOW = "pass --trust if the input is trusted"
+"""Remedy in messages about what untrusted input may not do."""
 
 MAX_BITS = 100_000
 MAX_LENGTH = 10_000_000
@@ -90,26 +95,6 @@ def compute_remainder(a: Any, b: Any) -> Any:
     return a % b
 
 
-def get_type(thing: Any, *more: Any) -> type:
-    """Return ``type(thing)`` of a value; types cannot be created.
-
-    Raises:
-        ForbiddenNameError: ``thing`` is a type, or more arguments are given.
-    """
-    if more or isinstance(thing, type):
-        raise ForbiddenNameError("type() of a type is not allowed in a description")
-    return type(thing)
-
-
-def refuse_vars(*_: Any) -> Any:
-    """Replace ``vars()``, which gives access to all names.
-
-    Raises:
-        ForbiddenNameError: Always.
-    """
-    raise ForbiddenNameError("vars() is not allowed in a description")
-
-
 def make_range(*bounds: Any) -> range:
     """Return ``range(*bounds)``.
 
@@ -159,28 +144,66 @@ def limit_arguments(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 PYTHON: Mapping[str, Any] = {
+    **{
+        function.__name__: function
+        for function in (
+            *(list, dict, str, float, int, bool, complex, set, frozenset, tuple, slice),
+            *(map, zip, filter, enumerate, reversed, sorted),
+            *(len, min, max, abs, all, any, divmod, isinstance, ord, repr),
+        )
+    },
+    "True": True,
+    "False": False,
     "range": make_range,
     "round": round_number,
     "sum": sum_values,
-    "type": get_type,
-    "vars": refuse_vars,
 }
-"""Replacements of Python's built-in functions, by name."""
+"""Functions and types in ``python.NAME``, by name; those of untrusted input."""
+
+_MATH = (
+    *("acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign"),
+    *("cos", "cosh", "degrees", "dist", "e", "erf", "erfc", "exp", "exp2", "expm1", "fabs"),
+    *("floor", "fmod", "frexp", "fsum", "gamma", "gcd", "hypot", "inf", "isclose", "isfinite"),
+    *("isinf", "isnan", "isqrt", "ldexp", "lgamma", "log", "log10", "log1p", "log2", "modf"),
+    *("nan", "nextafter", "pi", "pow", "radians", "remainder", "sin", "sinh", "sqrt", "sumprod"),
+    *("tan", "tanh", "tau", "trunc", "ulp", "fma"),
+)
 
 MATH: Mapping[str, Any] = {
-    "prod": multiply_all,
+    **{name: getattr(math, name) for name in _MATH if hasattr(math, name)},
     **{name: limit_arguments(getattr(math, name)) for name in ("comb", "factorial", "lcm", "perm")},
+    "prod": multiply_all,
 }
-"""Replacements of functions of ``math``, by name."""
+"""Numbers and functions in ``math.NAME``, by name; those of untrusted input."""
+
+BOUNDED: Mapping[str, Any] = {
+    name: value
+    for name, value in {**PYTHON, **MATH}.items()
+    if getattr(value, "__module__", None) == __name__
+}
+"""Functions of this module that replace those of Python, by name; in trusted input, too."""
+
+
+def refuse_function(name: str) -> Callable[..., Any]:
+    """Return a function in place of one that untrusted input may not call."""
+
+    def refuse(*_: Any, **__: Any) -> Any:
+        raise ForbiddenNameError(f"{name}() is not allowed in a description; {HOW}")
+
+    return refuse
 
 
 class _Formatter(string.Formatter):
     """``str.format`` without attribute access."""
 
     def get_field(self, field_name: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        if "__" in field_name or "." in field_name:
-            raise ForbiddenNameError(f"'{field_name}' is not allowed in format()")
-        return super().get_field(field_name, args, kwargs)
+        first, rest = _string.formatter_field_name_split(field_name)
+        value = self.get_value(first, args, kwargs)
+        for is_attribute, key in rest:
+            if is_attribute:
+                raise ForbiddenNameError(f"'{field_name}' is not allowed in format(); {HOW}")
+            value = get_item(value, key)
+        return value, first
 
     def format_field(self, value: Any, format_spec: str) -> str:
         _refuse_width(format_spec)
@@ -207,28 +230,133 @@ def _limit_padding(name: str) -> Callable[..., str]:
     return pad
 
 
-METHODS: Mapping[str, Callable[..., str]] = {
-    "format": _Formatter().format,
-    "join": _join,
-    "replace": _replace,
-    **{name: _limit_padding(name) for name in ("center", "ljust", "rjust", "zfill")},
+def _extend(values: list[Any], more: Iterable[Any]) -> None:
+    added = list(more)
+    _refuse_length(len(values) + len(added))
+    values.extend(added)
+
+
+BOUNDED_METHODS: Mapping[str, tuple[type, Callable[..., Any]]] = {
+    "format": (str, _Formatter().format),
+    "join": (str, _join),
+    "replace": (str, _replace),
+    **{name: (str, _limit_padding(name)) for name in ("center", "ljust", "rjust", "zfill")},
+    "extend": (list, _extend),
 }
-"""Replacements of methods of strings, by name."""
+"""Replacements of methods, by name, with the type of the owner."""
+
+METHODS: tuple[tuple[type, frozenset[str]], ...] = (
+    (
+        str,
+        frozenset(
+            (
+                *("capitalize", "casefold", "center", "count", "endswith", "find", "format"),
+                *("index", "isalnum", "isalpha", "isascii", "isdecimal", "isdigit", "islower"),
+                *("isnumeric", "isspace", "istitle", "isupper", "join", "ljust", "lower"),
+                *("lstrip", "partition", "removeprefix", "removesuffix", "replace", "rfind"),
+                *("rindex", "rjust", "rpartition", "rsplit", "rstrip", "split", "splitlines"),
+                *("startswith", "strip", "swapcase", "title", "upper", "zfill"),
+            )
+        ),
+    ),
+    (
+        dict,
+        frozenset(
+            (
+                *("clear", "copy", "get", "items", "keys", "pop", "popitem", "setdefault"),
+                *("update", "values"),
+            )
+        ),
+    ),
+    (
+        list,
+        frozenset(
+            (
+                *("append", "clear", "copy", "count", "extend", "index", "insert", "pop"),
+                *("remove", "reverse", "sort"),
+            )
+        ),
+    ),
+    (tuple, frozenset(("count", "index"))),
+    (
+        set,
+        frozenset(
+            (
+                *("add", "clear", "copy", "difference", "discard", "intersection", "isdisjoint"),
+                *("issubset", "issuperset", "pop", "remove", "symmetric_difference", "union"),
+                "update",
+            )
+        ),
+    ),
+    (
+        frozenset,
+        frozenset(
+            (
+                *("copy", "difference", "intersection", "isdisjoint", "issubset", "issuperset"),
+                *("symmetric_difference", "union"),
+            )
+        ),
+    ),
+    (float, frozenset(("imag", "is_integer", "real"))),
+    (int, frozenset(("bit_length", "imag", "is_integer", "real"))),
+    (complex, frozenset(("conjugate", "imag", "real"))),
+)
+"""Methods and attributes of values that untrusted input may use, by the type of the owner."""
 
 
-def get_method(owner: Any, name: str) -> Any:
-    """Return an attribute named in ``METHODS``, replaced if the owner is a string or ``str``.
+def get_attribute(owner: Any, name: str) -> Any:
+    """Return ``owner.name`` in untrusted input.
+
+    That is a method in ``METHODS``, a value of a namespace of xacro, or the value of a key of a
+    dictionary with dotted access.
 
     Raises:
-        ForbiddenNameError: The owner is ``bytes``.
+        AttributeError: The owner does not have it.
+        ForbiddenNameError: The owner has it, but it is not in the list.
     """
-    function = METHODS[name]
-    if isinstance(owner, str):
-        return lambda *values, **more: function(owner, *values, **more)
-    if owner is str:
-        return function
-    if isinstance(owner, bytes) or owner is bytes:
-        raise ForbiddenNameError(f"{name}() of bytes is not allowed in a description")
+    if _is_namespace(owner):
+        try:
+            return get_item(owner, name)
+        except KeyError:
+            raise NameError(f"name '{name}' is not defined") from None
+    names = next((names for kind, names in METHODS if isinstance(owner, kind)), ())
+    if name in names:
+        return get_bounded_method(owner, name)
+    kind = owner if isinstance(owner, type) else type(owner)
+    if kind is owner or any(name in base.__dict__ for base in kind.__mro__):
+        raise ForbiddenNameError(
+            f"attribute .{name} of {kind.__name__} is not allowed in a description; {HOW}"
+        )
+    if isinstance(owner, dict) and kind is not dict:  # YAML with dotted access
+        return owner[name]
+    raise AttributeError(f"'{kind.__name__}' object has no attribute '{name}'")
+
+
+def get_item(owner: Any, key: Any) -> Any:
+    """Return ``owner[key]`` in untrusted input.
+
+    Raises:
+        ForbiddenNameError: The owner is a type, or the name of a namespace is hidden.
+    """
+    if isinstance(owner, type):
+        raise ForbiddenNameError(f"a subscript of {owner.__name__} is not allowed; {HOW}")
+    if _is_namespace(owner) and not str(key).isidentifier():
+        raise KeyError(key)
+    if _is_namespace(owner) and str(key).startswith("__"):
+        raise ForbiddenNameError(f"names that begin with '__' are not allowed: {key}")
+    return owner[key]
+
+
+def _is_namespace(value: Any) -> bool:
+    """Tell whether a value is a namespace of xacro: a dictionary that evaluates its values."""
+    return isinstance(value, dict) and hasattr(type(value), "_resolve_")
+
+
+def get_bounded_method(owner: Any, name: str) -> Any:
+    """Return ``owner.name``, or its replacement in ``BOUNDED_METHODS``."""
+    kind, function = BOUNDED_METHODS.get(name, (None, None))
+    if kind is not None and function is not None and isinstance(owner, kind):
+        return partial(function, owner)
     return getattr(owner, name)
 
 

@@ -51,7 +51,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
         )
 
     def declaration(_: str, encoding: str | None, __: int) -> None:
-        if encoding and encoding.lower() not in ("utf-8", "utf8", "us-ascii", "ascii"):
+        if encoding and encoding.lower() not in _ENCODINGS_OF_EXPAT:
             file.encoding = _find_codec(encoding)
 
     parser.EntityDeclHandler = entity
@@ -77,30 +77,50 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
 
 
 def _find_codec(encoding: str) -> str:
+    """Return Python's name of a declared encoding, of those with one byte for each character.
+
+    Raises:
+        LookupError: It is unknown, not an encoding of text (``zlib``), or one in which ``<`` can be
+            a part of another character (``shift_jis``).
+    """
     import codecs
+    import re
 
     try:
-        return codecs.lookup(encoding).name
-    except LookupError:
-        return "utf-8"
+        name = codecs.lookup(encoding).name
+    except (LookupError, ValueError):
+        name = ""
+    if not re.fullmatch(_SINGLE_BYTE, name) or b"<".decode(name) != "<":
+        raise LookupError(f"encoding '{encoding}' is not supported")
+    return name
 
 
 def _as_expat_reads(file: SourceFile) -> bytes:
     """Return the bytes of a file; convert UTF-16 and UTF-32 to UTF-8, in ``file.data`` too."""
-    for mark, encoding in (
-        (b"\xff\xfe\x00\x00", "utf-32"),
-        (b"\x00\x00\xfe\xff", "utf-32"),
-        (b"\xff\xfe", "utf-16"),
-        (b"\xfe\xff", "utf-16"),
-    ):
-        if file.data.startswith(mark):
+    for start, encoding in WIDE:
+        if file.data.startswith(start):
             import re
 
-            text = file.data.decode(encoding)
+            text = file.data.decode(encoding).removeprefix("\ufeff")
             text = re.sub(r"^(<\?xml[^>]*?)\s+encoding\s*=\s*(\"[^\"]*\"|'[^']*')", r"\1", text)
             file.data = text.encode("utf-8")
             break
     return file.data
+
+
+_ENCODINGS_OF_EXPAT = ("utf-8", "utf8", "us-ascii", "ascii")
+_SINGLE_BYTE = r"iso8859-\d+|cp\d+|koi8-[a-z]|mac-\w+|tis-620|kz1048|ptcp154|hp-roman8|ascii|utf-8"
+WIDE = (
+    (b"\xff\xfe\x00\x00", "utf-32"),
+    (b"\x00\x00\xfe\xff", "utf-32"),
+    (b"\xff\xfe", "utf-16"),
+    (b"\xfe\xff", "utf-16"),
+    (b"<\x00\x00\x00", "utf-32-le"),
+    (b"\x00\x00\x00<", "utf-32-be"),
+    (b"<\x00", "utf-16-le"),
+    (b"\x00<", "utf-16-be"),
+)
+"""First bytes of a file in UTF-16 or UTF-32, with a byte order mark or with ``<``."""
 
 
 def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[str, str, str]:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError, XacroError
-from ..suggestions import find_nearest
 from .location import Place
 from .xacro_messages import Failure, explain_failure, find_unknown_parameter, list_causes
 
 if TYPE_CHECKING:
-    from ..workspace import Workspace
     from .expansion import Expansion
+    from .xacro_hooks import Files
     from .xacro_tree import XacroElement
 
 
@@ -23,7 +20,7 @@ def explain(
     node: XacroElement | None,
     failed_text: str | None,
     result: Expansion,
-    workspace: Workspace,
+    files: Files,
 ) -> UrdftoolError:
     """Convert an error of xacro to a :class:`UrdftoolError`.
 
@@ -32,14 +29,14 @@ def explain(
         node: Element that xacro was processing.
         failed_text: Text or expression whose evaluation failed, if any.
         result: Files and definitions read so far.
-        workspace: Lists folders to find similar names.
+        files: Finds similar names.
     """
     at = None if node is None else _place(node, failed_text, find_unknown_parameter(error))
     for cause in list_causes(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # unreadable file: report it at the reference
                 argument = _suggest_argument(node, result)
-                return _make_missing_error(cause.path, cause.message, at, argument, workspace)
+                return _make_missing_error(cause.path, cause.message, at, argument, files)
             return type(cause)(
                 cause.message,
                 at=at,
@@ -72,24 +69,17 @@ def _suggest_argument(include: XacroElement | None, result: Expansion) -> str:
 
 
 def _make_missing_error(
-    path: str, reason: str, at: Place, argument: str, workspace: Workspace
+    path: str, reason: str, at: Place, argument: str, files: Files
 ) -> XacroError:
     """Return the error for a file that cannot be read, with the nearest existing name."""
-    folder, name = os.path.split(path)
-    try:
-        there = [entry.name for entry in workspace.list_folder(folder or ".")]
-    except OSError:
-        there = []
-        above = reversed(Path(path).parents)
-        missing = next((p for p in above if not workspace.exists(p)), None)
-        reason = f"folder {missing} does not exist" if missing else reason
-    right = find_nearest(name, there, 0.75)
+    missing, right = files.suggest_path(path)
+    reason = f"folder {missing} does not exist" if missing else reason
     hint = f"; did you mean '{right}'?" if right else ""
     return XacroError(
         f"{path}: {reason}{hint}{argument}",
         at=at,
         rule="include-not-found",
-        data={"file": path, "suggestion": right},
+        data={"file": path, "suggestion": right or None},
     )
 
 

@@ -2,8 +2,8 @@
 
 The ``xacro`` package expands. Replaced are its parser (for locations, limits and checks), package
 search (without ROS), text evaluation (equal, but each expression is compiled once), file access and
-output. Only this module loads xacro, as a separate copy whose state is in module globals: one
-expansion runs at a time.
+output. Only this module loads xacro, as a separate copy whose state is in module globals: a process
+runs one expansion.
 """
 
 from __future__ import annotations
@@ -13,24 +13,22 @@ import os
 import re
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from types import ModuleType
-from typing import Any
+from typing import Any, Protocol
 
 from ..errors import SourceError, UrdftoolError, XacroError
-from .document import read_file
 from .expansion import Argument, Expansion, Warned
-from .expressions import BUILTINS, compile_expression
-from .limits import EvaluationLimits
-from .location import Call, Place
-from .packages import Packages, shorten_path
+from .expressions import compile_expression
+from .limits import EvaluationLimits, make_time_error
+from .location import Call, Place, SourceFile
 from .safe_builtins import MAX_LENGTH, check_size
-from .sandbox import Sandbox, evaluate_number
+from .xacro_errors import explain
 from .xacro_parse import parse_xacro
+from .xacro_symbols import make_ros1_evaluation, make_symbols
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
 from .yaml_bounds import check_yaml
 
@@ -38,6 +36,7 @@ MAX_CALLS = 400
 MAX_ELEMENTS = 200_000
 MAX_INCLUDES = 100
 _RECURSION_LIMIT = 6000
+_SHOWN = 100  # characters of a text in a message
 
 
 _COPY = "urdftool_xacro"
@@ -76,30 +75,91 @@ def _import_substitution_args() -> Any:
             del sys.modules["yaml"]
 
 
-class Run:
-    """Running expansion."""
+substitution_args: Any = _import_substitution_args()
 
-    def __init__(self, result: Expansion, packages: Packages) -> None:
+
+class Files(Protocol):
+    """Files, packages and variables that an expansion may request."""
+
+    def find_package(self, name: str) -> str:
+        """Return the folder of a package."""
+
+    def locate_file(self, path: str) -> str:
+        """Return a path, or that of its source by the install rules if it does not exist."""
+
+    def read_xml(self, path: str) -> SourceFile:
+        """Return a file to include."""
+
+    def read_yaml(self, path: str) -> bytes:
+        """Return the contents of a YAML file."""
+
+    def list_matches(self, pattern: str) -> list[str]:
+        """Return the paths that match a pattern."""
+
+    def read_variable(self, name: str) -> str:
+        """Return the value of ``$(env NAME)``."""
+
+    def read_optional_variable(self, name: str, default: str = "") -> str:
+        """Return the value of ``$(optenv NAME DEFAULT)``."""
+
+    def suggest_path(self, path: str) -> tuple[str, str]:
+        """Return the first missing folder of a path, and the nearest existing name; or empty."""
+
+    def add_message(self, text: str) -> None:
+        """Print a message of the description."""
+
+    def mark_place(self, file: SourceFile, start: int) -> None:
+        """Store the location of the element that is evaluated."""
+
+
+class Run:
+    """Expansion in this process, which it occupies: the state of xacro is global."""
+
+    def __init__(self, result: Expansion, files: Files, *, trusted: bool) -> None:
+        """Set where the result goes and what may be read.
+
+        Args:
+            result: Expansion with its file and arguments.
+            files: Files, packages and variables.
+            trusted: Whether expressions may use all of Python's syntax.
+        """
         self.result = result
-        self.packages = packages
-        self.reach = Sandbox(packages, self.load_yaml)
+        self.files = files
+        self.trusted = trusted
         self.instances = Instances()
         self.node: XacroElement | None = None
         self.failed_text: str | None = None
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
-        self.patience = EvaluationLimits(self.make_time_error)
+        self.patience = EvaluationLimits(lambda: make_time_error(self.place))
 
-    def expand(self) -> None:
-        """Parse the file and expand it with xacro; requires :meth:`install_hooks`."""
-        xacro.init_stacks(self.result.file.path)
-        self.result.tree = parse_xacro(self.result.file)
-        xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)
+    def expand(self) -> list[str]:
+        """Expand the file with xacro; return the paths of the included files as xacro lists them.
 
-    @contextmanager
-    def install_hooks(self) -> Iterator[None]:
-        """Replace functions of xacro, and restore them at exit."""
+        Raises:
+            UrdftoolError: The expansion failed; the error has the location of the cause.
+        """
+        self._install_hooks()
+        try:
+            with self.patience.enforce():
+                xacro.init_stacks(self.result.file.path)
+                self.result.tree = parse_xacro(self.result.file)
+                xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)
+        except UrdftoolError as error:
+            if error.line is not None or self.node is None:
+                raise
+            raise explain(error, self.node, None, self.result, self.files) from None
+        except Exception as error:
+            raise explain(error, self.node, self.failed_text, self.result, self.files) from error
+        return list(xacro.all_includes)
+
+    def _install_hooks(self) -> None:
+        """Replace functions of xacro."""
+        functions = self.list_functions()
+        symbols = make_symbols(
+            xacro._global_symbols, functions, self.record_warning, trusted=self.trusted
+        )
         here: dict[str, Any] = {
             "parse": self.parse,
             "eval_text": self.eval_text,
@@ -113,89 +173,56 @@ class Run:
             "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
             "get_include_files": self.list_included_files,
             "_empty_text_node": Characters("\n\n"),
-            "_global_symbols": self.reach.make_symbols(xacro._global_symbols, self.record_warning),
-            "safe_eval": evaluate_number,
+            "_global_symbols": symbols,
+            "safe_eval": self.evaluate_number,
             "warning": self.record_warning,
             "print_location": lambda *_: None,
             "all_includes": [],
             "verbosity": 1,
             "root_dir": os.curdir,
         }
-        saved = {name: getattr(xacro, name) for name in (*here, "filestack", "macrostack")}
-        substitution = _import_substitution_args()
-        commands: dict[str, Any] = {
-            "find": self.find,
-            "env": self.reach.read_variable,
-            "optenv": self.reach.read_optional_variable,
+        there: dict[str, Any] = {
+            "_eval_find": self.files.find_package,
+            "_eval_env": self.files.read_variable,
+            "_eval_optenv": self.files.read_optional_variable,
+            "_eval": make_ros1_evaluation(substitution_args, trusted=self.trusted),
         }
-        functions: dict[str, Any] = {f"_eval_{name}": f for name, f in commands.items()}
-        functions["_eval"] = self.reach.make_ros1_evaluation(substitution)
-        saved_functions = {name: getattr(substitution, name) for name in functions}
-        saved_commands = {name: substitution._eval_dict[name] for name in commands}
-        limit = sys.getrecursionlimit()
-        try:
-            for name, value in here.items():
-                setattr(xacro, name, value)
-            for name, function in functions.items():
-                setattr(substitution, name, function)
-            substitution._eval_dict.update(commands)
-            sys.setrecursionlimit(max(limit, _RECURSION_LIMIT))
-            with self.patience.enforce():
-                yield
-            self.store_dependencies()
-        finally:
-            sys.setrecursionlimit(limit)
-            for name, value in saved.items():
-                setattr(xacro, name, value)
-            for name, function in saved_functions.items():
-                setattr(substitution, name, function)
-            substitution._eval_dict.update(saved_commands)
-            xacro.substitution_args_context.clear()
+        for module, values in ((xacro, here), (substitution_args, there)):
+            for name, value in values.items():
+                setattr(module, name, value)
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), _RECURSION_LIMIT))
 
     # Functions that xacro calls ---------------------------------------------------------------
 
     def parse(self, _: object, filename: str) -> XacroDocument:
         """Parse an included file; raise xacro's exception if it cannot be opened."""
-        path = shorten_path(self.packages.find_installed(filename))
         if len(xacro.filestack) > MAX_INCLUDES:
             raise XacroError(
                 f"includes are nested more than {MAX_INCLUDES} deep; a file includes itself",
                 at=self.place._replace(calls=self.place.calls[:3]) if self.place else None,
                 rule="endless-expansion",
             )
-        file = self.result.files.get(path)
-        if file is None:
-            self.reach.check_file(path, self.place)
-            try:
-                file = read_file(path, self.packages.workspace)
-            except SourceError as error:
-                xacro.filestack.pop()
-                raise xacro.XacroException(
-                    error.message, exc=_MissingFileError(path, error)
-                ) from error
-            self.result.files[path] = file
+        try:
+            file = self.files.read_xml(filename)
+        except XacroError:  # the description may not read it
+            raise
+        except SourceError as error:
+            xacro.filestack.pop()
+            missing = _MissingFileError(error.path or filename, error)
+            raise xacro.XacroException(error.message, exc=missing) from error
+        self.result.files.setdefault(file.path, file)
         return parse_xacro(file, self.include_calls)
-
-    def find(self, name: str) -> str:
-        """Return the folder of a package."""
-        return str(self.packages.find(name))
 
     def abs_filename_spec(self, original: Callable[[str], str]) -> Callable[[str], str]:
         """Wrap the resolution of relative paths: apply install rules to missing files."""
-
-        def absolute(spec: str) -> str:
-            path = original(spec)
-            there = self.packages.workspace.exists(path)
-            return path if there else str(self.packages.find_installed(path))
-
-        return absolute
+        return lambda spec: self.files.locate_file(original(spec))
 
     def list_included_files(self, spec: str, symbols: Any) -> Iterator[str]:
         """Yield the files that an include names, as ``xacro.get_include_files``."""
         path = str(xacro.abs_filename_spec(self.eval_text(spec, symbols)))
         names = [path]
         if re.search(r"[*[?]", path):
-            names = self.packages.workspace.match(path)
+            names = self.files.list_matches(path)
             if not names:
                 self.record_warning(xacro.include_no_matches_msg.format(path))
         for name in names:
@@ -207,19 +234,48 @@ class Run:
         import yaml
 
         path = str(xacro.abs_filename_spec(filename))
-        self.reach.check_file(path)
         fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         loader: Any = type("Loader", (fast,), {})
         for unit in xacro.ConstructUnits:
             loader.add_constructor(unit.value.tag, unit.constructor)
-        with io.TextIOWrapper(self.packages.workspace.open(path)) as stream:
-            xacro.filestack.append(path)
-            try:
-                value = yaml.load(check_yaml(stream, fast), Loader=loader)
-                return xacro.YamlListWrapper.wrap(value)
-            finally:
-                xacro.filestack.pop()
-                xacro.all_includes.append(path)
+        text = io.TextIOWrapper(io.BytesIO(self.files.read_yaml(path))).read()
+        xacro.filestack.append(path)
+        try:
+            value = yaml.load(check_yaml(text, path, fast), Loader=loader)
+            return xacro.YamlListWrapper.wrap(value)
+        finally:
+            xacro.filestack.pop()
+            xacro.all_includes.append(path)
+
+    def list_functions(self) -> dict[str, Callable[..., Any]]:
+        """Return the functions of the namespace ``xacro`` of expressions."""
+        original = xacro._global_symbols["xacro"]
+        kept = ("abs_filename", "arg", "dotify", "fatal", "tokenize")
+        return {
+            **{name: original[name] for name in kept},
+            "load_yaml": self.load_yaml,
+            "message": self.make_printer(""),
+            "warning": self.make_printer("warning: "),
+            "error": self.make_printer("error: "),
+            "print_location": self.print_location,
+        }
+
+    def make_printer(self, start: str) -> Callable[..., str]:
+        """Return a function that prints words as ``xacro.message`` does."""
+
+        def show(*words: object, **_: object) -> str:
+            self.files.add_message(start + " ".join(map(str, words)))
+            return ""
+
+        return show
+
+    def print_location(self) -> str:
+        """Print the location of the processed element, as ``xacro.print_location``."""
+        return self.make_printer("")(f"in {self.place or self.result.file.path}")
+
+    def evaluate_number(self, text: str, symbols: Mapping[str, Any]) -> Any:
+        """Evaluate a number with units in a YAML file; replaces ``xacro.safe_eval``."""
+        return compile_expression(text, trusted=self.trusted).evaluate(dict(symbols))
 
     def record_warning(self, *words: object, **_: object) -> None:
         """Record a warning with its location."""
@@ -301,7 +357,7 @@ class Run:
         """Wrap a macro call so that the elements of the instance record it."""
 
         def call(node: XacroElement, macros: Any, symbols: Any) -> bool:
-            tag = node.tagName
+            tag = node.tagName = node.nodeName = str(node.tagName)  # may have been computed
             if not tag.startswith("xacro:"):
                 return False
             if tag == "xacro:call":  # calls this function again with the name of its macro
@@ -373,11 +429,11 @@ class Run:
         """Return the value of an expression in ``${…}``."""
         try:
             source = str(self.eval_text(expression, symbols))
-            code = compile_expression(source)
-            if not dict.__contains__(symbols, "__builtins__"):
-                symbols.update(__builtins__=BUILTINS)
+            code = compile_expression(source, trusted=self.trusted)
+            if self.node is not None:
+                self.files.mark_place(self.node.file, self.node.start)
             self.patience.since = time.process_time()
-            value = eval(code, symbols)
+            value = code.evaluate(symbols)
             check_size(value)
             return value
         except Exception as error:
@@ -395,28 +451,6 @@ class Run:
         """Return the location of the processed element; None before the first."""
         return None if self.node is None else self.node.place
 
-    def make_time_error(self, seconds: float) -> XacroError:
-        """Make the error for an expansion that was stopped after a time [s]."""
-        return XacroError(
-            f"the expansion was stopped because it takes more than {seconds:g} s of CPU time",
-            at=self.place,
-            path=self.result.file.path,
-            rule="endless-expansion",
-        )
-
-    def store_dependencies(self) -> None:
-        """Store the files that xacro read, each once."""
-        seen = dict.fromkeys(
-            shorten_path(self.packages.find_installed(path)) for path in xacro.all_includes
-        )
-        self.result.dependencies = list(seen)
-
-    def explain(self, error: Exception) -> UrdftoolError:
-        """Convert an exception of the expansion to an error with a location."""
-        from .xacro_errors import explain
-
-        return explain(error, self.node, self.failed_text, self.result, self.packages.workspace)
-
 
 class _MissingFileError(OSError):
     """Error with the attributes by which xacro recognizes a missing optional include."""
@@ -433,20 +467,30 @@ class _MissingFileError(OSError):
 _TEXT, _EXPR, _EXTENSION = 0, 1, 2
 
 
+_LEXER = [re.compile(pattern.pattern.removeprefix("^")) for pattern in xacro.LEXER.res]
+"""Patterns of xacro's lexer for a match at any position; the lexer copies the rest of the text."""
+
+
 @lru_cache(maxsize=1 << 15)
 def _split(text: str) -> list[tuple[int, str]]:
-    """Return the tokens of a text, by xacro's lexer."""
+    """Return the tokens of a text, as xacro's lexer does.
+
+    Raises:
+        XacroException: A bracket is not closed.
+    """
     pieces = []
-    lexer = xacro.QuickLexer(xacro.LEXER)
-    lexer.lex(text)
-    while lexer.peek():
-        kind, value = lexer.next()
+    lexer, start = xacro.LEXER, 0
+    while start < len(text):
+        kinds = enumerate(pattern.match(text, start) for pattern in _LEXER)
+        kind, match = next(((kind, match) for kind, match in kinds if match), (0, None))
+        if match is None:
+            raise xacro.XacroException(f"invalid expression: {text[start : start + _SHOWN]}")
+        start = match.end()
         if kind == lexer.EXPR:
-            pieces.append((_EXPR, value[2:-1]))
+            pieces.append((_EXPR, match[0][2:-1]))
         elif kind == lexer.EXTENSION:
-            pieces.append((_EXTENSION, value[2:-1]))
-        elif kind == lexer.DOLLAR_DOLLAR_BRACE:
-            pieces.append((_TEXT, value[1:]))
+            pieces.append((_EXTENSION, match[0][2:-1]))
         else:
-            pieces.append((_TEXT, value))
+            skipped = int(kind == lexer.DOLLAR_DOLLAR_BRACE)
+            pieces.append((_TEXT, match[0][skipped:]))
     return pieces

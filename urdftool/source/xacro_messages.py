@@ -35,6 +35,7 @@ _TAGS = (
     *("property", "unless"),
 )
 """Tags of xacro itself; all others are macro calls."""
+_SHOWN = 200  # characters of an expression in a message
 _ARGUMENTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
 
 
@@ -344,6 +345,8 @@ def _count_elements(count: int) -> str:
 def _format_expression(failed_text: str | None) -> str:
     if not failed_text:
         return ""
+    if len(failed_text) > _SHOWN:
+        failed_text = f"{failed_text[:_SHOWN]}…"
     return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
 
 

@@ -181,9 +181,9 @@ class XacroElement(Parent):
         value = self.attributes.get(name)
         return None if value is None else _Value(value)
 
-    def setAttribute(self, name: str, value: object) -> None:
-        """Set an attribute."""
-        self.attributes[name] = str(value)
+    def setAttribute(self, name: object, value: object) -> None:
+        """Set an attribute; its name may be the value of an expression."""
+        self.attributes[str(name)] = str(value)
 
     def removeAttribute(self, name: str) -> None:
         """Remove an attribute.

@@ -13,26 +13,23 @@ MAX_VALUES = 1_000_000
 MAX_DEPTH = 100
 
 
-def check_yaml(stream: Any, loader: Any) -> Any:
-    """Check the size of a YAML stream and return it from its beginning.
+def check_yaml(text: str, name: str, loader: Any) -> Any:
+    """Check the size of YAML and return it as a stream.
 
     Counts the events of the parser without storing them: nested lists would overflow the stack in
     libyaml, and aliases or merges of aliases may grow exponentially.
 
     Args:
-        stream: The open file.
+        text: The text.
+        name: Path of the file, for messages.
         loader: Loader class to be used.
 
     Raises:
-        XacroError: It exceeds the limits of length, depth or size, or contains itself.
+        XacroError: It exceeds the limits of depth or size, or contains itself.
         YAMLError: It is not valid YAML.
     """
     import yaml
 
-    name = str(getattr(stream, "name", "YAML"))
-    text = stream.read(MAX_BYTES + 1)
-    if len(text) > MAX_BYTES:
-        raise _make_limit_error(name, f"the file has more than {MAX_BYTES} characters")
     sizes: dict[str, int] = {}
     open_ones: list[tuple[str | None, int]] = []
     count = 0

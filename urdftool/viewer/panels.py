@@ -11,20 +11,16 @@ from ..model.elements import Robot
 from .marks import find_highest_severity, format_counts
 from .properties import escape_html, format_table, link_rows, list_joint_rows, shorten_name
 
-COLORS = {Severity.ERROR: "#e03131", Severity.WARNING: "#e8590c", Severity.INFO: "#1c7ed6"}
-
 MOST = 300
 """Maximum number of listed findings."""
 
 SAID = 12
 """Maximum number of notices."""
 
-_SMALL = "font-size:.85em;line-height:1.35;padding:.2em .75em"
-
 
 def wrap_html(inner: str) -> str:
-    """Wrap HTML in the font size of the page."""
-    return f"<div style='{_SMALL}'>{inner}</div>"
+    """Wrap HTML in the font size of the page; its classes are those of ``page.css``."""
+    return f"<div class='u-text'>{inner}</div>"
 
 
 def format_error(error: UrdftoolError) -> str:
@@ -35,13 +31,13 @@ def format_error(error: UrdftoolError) -> str:
     ]
     lines += error.notes
     text = "<br>".join(escape_html(line) for line in lines)
-    return _format_alert(f"{text}<br><i>The page shows the last valid version.</i>", "#e03131")
+    return _format_alert(f"{text}<br><i>The page shows the last valid version.</i>", Severity.ERROR)
 
 
 def format_bug(error: BaseException) -> str:
     """Format an exception of the page itself."""
     what = escape_html(f"{type(error).__name__}: {error}")
-    return _format_alert(f"Bug in urdftool (not in the robot): {what}", "#e03131")
+    return _format_alert(f"Bug in urdftool (not in the robot): {what}", Severity.ERROR)
 
 
 def format_notices(messages: Iterable[str]) -> str:
@@ -50,15 +46,12 @@ def format_notices(messages: Iterable[str]) -> str:
     if not lines:
         return ""
     rest = f"<br>… and {len(lines) - SAID} more" if len(lines) > SAID else ""
-    return _format_alert("<br>".join(escape_html(line) for line in lines[:SAID]) + rest, "#e8590c")
+    text = "<br>".join(escape_html(line) for line in lines[:SAID])
+    return _format_alert(text + rest, Severity.WARNING)
 
 
-def _format_alert(inner: str, color: str) -> str:
-    return wrap_html(
-        f"<div role='alert' style='border-left:4px solid {color};padding:.4em .6em;"
-        f"background:{color}18;overflow-wrap:anywhere;max-height:9em;overflow-y:auto'>"
-        f"{inner}</div>"
-    )
+def _format_alert(inner: str, severity: Severity) -> str:
+    return wrap_html(f"<div role='alert' class='u-alert u-{severity.label}'>{inner}</div>")
 
 
 def format_summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
@@ -81,10 +74,10 @@ def _count(number: int, what: str) -> str:
 
 def format_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
     """Format the properties of the selected link and its parent joint."""
-    text = f"<b style='overflow-wrap:anywhere'>{escape_html(name)}</b>{format_table(rows)}"
+    text = f"<b>{escape_html(name)}</b>{format_table(rows)}"
     joint = robot.tree.get_parent_joint(name)
     if joint is not None:
-        text += f"<b style='overflow-wrap:anywhere'>{escape_html(joint.name)}</b>"
+        text += f"<b>{escape_html(joint.name)}</b>"
         text += format_table(list_joint_rows(joint))
     return wrap_html(text)
 
@@ -103,7 +96,7 @@ def format_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
     )
     return wrap_html(
         f"<b>{_count(len(robot.links), 'link')}</b>{links}"
-        f"<b style='display:block;margin-top:.6em'>{_count(len(robot.joints), 'joint')}</b>{joints}"
+        f"<b class='u-joints'>{_count(len(robot.joints), 'joint')}</b>{joints}"
     )
 
 
@@ -115,14 +108,14 @@ def _link_hint(mass: float, findings: list[Finding]) -> str:
     if severity is None:
         return words
     text = format_counts(finding for finding in findings if finding.severity > Severity.INFO)
-    return f"{words} <span style='color:{COLORS[severity]}'>{text}</span>"
+    return f"{words} <span class='u-{severity.label}'>{text}</span>"
 
 
 def _format_details(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
     shown = escape_html(shorten_name(name) or "(no name)")
     return (
-        f"<details><summary style='cursor:pointer;overflow-wrap:anywhere'>{shown} "
-        f"<span style='opacity:.7'>{hint}</span></summary>{format_table(rows)}</details>"
+        f"<details><summary>{shown} "
+        f"<span class='u-more'>{hint}</span></summary>{format_table(rows)}</details>"
     )
 
 
@@ -143,14 +136,13 @@ def format_findings(findings: list[Finding] | None, found: Mapping[str, list[Fin
 
 
 def _format_finding(finding: Finding, links: list[str]) -> str:
-    color = COLORS[finding.severity]
+    kind = finding.severity.label
     where = f" · on {', '.join(shorten_name(link, 30) for link in links[:4])}" if links else ""
     more = " …" if len(links) > 4 else ""
     times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
     return (
-        f"<div style='border-left:4px solid {color};padding-left:.6em;margin:.5em 0;"
-        f"overflow-wrap:anywhere'><b style='color:{color}'>{finding.severity.label}</b> "
+        f"<div class='u-finding u-{kind}'><b class='u-{kind}'>{kind}</b> "
         f"{escape_html(finding.message + times)}<br>"
-        f"<span style='opacity:.65'>{escape_html(str(finding.location))} "
+        f"<span class='u-more'>{escape_html(str(finding.location))} "
         f"[{escape_html(finding.code)}]{escape_html(where + more)}</span></div>"
     )

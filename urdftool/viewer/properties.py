@@ -6,6 +6,7 @@ import html
 import math
 from collections.abc import Iterable, Iterator
 
+from ..control_characters import escape_controls
 from ..model.elements import (
     Box,
     Capsule,
@@ -36,9 +37,7 @@ Row = tuple[str, str]
 
 def shorten_name(name: str, longest: int = LONGEST) -> str:
     """Escape unprintable characters of a name and shorten it in its middle."""
-    text = "".join(
-        part if part.isprintable() else part.encode("unicode_escape").decode() for part in name
-    )
+    text = escape_controls(name)
     if len(text) <= longest:
         return text
     half = (longest - 1) // 2
@@ -53,11 +52,10 @@ def escape_html(text: str) -> str:
 def format_table(rows: Iterable[Row]) -> str:
     """Format rows of a label and a text as an HTML table."""
     cells = "".join(
-        f"<tr><td style='opacity:.6;padding:0 .7em .1em 0;vertical-align:top;white-space:nowrap'>"
-        f"{escape_html(label)}</td><td style='overflow-wrap:anywhere'>{escape_html(text)}</td></tr>"
+        f"<tr><td>{escape_html(label)}</td><td>{escape_html(text)}</td></tr>"
         for label, text in rows
     )
-    return f"<table style='border-spacing:0;width:100%'>{cells}</table>"
+    return f"<table>{cells}</table>"
 
 
 def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Row]:

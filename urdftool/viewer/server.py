@@ -2,21 +2,26 @@
 
 viser's own server uses the next port if one is taken, prints it on standard output, lets any
 website talk to it, and opens a tunnel to its makers' server on request of a page. This server does
-none of that: the port is checked in advance, requests must come from the page itself, and a
-Content-Security-Policy forbids the page to fetch anything from elsewhere.
+none of that: the port is checked in advance, requests must come from the page itself and know its
+token, and a Content-Security-Policy forbids the page to run or fetch anything from elsewhere.
 """
 
 from __future__ import annotations
 
 import errno
+import hmac
 import html
 import ipaddress
 import logging
+import os
+import re
+import secrets
 import socket
 from collections.abc import Callable
 from functools import partial
 from http import HTTPStatus
 from http.client import HTTPConnection
+from pathlib import Path
 from queue import Empty, SimpleQueue
 from threading import Event
 from typing import TYPE_CHECKING, Any
@@ -37,6 +42,7 @@ TRIED = 20
 
 _SECONDS = 10.0  # timeout of the first request to the server
 
+_STYLE = Path(__file__).with_name("page.css")
 _ORIGINAL_TITLE = b"<title>Viser</title>"
 
 
@@ -50,9 +56,14 @@ def is_loopback(host: str) -> bool:
         return False
 
 
-def make_url(host: str, port: int) -> str:
+def make_url(host: str, port: int, token: str) -> str:
     """Return the URL of the page; an IPv6 address is put in brackets."""
-    return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
+    return f"http://{f'[{host}]' if ':' in host else host}:{port}/{token}/"
+
+
+def make_token() -> str:
+    """Return a random text of 128 bits for the address of one page."""
+    return secrets.token_urlsafe(16)
 
 
 def choose_port(host: str, requested: int | None) -> int:
@@ -104,12 +115,13 @@ def is_free(host: str, port: int) -> bool:
     return True
 
 
-def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
+def start(host: str, port: int, token: str, title: Callable[[], str]) -> viser.ViserServer:
     """Start the server on an address.
 
     Args:
         host: The address.
         port: A free port.
+        token: First part of the path of each request; others are refused.
         title: Returns the title of the page, on each request.
 
     Raises:
@@ -135,15 +147,15 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
     try:
         if server.get_port() != port:
             raise AddressError(f"another program now uses port {port} of {host}; try again")
-        _guard(server, host, title)
+        _guard(server, partial(_handle_request, host, token, title))
     except BaseException:
         server.stop()
         raise
     return server
 
 
-def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
-    """Install :func:`_handle_request` as the request handler of a server that has just started.
+def _guard(server: Any, handle: Callable[..., Any]) -> None:
+    """Install a request handler in a server that has just started.
 
     viser accepts no request handler. The server of websockets has one as an attribute, and each
     connection refers to its server, so this function makes the first connection. Clients that
@@ -166,58 +178,70 @@ def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
 
     guarded = Event()
     inner.on_client_connect(note_server)
-    port = server.get_port()
+    host, port = server.get_host(), server.get_port()
     here = {"0.0.0.0": LOOPBACK, "": LOOPBACK, "::": "::1"}.get(host, host)
     version = f"viser-v{viser.__version__}"
     try:
         with connect(
-            f"{make_url(here, port).replace('http', 'ws', 1)}",
+            make_url(here, port, "").replace("http", "ws", 1),
             sock=socket.create_connection((here.strip("[]"), port), _SECONDS),
             subprotocols=[Subprotocol(version)],
         ):
             library = servers.get(timeout=_SECONDS)
-        library.process_request = partial(_handle_request, host, title, library.process_request)
+        library.process_request = partial(handle, library.process_request)
         guarded.set()
         inner.disconnect_all_clients()
         if not _refuses_others(here, port):
-            raise AddressError("this version of viser cannot refuse requests of other websites")
+            raise AddressError("this version of viser cannot refuse requests without the token")
     except (AttributeError, Empty, OSError, WebSocketException) as error:
         raise AddressError(f"this version of viser cannot serve the page: {error}") from None
 
 
 def _refuses_others(host: str, port: int) -> bool:
-    """Tell whether a request from another website is refused."""
+    """Tell whether a request without the token is refused."""
     link = HTTPConnection(host.strip("[]"), port, timeout=_SECONDS)
     try:
-        link.request("GET", "/", headers={"Origin": "http://another-site.invalid"})
+        link.request("GET", "/")
         return link.getresponse().status == HTTPStatus.FORBIDDEN
     finally:
         link.close()
 
 
 def _handle_request(
-    host: str, title: Callable[[], str], answer: Any, connection: Any, request: Any
+    host: str, token: str, title: Callable[[], str], answer: Any, connection: Any, request: Any
 ) -> Any:
-    """Refuse requests of other websites; add title, policy and headers to the page."""
-    asked = request.headers.get("Host", "")
-    origin = request.headers.get("Origin")
-    if is_loopback(host) and not is_loopback(urlsplit(f"//{asked}").hostname or ""):
+    """Refuse requests of other websites or without the token; add title and policy to the page."""
+    hosts, origins, upgrades = map(request.headers.get_all, ("Host", "Origin", "Upgrade"))
+    if len(hosts) != 1 or len(origins) > 1 or len(upgrades) > 1:
+        return connection.respond(400, "One Host, and at most one Origin and Upgrade.\n")
+    asked = hosts[0]
+    try:
+        name = urlsplit(f"//{asked}").hostname or ""
+        strange = any(urlsplit(origin).netloc != asked for origin in origins)
+    except ValueError:  # brackets without an address of IPv6
+        return connection.respond(400, "The Host or Origin header is malformed.\n")
+    if is_loopback(host) and not is_loopback(name):
         return connection.respond(403, f"This page is served for {host} only.\n")
-    if origin is not None and urlsplit(origin).netloc != asked:
+    if strange:
         return connection.respond(403, "Requests of other websites are refused.\n")
-    if request.headers.get("Upgrade", "").lower() == "websocket":
+    given, _, rest = request.path.partition("?")[0].removeprefix("/").partition("/")
+    if not hmac.compare_digest(os.fsencode(given), token.encode()):
+        return connection.respond(403, "Open the address that 'urdftool view' printed.\n")
+    request.path = f"/{rest}"
+    if upgrades and upgrades[0].lower() == "websocket":
         return answer(connection, request)
-    path = unquote(request.path.partition("?")[0]).replace("\\", "/")
+    path = unquote(request.path).replace("\\", "/")
     if ".." in path.split("/") or not path.isprintable():
         return connection.respond(404, "Page not found.\n")
     while "Accept-Encoding" in request.headers:
         del request.headers["Accept-Encoding"]
     response = answer(connection, request)
     if response is not None:
-        ours = f"<title>{html.escape(title())}</title>".encode()
-        response.body = (response.body or b"").replace(_ORIGINAL_TITLE, ours, 1)
-        response.headers["Content-Security-Policy"] = make_policy(asked)
+        nonce = make_token()
+        response.body = _write_head(response.body or b"", title(), nonce)
+        response.headers["Content-Security-Policy"] = make_policy(asked, nonce)
         response.headers["Referrer-Policy"] = "no-referrer"
+        response.headers["X-Content-Type-Options"] = "nosniff"
         response.headers["Cache-Control"] = "no-store"
         if "Content-Length" in response.headers:
             del response.headers["Content-Length"]
@@ -225,14 +249,51 @@ def _handle_request(
     return response
 
 
-def make_policy(asked: str) -> str:
+_SPREAD_NONCE = b"""<script nonce="NONCE">(() => {
+  const nonce = document.currentScript.nonce, create = Document.prototype.createElement;
+  Document.prototype.createElement = function (...given) {
+    const made = create.apply(this, given);
+    if (made instanceof HTMLScriptElement || made instanceof HTMLStyleElement) made.nonce = nonce;
+    return made;
+  };
+})();</script>"""
+"""Gives the nonce to the elements that the script of the library creates: its program, which it
+unpacks, and its style sheets. Elements that are written as HTML get none.
+"""
+
+
+def _write_head(body: bytes, title: str, nonce: str) -> bytes:
+    """Set the title of the page of viser, and the nonce of the scripts that are written in it."""
+    body = body.replace(_ORIGINAL_TITLE, f"<title>{html.escape(title)}</title>".encode(), 1)
+    body = body.replace(b"<script ", b'<script nonce="NONCE" ')
+    style = b'<style nonce="NONCE">' + _STYLE.read_bytes() + b"</style>"
+    body = body.replace(b"<head>", b"<head>" + _SPREAD_NONCE + style, 1)
+    return body.replace(b"NONCE", nonce.encode())
+
+
+def make_policy(asked: str, nonce: str) -> str:
     """Return the Content-Security-Policy: the page, its embedded data and its websocket only.
+
+    Scripts and style sheets need the nonce. ``wasm-unsafe-eval`` is for the program that unpacks
+    the page, which is WebAssembly; it does not allow ``eval`` of text. What the library does with
+    ``eval``, Gaussian splats and Plotly, does not occur on the page.
 
     Args:
         asked: Host header of the request; ignored if malformed.
+        nonce: Random text of this response.
     """
-    safe = asked if urlsplit(f"//{asked}").netloc == asked and not set(asked) & set("; ,") else ""
-    return (
-        "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; "
-        f"connect-src 'self' data: blob: ws://{safe}; frame-ancestors 'none'; form-action 'none'"
+    safe = asked if re.fullmatch(r"[\w.:\[\]-]+", asked, re.ASCII) else ""
+    return "; ".join(
+        (
+            "default-src 'none'",
+            f"script-src 'nonce-{nonce}' 'wasm-unsafe-eval'",
+            f"style-src 'nonce-{nonce}'",
+            "worker-src blob: data:",
+            "img-src data: blob:",
+            "font-src data:",
+            f"connect-src data: blob: ws://{safe}",
+            "base-uri 'none'",
+            "frame-ancestors 'none'",
+            "form-action 'none'",
+        )
     )

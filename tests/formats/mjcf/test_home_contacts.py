@@ -95,7 +95,9 @@ def test_an_srdf_of_the_moveit_package_is_offered(tmp_path):
     config = tmp_path / "arm_moveit_config" / "config"
     for folder in (package / "urdf", config):
         folder.mkdir(parents=True)
-    (package / "package.xml").write_text("<package><name>arm_description</name></package>")
+    for folder in (package, config.parent):
+        name = f"<package><name>{folder.name}</name></package>"
+        (folder / "package.xml").write_text(name)
     path = package / "urdf" / "arm.urdf"
     path.write_text(robot(link("a"), name="arm"))
     (config / "arm.srdf").write_text('<robot name="arm"/>')

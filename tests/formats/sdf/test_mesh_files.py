@@ -1,9 +1,8 @@
 """Meshes and textures: where they go, and what they bring along."""
 
-import struct
-
 import pytest
 
+from tests.assets import DAE, make_png, make_stl
 from urdftool.formats.common.directory import is_ours, write_export
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of
@@ -12,8 +11,8 @@ from urdftool.model.load import load
 
 from .robots import tree
 
-STL = b"\0" * 80 + struct.pack("<I", 0)
-PICTURE = b"\x89PNG\r\n\x1a\n"
+STL = make_stl()
+PICTURE = make_png()
 
 
 def shape(name, kind="visual"):
@@ -57,7 +56,7 @@ def test_packages_do_not_mix(write):
 
 
 def test_textures_of_meshes_come_along(write):
-    write("pkg/meshes/x.dae", "<COLLADA><init_from>../textures/wood.png</init_from></COLLADA>")
+    write("pkg/meshes/x.dae", DAE.format("<init_from>../textures/wood.png</init_from>"))
     write("pkg/meshes/y.obj", "mtllib y.mtl\nv 0 0 0\nf 1 1 1\n")
     write("pkg/meshes/y.mtl", "newmtl m\nmap_Kd skin.jpg\n")
     for name in ("textures/wood.png", "meshes/skin.jpg"):

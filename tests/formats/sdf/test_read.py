@@ -259,7 +259,8 @@ def test_the_model_with_most_joints_is_read(tmp_path):
     ]
 
 
-def test_the_name_and_pose_of_an_include_replace_those_of_the_model(tmp_path):
+def test_the_name_and_pose_of_an_include_replace_those_of_the_model(tmp_path, monkeypatch):
+    monkeypatch.setenv("URDFTOOL_TRUST", "1")  # the model is outside of the project
     text = f"""<sdf version="1.9"><world name="w"><include><uri>file://{HAND}</uri>
     <name>claw</name><pose>0 0 5 0 0 0</pose></include></world></sdf>"""
     (tmp_path / "w.sdf").write_text(text)

@@ -32,16 +32,18 @@ def find_file(robot: Robot, uri: str) -> Path | None:
         return None
 
 
-def find_companions(path: Path) -> Iterator[tuple[Path, str]]:
+def find_companions(robot: Robot, path: Path) -> Iterator[tuple[Path, str]]:
     """Yield the images, material and buffer files that a mesh refers to, with their relative names.
 
-    Absolute references, missing files and files of other kinds are skipped.
+    Absolute references, missing files, those that the description may not read, and files of other
+    kinds are skipped.
     """
     pattern = _NAMED.get(path.suffix.lower())
-    if pattern is None:
+    if pattern is None or robot.source is None:
         return
+    workspace = robot.source.workspace
     try:
-        data = path.read_bytes()
+        data = workspace.read_bytes(path)
     except OSError:
         return
     for raw in dict.fromkeys(pattern.findall(data)):
@@ -49,7 +51,7 @@ def find_companions(path: Path) -> Iterator[tuple[Path, str]]:
         if not name or name.startswith(("/", "data:")) or "://" in name:
             continue
         other = path.parent / name
-        if os.path.isfile(other) and is_companion(other):
+        if workspace.get_size(other) is not None and is_companion(other):
             yield other, name
 
 

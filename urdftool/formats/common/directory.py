@@ -15,6 +15,7 @@ from pathlib import Path
 
 from ... import __version__
 from ...errors import OutputError
+from ...leftovers import restore_folder
 from ...output import check_folder
 from ...storage import write_files, write_folder
 from ..written import Written
@@ -83,6 +84,7 @@ def write_directory(
     """
     folder = Path(os.path.realpath(target))
     _check_place(folder, target)
+    restore_folder(folder)
     if folder.is_file():
         raise OutputError("is a file; give the name of a folder", path=target)
     there = folder.is_dir() and any(folder.iterdir())

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import SourceError
+from ...errors import AccessError, SourceError
 from ...finding import Finding
 from ...model.elements import Link, Mesh, Robot
 from ..defects import make_defect
@@ -38,6 +38,8 @@ def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
         return MissingFile("names no file")
     try:
         path = Path(robot.source.resolve(filename))
+    except AccessError as error:
+        return MissingFile("is not read", error.message, error.message)
     except SourceError as error:
         scheme, separator, rest = filename.partition("://")
         package = scheme + separator + rest.lstrip("/").partition("/")[0]

@@ -39,9 +39,8 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
         SourceError: The file cannot be read.
         ModelError: Its root element is not ``<robot>``.
     """
-    named = packages.named if packages is not None else {}
-    paths = packages.paths if packages is not None else []
-    root = read_description(path, packages=named, package_paths=paths).document.root
+    finder = None if packages is None else packages.make_finder_for(path)
+    root = read_description(path, finder=finder).document.root
     if root.tag != "robot":
         raise ModelError(
             f"the root element is <{root.tag}>; an SRDF file starts with <robot>", at=root.place

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Sequence
-from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 from ...geometry.mesh import MeshNote
 from ...parallel import count_cores, map_tasks, yield_in_order
+from ...source.access import check_companion
 from ...source.description import GltfUp
-from ...storage import DiskCache, cache_folder, cache_key
+from ...storage import DiskCache, cache_folder, cache_key, join_parts, split_parts
 from .convert import Converted, Piece, call_conversion
 
-_VERSION = 8
+_VERSION = 9
 _BIG = 400_000
 
 
@@ -54,12 +54,13 @@ def _convert(job: Job) -> Converted | str:
 def _get_key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
     """Return the key of a conversion; None if it depends on more than can be read cheaply."""
     suffix = path.suffix.lower()
-    if suffix == ".gltf":
+    if suffix == ".gltf" or not path.is_file():
         return None  # its buffers are separate files
     try:
         inputs = [path.read_bytes()]
         if suffix == ".obj":
-            inputs += [(path.parent / name).read_bytes() for name in _list_libraries(inputs[0])]
+            others = dict.fromkeys(path.parent / name for name in _list_libraries(inputs[0]))
+            inputs += [check_companion(path, o).read_bytes() for o in others if o.is_file()]
     except (OSError, ValueError):
         return None
     return cache_key(_VERSION, [collides, suffix, gltf_up if suffix == ".glb" else ""], inputs)
@@ -75,45 +76,44 @@ def _decode(entry: bytes | None, path: Path) -> Converted | None:
     """Decode the conversion of a file from a cache entry; return None if the entry is not valid."""
     if entry is None:
         return None
-    stream = BytesIO(entry)
     try:
-        head = json.loads(stream.readline())
-        pieces = []
-        for facts in head["pieces"]:
-            data = None if facts["bytes"] is None else stream.read(facts["bytes"])
-            rgba = None if facts["rgba"] is None else tuple(facts["rgba"])
-            texture: Path | bytes | None = None
-            if facts["texture"] is not None:
-                texture = path.parent / facts["texture"]
-            if facts["image"] is not None:
-                texture = stream.read(facts["image"])
-            pieces.append(Piece(data, rgba, texture, facts["shell"]))
-        notes = [MeshNote(*note) for note in head["notes"]]
-        return Converted(pieces, head["hull"], notes, head["thick"])
-    except (ValueError, KeyError, TypeError):
+        head, parts = split_parts(entry)
+        pieces = [_decode_piece(table, parts, path.parent) for table in head["pieces"]]
+        notes = [MeshNote(str(code), str(text), bool(lossy)) for code, text, lossy in head["notes"]]
+        hull = None if head["hull"] is None else float(head["hull"])
+        return Converted(pieces, hull, notes, bool(head["thick"]))
+    except (ValueError, KeyError, TypeError, IndexError, OverflowError):
         return None
+
+
+def _decode_piece(table: dict[str, Any], parts: list[bytes], folder: Path) -> Piece:
+    """Decode a piece, and remove its bytes from the list."""
+    data = parts.pop(0) if table["bytes"] else None
+    rgba = None
+    if table["rgba"] is not None:
+        red, green, blue, alpha = map(float, table["rgba"])
+        rgba = red, green, blue, alpha
+    texture: Path | bytes | None = None
+    if table["image"]:
+        texture = parts.pop(0)
+    elif table["texture"] is not None:
+        texture = folder / table["texture"]
+    return Piece(data, rgba, texture, bool(table["shell"]))
 
 
 def _encode(made: Converted, path: Path) -> bytes:
     """Encode a conversion as a cache entry."""
-    head = {
-        "hull": made.hull,
-        "notes": made.notes,
-        "thick": made.thick,
-        "pieces": [
-            {
-                "bytes": None if piece.data is None else len(piece.data),
-                "rgba": piece.rgba,
-                "texture": os.path.relpath(piece.texture, path.parent)
-                if isinstance(piece.texture, Path)
-                else None,
-                "image": len(piece.texture) if isinstance(piece.texture, bytes) else None,
-                "shell": piece.shell,
-            }
-            for piece in made.pieces
-        ],
-    }
-    parts = [json.dumps(head).encode() + b"\n"]
+    pieces, parts = [], []
     for piece in made.pieces:
-        parts += [piece.data or b"", piece.texture if isinstance(piece.texture, bytes) else b""]
-    return b"".join(parts)
+        texture = piece.texture
+        table = {
+            "bytes": piece.data is not None,
+            "rgba": piece.rgba,
+            "image": isinstance(texture, bytes),
+            "texture": os.path.relpath(texture, path.parent) if isinstance(texture, Path) else None,
+            "shell": piece.shell,
+        }
+        pieces.append(table)
+        parts += [part for part in (piece.data, texture) if isinstance(part, bytes)]
+    head = {"hull": made.hull, "notes": made.notes, "thick": made.thick, "pieces": pieces}
+    return join_parts(head, parts)

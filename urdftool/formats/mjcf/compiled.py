@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...errors import MissingDependency, OutputError
-from ...extras import make_missing_error
+from ...errors import OutputError
+from ...extras import is_installed, make_missing_error
+from ...isolated import ProcessDied
+from ...limited import Limits, call_with_limits
 from ..common.directory import write_directory
 from ..mechanics import GRAVITY, Array
 from ..registry import format_named
 from ..written import Written
+
+_LIMITS = Limits(time=300.0)
+"""Limits of compiling an export, whose size that of the robot limits."""
 
 _PLAIN = (
     "<mujoco><asset><material name='plain'/></asset>"
@@ -37,6 +42,11 @@ def import_mujoco_module() -> Any:
     return mujoco
 
 
+def _check_name(path: Path) -> str:
+    """Return a path as text; raise :class:`UnicodeEncodeError` if it is not UTF-8."""
+    return str(path).encode("utf-8").decode("utf-8")
+
+
 def compile_file(path: Path) -> tuple[Any, list[str]]:
     """Compile a file.
 
@@ -55,8 +65,12 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            model = mujoco.MjModel.from_xml_path(str(path))
-    except ValueError as error:
+            model = mujoco.MjModel.from_xml_path(_check_name(path))
+    except UnicodeEncodeError:
+        raise OutputError(
+            "MuJoCo reads only files whose name is UTF-8; use another name", path=path.name
+        ) from None
+    except (ValueError, mujoco.FatalError) as error:
         reason = " ".join(str(error).replace(f"{path.parent}{os.sep}", "").split())
         raise OutputError(
             f"MuJoCo does not compile the export, so nothing is written: {reason}", path=path.name
@@ -71,9 +85,7 @@ def compile_copy(written: Written) -> None:
     Raises:
         OutputError: The model, or the scene around it, does not compile.
     """
-    try:
-        import_mujoco_module()
-    except MissingDependency:
+    if not is_installed("mujoco"):
         return
     with copy_export(written) as folder:
         compile_all(written, folder)
@@ -86,9 +98,26 @@ def compile_all(written: Written, folder: Path) -> None:
         MissingDependency: MuJoCo is not installed.
         OutputError: One of them does not compile.
     """
-    for name, content in written.files.items():
-        if isinstance(content, bytes) and format_named("mjcf").has_suffix(name):
-            compile_file(folder / name)
+    if not is_installed("mujoco"):
+        raise make_missing_error("mujoco", "--verify")
+    paths = [
+        folder / name
+        for name, content in written.files.items()
+        if isinstance(content, bytes) and format_named("mjcf").has_suffix(name)
+    ]
+    try:
+        call_with_limits(_compile_files, paths, limits=_LIMITS)
+    except ProcessDied as error:
+        raise OutputError(
+            f"MuJoCo crashes on the export, so nothing is written: {error.message}",
+            path=written.main,
+            notes=error.output,
+        ) from None
+
+
+def _compile_files(paths: Iterable[Path]) -> None:
+    for path in paths:
+        compile_file(path)
 
 
 @contextmanager
@@ -190,15 +219,28 @@ class Compiled:
             joint = self.get_id("JOINT", name)
             if joint >= 0:
                 self.data.qpos[self.model.jnt_qposadr[joint]] = value
-        self.mujoco.mj_fwdPosition(self.model, self.data)
-        self.mujoco.mj_fwdVelocity(self.model, self.data)
+        self._compute_state()
         self.mujoco.mj_camlight(self.model, self.data)
 
     def set_pose_at_key(self, key: int) -> None:
         """Set the state to a keyframe."""
         self.mujoco.mj_resetDataKeyframe(self.model, self.data, key)
-        self.mujoco.mj_fwdPosition(self.model, self.data)
-        self.mujoco.mj_fwdVelocity(self.model, self.data)
+        self._compute_state()
+
+    def _compute_state(self) -> None:
+        """Compute what depends on the positions.
+
+        Raises:
+            OutputError: MuJoCo stops, as it has not enough memory for the contacts.
+        """
+        try:
+            self.mujoco.mj_fwdPosition(self.model, self.data)
+            self.mujoco.mj_fwdVelocity(self.model, self.data)
+        except self.mujoco.FatalError as error:
+            reason = " ".join(str(error).split())
+            raise OutputError(
+                f"MuJoCo stops at the model, which is not verified: {reason}"
+            ) from None
 
     def get_positions_of_key(self, key: int) -> dict[str, float]:
         """Return the position [rad or m] of each hinge and slide in a keyframe, by name."""

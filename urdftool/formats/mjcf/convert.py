@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import MeshError
-from ...geometry.hull import compute_convex_hull
+from ...geometry.hull import compute_convex_hull, extract_hull_surface
 from ...geometry.load import load_mesh
 from ...geometry.mesh import Faces, Mesh, MeshNote, Part, Points
 from ...geometry.stl_header import read_stl_header
@@ -29,8 +29,19 @@ FLAT = 1e-6
 THICKENED = 1e-3
 """Thickness that a flat collision mesh gets, relative to its size."""
 
+MAX_FACET = 3000
+"""Corners of one flat side of a hull up to which MuJoCo 3.3 computes it within 0.5 s of processor
+time; the time grows with their square, and 30,000 corners take minutes. Measured on cones."""
+
 LONG_FACE = re.compile(rb"\nf(?:[ \t]+\S+){101}")
 """A polygon of more than 100 vertices, which MuJoCo skips without a warning."""
+
+_FACET_NOTE = MeshNote(
+    "facet",
+    f"The convex hull has a flat side of more than {MAX_FACET} corners, which MuJoCo computes too "
+    "slowly; collision uses a hull with fewer corners.",
+    lossy=True,
+)
 
 Rgba = tuple[float, float, float, float]
 Image = Path | bytes
@@ -112,6 +123,10 @@ def _make_collision(mesh: Mesh, copied: bool, notes: list[MeshNote]) -> Converte
         )
         notes.append(MeshNote("flat-mesh", message, lossy=True))
         return Converted([Piece(_convert_thick_obj(corners))], None, notes, thick=True)
+    simple = _simplify_hull(mesh.vertices)
+    if simple is not None:
+        notes.append(_FACET_NOTE)
+        return Converted([Piece(write_obj_bytes(*simple))], None, notes)
     data = None if copied else write_obj_bytes(mesh.vertices, mesh.faces)
     shell = _is_shell(mesh.vertices, mesh.faces)
     return Converted([Piece(data, shell=shell)], _compute_hull_ratio(mesh), notes)
@@ -178,6 +193,13 @@ def _convert_thick_obj(corners: Points) -> bytes:
     centered = points - points.mean(axis=0)
     normal = np.linalg.eigh(centered.T @ centered)[1][:, 0]
     offset = normal * size * THICKENED / 2
+    if len(points) > MAX_FACET:
+        points = np.unique(points, axis=0)
+        layers = np.concatenate([points + offset, points - offset])
+        hull = compute_convex_hull(layers)
+        if hull is not None:
+            return write_obj_bytes(*(_simplify_hull(layers) or extract_hull_surface(hull)))
+        points = corners[0]
     layers = np.concatenate([points + offset, points - offset])
     count = len(points)
     faces = np.arange(count).reshape(-1, 3)
@@ -187,6 +209,38 @@ def _convert_thick_obj(corners: Points) -> bytes:
         walls.append(np.stack([first, first + count, second], axis=1))
         walls.append(np.stack([second, first + count, second + count], axis=1))
     return write_obj_bytes(layers, np.concatenate([faces, faces[:, ::-1] + count, *walls]))
+
+
+def _simplify_hull(points: Points) -> tuple[Points, Faces] | None:
+    """Return a hull without a flat side of more than :data:`MAX_FACET` corners.
+
+    The points are rounded to a grid as fine as possible, of at most 1024 cells along each axis.
+
+    Returns:
+        Its vertices and triangles; None if the hull has no such side.
+    """
+    cells = 1024
+    low, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
+    rounded = points
+    while len(rounded) > MAX_FACET and cells >= 64:
+        hull = compute_convex_hull(rounded)
+        if hull is None:
+            break
+        vertices, faces = extract_hull_surface(hull)
+        if _count_facet_corners(vertices, faces) <= MAX_FACET:
+            return None if rounded is points else (vertices, faces)
+        grid = np.round((vertices - low) * (cells / size)) * (size / cells) + low
+        rounded, cells = np.unique(grid, axis=0), cells // 2
+    hull = None if rounded is points else compute_convex_hull(rounded)
+    return None if hull is None else extract_hull_surface(hull)
+
+
+def _count_facet_corners(vertices: Points, faces: Faces) -> int:
+    """Count the corners of the largest flat side of a hull."""
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    return int(np.unique(np.round(normals, 5), axis=0, return_counts=True)[1].max()) + 2
 
 
 def compute_signed_volume(vertices: Points, faces: Faces) -> float:

@@ -27,6 +27,10 @@ from .structure import Structure
 OVERLAP = 1e-3
 """Penetration depth [m] above which two links overlap; less is a contact, as of closed fingers."""
 
+MOST_GEOMS = 2000
+"""Number of collision geoms up to which overlaps are looked for: MuJoCo stores each contact, and
+geoms at one place need memory for the square of their number. Robots have up to some hundred."""
+
 SHOWN = 8
 """Maximum number of pairs that the warning lists."""
 
@@ -82,7 +86,16 @@ def exclude_overlapping(
         import_mujoco_module()
     except MissingDependency:
         return
-    deepest = _find_overlaps(sections, bodies, assets, positions, written)
+    try:
+        deepest = _find_overlaps(sections, bodies, assets, positions, written)
+    except _NotChecked as error:
+        written.report_loss(
+            "overlap",
+            f"overlaps of links at home are not looked for: {error}",
+            structure.robot.place,
+            hint="'urdftool lint' reports overlaps of links at rest",
+        )
+        return
     measure = options.overlap
     pairs = [
         Pair(
@@ -103,6 +116,10 @@ def exclude_overlapping(
     _report(structure, pairs, options, written)
 
 
+class _NotChecked(Exception):  # noqa: N818 -- reads as what happened
+    """Reason why overlaps are not looked for."""
+
+
 def _find_overlaps(
     sections: Mapping[str, etree._Element],
     bodies: Bodies,
@@ -110,10 +127,18 @@ def _find_overlaps(
     positions: Mapping[str, float],
     written: Written,
 ) -> dict[tuple[str, str], float]:
-    """Find the pairs of links that overlap, with their penetration depths [m]."""
+    """Find the pairs of links that overlap, with their penetration depths [m].
+
+    Raises:
+        OutputError: The model does not compile.
+        _NotChecked: The model has too many geoms, or MuJoCo has not enough memory for its contacts.
+    """
     with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
         path = Path(place) / "home.xml"
         model, files = _copy_collision_model(sections, assets)
+        count = sum(1 for _ in model.iter("geom"))
+        if count > MOST_GEOMS:
+            raise _NotChecked(f"the model has {count} geoms, more than the limit of {MOST_GEOMS}")
         path.write_bytes(etree.tostring(model))
         for name in files & written.files.keys():
             content, target = written.files[name], Path(place) / name
@@ -129,7 +154,10 @@ def _find_overlaps(
         joint = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_JOINT, name)
         if joint >= 0:
             data.qpos[compiled.jnt_qposadr[joint]] = value
-    mujoco.mj_forward(compiled, data)
+    try:
+        mujoco.mj_forward(compiled, data)
+    except mujoco.FatalError as error:
+        raise _NotChecked(f"MuJoCo stops: {' '.join(str(error).split())}") from None
     link_of = {body.get("name", "world"): link for link, body in bodies.items()}
     found: dict[tuple[str, str], float] = {}
     for number in range(data.ncon):

@@ -146,12 +146,21 @@ class Materials:
         self._used[key] = element.get("name", "")
         return self._used[key]
 
+    def _read_image(self, image: Image) -> bytes:
+        """Return the content of an image; nothing if the description may not read it."""
+        if isinstance(image, bytes) or self._robot.source is None:
+            return b"" if isinstance(image, Path) else image
+        try:
+            return self._robot.source.workspace.read_bytes(image)
+        except OSError:
+            return b""
+
     def _get_texture(self, image: Image, visual: Visual, mesh: str) -> str | None:
         if image in self._textures:
             return self._textures[image]
         file = f"in {mesh}" if isinstance(image, bytes) else image.name
         stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
-        data = get_png(image)
+        data = get_png(self._read_image(image))
         if data is None:
             named = visual.material.name if visual.material is not None else ""
             self._report_image_loss(

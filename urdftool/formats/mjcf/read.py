@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from ...diagnostic import Severity
-from ...errors import ModelError
+from ...errors import ModelError, SourceError
 from ...extras import is_installed, make_missing_error
-from ...isolated import IsolatedProcess, ProcessDied, ProcessTimeout
+from ...limited import call_with_limits
 from ...model.elements import Robot
 from ...model.provenance import Written
 from ...source.description import Description
@@ -22,10 +22,18 @@ from ...source.document import STDIN, Document
 from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import LARGEST, Losses, Reading, open_description
-from .read_compile import TIME_LIMIT, Compiled
+from ..reading import (
+    LARGEST,
+    Losses,
+    Reading,
+    choose_limits,
+    open_description,
+    report_limits,
+)
+from .read_compile import LIMITS, Compiled, compile_text, import_library
 from .read_context import Context
 from .read_extras import add_extras
+from .read_files import check_files
 from .read_shapes import add_shapes
 from .read_text import Expanded, expand
 from .read_tree import add_tree
@@ -56,7 +64,8 @@ def read(
         raise make_missing_error("mujoco", "an MJCF file")
     file, finder, workspace = open_description(path, file, packages, workspace)
     expanded = expand(file, workspace)
-    compiled = _compile(expanded)
+    check_files(expanded, finder.access)
+    compiled = _compile(expanded, workspace)
     losses = Losses()
     context = Context(expanded, compiled, losses)
     written = Written(expanded.root.place)
@@ -97,29 +106,28 @@ def _check_magnitudes(context: Context) -> None:
                     raise ModelError(f"{text}; write a plausible number", at=at)
 
 
-def _compile(expanded: Expanded) -> Compiled:
+def _compile(expanded: Expanded, workspace: Workspace) -> Compiled:
     """Compile a model in another process.
 
     Raises:
-        ModelError: MuJoCo does not compile it, crashes or takes too long.
+        SourceError: A file that it names cannot be read.
+        ModelError: MuJoCo does not compile it, crashes or exceeds its limits.
     """
     path = expanded.files[0].path
     folder = os.path.dirname(os.path.abspath(path)) if path != STDIN else os.getcwd()
-    place = expanded.root.place
-    try:
-        with IsolatedProcess("mujoco") as process:
-            compiled: Compiled = process.call(
-                "urdftool.formats.mjcf.read_compile",
-                "compile_text",
-                expanded.text,
-                expanded.models,
-                folder,
-                time_limit=TIME_LIMIT,
-            )
-    except ProcessTimeout as error:
-        raise ModelError(f"compiling the model with MuJoCo {error.message}", at=place) from None
-    except ProcessDied as error:
-        raise ModelError("MuJoCo crashes on the model", at=place, notes=error.notes) from None
+    paths = {name: asset.path for name, asset in expanded.assets.items()}
+    arguments = (expanded.text, expanded.models, paths, folder, workspace)
+    with report_limits("MuJoCo", "model", expanded.root.place):
+        compiled, read = call_with_limits(
+            compile_text,
+            *arguments,
+            limits=choose_limits(LIMITS, workspace),
+            prepare=import_library,
+        )
+    if workspace.dependencies is not None:
+        workspace.dependencies.include(read)
+    if compiled.error_file:
+        raise SourceError(compiled.error, at=expanded.assets[compiled.error_file].element.place)
     if compiled.error:
         at = expanded.get_element_at(compiled.error_line).place
         raise ModelError(f"MuJoCo does not compile the model: {compiled.error}", at=at)

@@ -6,18 +6,28 @@ are those of the compiled model. Angles are in radians, quaternions are ``(w, x,
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ...dependencies import Dependencies
+from ...errors import SourceError
+from ...limited import Limits, open_no_files
+from ...workspace import Workspace
+from .read_assets import read_assets
+
 Row = dict[str, Any]
 
-TIME_LIMIT = 300.0
-"""Time after which a compilation is given up [s]."""
+LIMITS = Limits(time=300.0, processor=15.0, memory=640 << 20)
+"""Limits of a compilation. Chosen so that a command stays below 20 s and 1 GiB; no source."""
 
 _LINE = re.compile(r"line\D{0,3}(\d+)", re.IGNORECASE)
+
+_NO_MEMORY = re.compile("allocate memory|unknown exception")
+"""Errors of MuJoCo, and of its bindings for exceptions of C++, when memory is exhausted."""
+
+_ASSET = re.compile(r"asset-\d+[\w.]*")
 
 
 @dataclass
@@ -31,6 +41,7 @@ class Compiled:
         warnings: Warnings of the compiler.
         error: Reason why it does not compile; empty if it does.
         error_line: Line of the error; 0 if unknown.
+        error_file: Name of the file that cannot be read.
     """
 
     name: str
@@ -39,51 +50,68 @@ class Compiled:
     warnings: list[str]
     error: str = ""
     error_line: int = 0
+    error_file: str = ""
 
 
-def compile_text(text: str, models: Mapping[str, bytes], folder: str) -> Compiled:
-    """Compile a model.
+def import_library() -> None:
+    """Import MuJoCo."""
+    import mujoco  # type: ignore[import-untyped,unused-ignore]  # noqa: F401
+
+
+def compile_text(
+    text: str, models: Mapping[str, bytes], paths: dict[str, str], folder: str, workspace: Workspace
+) -> tuple[Compiled, Dependencies]:
+    """Compile a model, and return the files that were read.
 
     Args:
         text: XML without includes.
-        models: Text of attached models by path as written.
-        folder: Folder to which the paths of assets are relative.
+        models: Text of attached models by name.
+        paths: Path of each other file by name.
+        folder: Folder to which the paths are relative.
+        workspace: Access to files.
     """
+    view = workspace.with_record()
+    assert view.dependencies is not None
+    try:
+        assets = read_assets(paths, folder, view)
+    except SourceError as error:
+        missing = Compiled("", {}, [], [], error.message, error_file=error.data["name"])
+        return missing, view.dependencies
+    return _compile(text, models, assets, paths), view.dependencies
+
+
+def _compile(
+    text: str, models: Mapping[str, bytes], assets: dict[str, bytes], paths: dict[str, str]
+) -> Compiled:
     import warnings
 
     import mujoco  # type: ignore[import-untyped,unused-ignore]
 
     said: list[str] = []
-    spec = None
     mujoco.set_mju_user_warning(said.append)  # else MuJoCo writes a log file
     try:
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught, open_no_files():
             warnings.simplefilter("always")
             options = {"include": dict(models)} if models else {}
-            spec = mujoco.MjSpec.from_string(text, **options)
-            spec.modelfiledir = folder
+            spec = mujoco.MjSpec.from_string(text, assets=assets, **options)
             _keep_all(spec)
             model = spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
+    except (ValueError, RuntimeError, mujoco.FatalError) as error:
+        if _NO_MEMORY.search(str(error)) and not _LINE.search(str(error)):
+            raise MemoryError from None
         line = _LINE.search(str(error))
         reason = " ".join(_LINE.sub("", str(error)).split()).strip(" ,")
-        at = int(line[1]) if line else _find_missing_asset(spec, folder)
-        return Compiled("", {}, [], said, reason, at)
+        for name in set(_ASSET.findall(reason)):
+            reason = reason.replace(name, paths.get(name, name))
+        return Compiled("", {}, [], said, reason, int(line[1]) if line else 0)
     said += [str(warning.message) for warning in caught]
     rows = {kind: read(spec, model, mujoco) for kind, read in _READERS.items()}
+    for row in (*rows["mesh"], *rows["material"]):
+        for name in {"file", "texture"} & row.keys():
+            row[name] = paths.get(row[name], "")
     names = [key.name for key in spec.keys]
     keys = [(names[i], model.key_qpos[i].tolist()) for i in range(model.nkey)]
     return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(said)))
-
-
-def _find_missing_asset(spec: Any, folder: str) -> int:
-    """Return the line of the first asset whose file is missing, of which MuJoCo gives no line."""
-    for kind, place in (("meshes", "meshdir"), ("hfields", "meshdir"), ("textures", "texturedir")):
-        for asset in getattr(spec, kind, ()):
-            path = _make_asset_path(asset.file, _get_folder(spec, asset, place), spec.strippath)
-            if path and not os.path.exists(os.path.join(folder, path)):
-                return _get_line(asset)
-    return 0
 
 
 def _keep_all(spec: Any) -> None:
@@ -162,34 +190,14 @@ def _list_meshes(spec: Any, model: Any, _: Any) -> list[Row]:
     rows = []
     for i, mesh in enumerate(_sort_by_id(spec.meshes)):
         row = {**_make_row(mesh), **_list_values(model, "mesh", i, ("pos", "quat"))}
-        row["file"] = _make_asset_path(
-            mesh.file, _get_folder(spec, mesh, "meshdir"), spec.strippath
-        )
+        row["file"] = mesh.file
         row |= {name: getattr(mesh, name).tolist() for name in ("scale", "refpos", "refquat")}
         rows.append(row)
     return rows
 
 
-def _get_folder(spec: Any, element: Any, name: str) -> str:
-    """Return the folder of an asset; an attached model has its own."""
-    own = getattr(element, "compiler", None)
-    return str(getattr(own, name, "") or getattr(spec, name))
-
-
-def _make_asset_path(file: str, folder: str, strip: bool) -> str:
-    """Return the path of an asset as MuJoCo forms it; empty if it has no file."""
-    if not file:
-        return ""
-    return os.path.join(folder, os.path.basename(file) if strip else file)
-
-
 def _list_materials(spec: Any, model: Any, _: Any) -> list[Row]:
-    files = {
-        texture.name: _make_asset_path(
-            texture.file, _get_folder(spec, texture, "texturedir"), spec.strippath
-        )
-        for texture in spec.textures
-    }
+    files = {texture.name: texture.file for texture in spec.textures}
     rows = []
     for i, material in enumerate(_sort_by_id(spec.materials)):
         row = {**_make_row(material), "rgba": model.mat_rgba[i].tolist()}

@@ -12,7 +12,9 @@ from io import BytesIO
 from pathlib import Path
 from zlib import crc32
 
+from ...errors import MeshError
 from ...extras import make_missing_error
+from ...geometry.image_file import MAX_PIXELS, open_image
 from ...storage import DiskCache, cache_folder, cache_key
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -53,6 +55,8 @@ def _get_plain(data: bytes) -> bytes | None:
         return None
     header = chunks[0][1]
     if len(header) != 13 or header[9] not in _COLOR_TYPES:
+        return None
+    if int.from_bytes(header[:4], "big") * int.from_bytes(header[4:8], "big") > MAX_PIXELS:
         return None
     color = header[9]
     parts: dict[bytes, list[bytes]] = {}
@@ -106,7 +110,7 @@ def _convert(data: bytes) -> bytes | None:
     store = DiskCache(cache_folder("mjcf-textures"))
     key = cache_key(_VERSION, COMPRESSION, [data])
     found = store.get(key)
-    if found is not None:
+    if found is not None and found.startswith(SIGNATURE):
         return found
     made = _convert_png_bytes(data)
     if made is not None:
@@ -122,11 +126,13 @@ def _convert_png_bytes(data: bytes) -> bytes | None:
         MissingDependency: Pillow is not installed.
     """
     try:
-        from PIL import Image
+        opened = open_image(data)
     except ImportError as error:
         raise make_missing_error("PIL", "converting a texture to PNG") from error
+    except MeshError:
+        return None
     try:
-        with Image.open(BytesIO(data)) as picture:
+        with opened as picture:
             target = BytesIO()
             see_through = "A" in picture.getbands() or "transparency" in picture.info
             plain = picture.convert("RGBA" if see_through else "RGB")

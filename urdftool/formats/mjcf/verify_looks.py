@@ -6,13 +6,13 @@ import math
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...errors import UrdftoolError
+from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
 from ...model.elements import Link, Material, Mesh, Robot, Visual
 from ..check import Check
@@ -176,9 +176,7 @@ class Pictures:
 def _get_by_pillow(data: bytes) -> Any:
     """Return red, green and blue of an image that is not a PNG; None if it cannot be read."""
     try:
-        from PIL import Image as Pillow
-
-        with Pillow.open(BytesIO(data)) as picture:
+        with open_image(data) as picture:
             return np.array(picture.convert("RGBA"))[:, :, :3]
     except Exception:  # Pillow raises arbitrary exceptions for damaged files
         return None

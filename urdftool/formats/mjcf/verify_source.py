@@ -133,12 +133,9 @@ class Source:
         """Return the root element of the SRDF, if there is one."""
         if self.options.srdf is None:
             return None
-        packages = self.robot.source.packages if self.robot.source is not None else None
-        return read_description(
-            self.options.srdf,
-            packages=packages.named if packages is not None else {},
-            package_paths=packages.paths if packages is not None else [],
-        ).document.root
+        path, source = self.options.srdf, self.robot.source
+        finder = None if source is None else source.packages.make_finder_for(path)
+        return read_description(path, finder=finder).document.root
 
     @property
     def is_free(self) -> bool:

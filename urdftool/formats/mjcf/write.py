@@ -20,7 +20,7 @@ from ..common.naming import replace_file_name
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
 from ..common.unexpressed import report_unexpressed
-from ..defects import FATAL, make_defect, refuse, report_defects, report_taken_world
+from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .home import choose_home_positions, place_home
 from .inertials import compute_inertials
@@ -62,6 +62,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         *([] if options.force else world),
         *report_defects(robot),
         *validate(robot, "export:mjcf"),
+        *report_size(robot, "MJCF"),
     ]
     if any(finding.code in FATAL for finding in found):
         refuse(found, force=options.force)
@@ -157,7 +158,8 @@ def _list_candidates(path: Path) -> Iterator[Path]:
 
 def _is_of(file: Path, robot: Robot) -> bool:
     try:
-        root = parse(read_file(shorten_path(file))).root
+        workspace = None if robot.source is None else robot.source.workspace
+        root = parse(read_file(shorten_path(file), workspace)).root
     except SourceError:
         return False
     return root.tag == "robot" and root.get("name") == robot.name

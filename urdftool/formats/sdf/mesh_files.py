@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 
 from ...model.elements import Mesh, Robot
 from ...source.packages import find_own_package
-from ..common.asset_filter import explain_invalid_mesh, is_image
+from ..common.asset_filter import explain_uncopied
 from ..common.assets import find_companions, find_file, get_package_path
 from ..common.naming import get_first_free, list_numbered_names
 from .names import get_model_name
@@ -103,7 +103,7 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
     meshes = MeshFiles(options, get_model_name(robot))
     for name in dict.fromkeys([*names, *textures]):
         meshes.found[name] = path = find_file(robot, name)
-        why = _explain_refusal(path, mesh=name in names) if path is not None else ""
+        why = explain_uncopied(path, is_mesh=name in names) if path is not None else ""
         if why:
             meshes.found[name], meshes.refused[name] = None, why
     if options.classic:
@@ -111,7 +111,7 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
             meshes.pictures = choose_picture_names(meshes.robot, _get_there(meshes, textures))
     else:
         names += textures
-    _give_places(meshes, _get_there(meshes, names))
+    _give_places(robot, meshes, _get_there(meshes, names))
     return meshes
 
 
@@ -119,13 +119,6 @@ def _get_there(meshes: MeshFiles, names: list[str]) -> list[Path]:
     """Return the files of URIs, each once, without missing files."""
     found = (meshes.found[name] for name in names)
     return list(dict.fromkeys(path for path in found if path is not None))
-
-
-def _explain_refusal(path: Path, *, mesh: bool) -> str:
-    """Explain why a file is not a mesh or image; return "" if it is."""
-    if mesh:
-        return explain_invalid_mesh(path)
-    return "" if is_image(path) else "it is no image"
 
 
 def _format_package_uri(filename: str, path: Path) -> str:
@@ -137,7 +130,7 @@ def _format_package_uri(filename: str, path: Path) -> str:
     return f"package://{own[0]}/{path.resolve().relative_to(own[1].resolve()).as_posix()}"
 
 
-def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
+def _give_places(robot: Robot, meshes: MeshFiles, wanted: list[Path]) -> None:
     """Assign paths that keep the folders of a package, so that relative references stay valid."""
     homes = {path: get_package_path(path) for path in wanted}
     several = len({package for package, _ in homes.values()}) > 1
@@ -152,7 +145,7 @@ def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
         meshes.places[path] = place
         taken.add(place)
     for path in wanted:
-        _add_companions(meshes, path, meshes.places[path])
+        _add_companions(robot, meshes, path, meshes.places[path])
 
 
 def _format_free(place: str, taken: set[str]) -> str:
@@ -160,15 +153,15 @@ def _format_free(place: str, taken: set[str]) -> str:
     return get_first_free(chain((place,), list_numbered_names(stem, suffix=dot + suffix)), taken)
 
 
-def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:
+def _add_companions(robot: Robot, meshes: MeshFiles, path: Path, place: str) -> None:
     """Add the textures and material files of a mesh at the same relative paths."""
     if meshes.options.uri_style in ("package", "file"):
         return
-    for other, name in find_companions(path):
+    for other, name in find_companions(robot, path):
         target = os.path.normpath(os.path.join(os.path.dirname(place), name))
         if other not in meshes.places and not target.startswith(".."):
             meshes.places[other] = Path(target).as_posix()
-            _add_companions(meshes, other, meshes.places[other])
+            _add_companions(robot, meshes, other, meshes.places[other])
 
 
 SCRIPTS = "materials/scripts"

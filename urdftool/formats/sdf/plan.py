@@ -67,7 +67,8 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     """
     plan = Plan(anchored=any(root.name == WORLD for root in robot.tree.roots))
     links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
-    plan.in_model = {name: pose for name, pose in link_poses(robot).items() if name in set(links)}
+    known = set(links)
+    plan.in_model = {name: pose for name, pose in link_poses(robot).items() if name in known}
     loose = _get_loose_joints(robot, plan)
     masses = {name: link_inertia(robot.link[name]) for name in links}
     for name in links:
@@ -129,10 +130,14 @@ def _dissolve_groups(
 ) -> None:
     """Dissolve more fixed joints around each invalid group until its mass properties are valid."""
     links, poses = list(plan.in_model), plan.in_model
-    group = _group(robot, plan).top
+    groups = _group(robot, plan)
+    group = groups.top
 
     def total(tops: set[str]) -> SpatialInertia:
-        return combine(masses[n].transform(poses[n]) for n in links if group[n] in tops)
+        members = (n for top in tops for n in groups.members[top])
+        if len(tops) > 1:  # in the order of the links
+            members = (n for n in links if group[n] in tops)
+        return combine(masses[n].transform(poses[n]) for n in members)
 
     for top in links:
         if group[top] != top or _is_physical(total({top})):
@@ -149,7 +154,8 @@ def _dissolve_groups(
             tops |= {group[joint.child], group[joint.parent]}
         if _is_physical(total(tops)):
             plan.dissolved |= {joint.name for joint in chosen}
-            group = _group(robot, plan).top
+            groups = _group(robot, plan)
+            group = groups.top
 
 
 def _place(robot: Robot, plan: Plan, lump: bool) -> None:

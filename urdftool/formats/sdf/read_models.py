@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...diagnostic import Severity
 from ...errors import ModelError, SourceError
+from ...source.access import MODEL_PATHS
 from ...source.document import Element, parse, read_file
 from ...source.location import SourceFile
 from ...source.packages import Packages
@@ -19,8 +20,6 @@ from .read_values import Version, read_flag, read_text, read_version
 NEWEST: Version = (1, 12)
 MAX_DEPTH = 30
 MAX_ELEMENTS = 200_000
-
-_PATHS = ("SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH")
 
 
 class Models:
@@ -178,11 +177,7 @@ class Models:
         key = os.path.realpath(path)
         if key in self._above:
             raise SourceError(f"file '{path}' includes itself", at=element.place)
-        try:
-            file = read_file(str(path), self._workspace)
-        except SourceError as error:
-            raise SourceError(f"file '{path}' {error.message}", at=element.place) from None
-        root = self.parse_root(file)
+        root = self.parse_root(self._read_file(path, element))
         self._above.append(key)
         models = list(root.list_children("model"))
         if len(models) != 1:
@@ -205,6 +200,12 @@ class Models:
             name = child.get("filename") or ""
             self.losses.add("plugin", "plugins are not read", name, child.place, Severity.INFO)
         return model
+
+    def _read_file(self, path: Path, element: Element) -> SourceFile:
+        try:
+            return read_file(str(path), self._workspace)
+        except SourceError as error:
+            raise SourceError(f"file '{path}' {error.message}", at=element.place) from None
 
     def _resolve_path(self, element: Element) -> Path:
         """Return the SDF file of an ``<include>``."""
@@ -231,7 +232,7 @@ class Models:
             return
         name = rest if separator else uri
         yield from (folder / name, folder.parent / name, folder.parent.parent / name)
-        for variable in _PATHS:
+        for variable in MODEL_PATHS:
             for entry in filter(
                 None, (self._workspace.read_variable(variable) or "").split(os.pathsep)
             ):
@@ -244,7 +245,7 @@ class Models:
         for name in ("model.config", "manifest.xml"):
             if not self._workspace.is_file(folder / name):
                 continue
-            root = parse(read_file(str(folder / name), self._workspace)).root
+            root = parse(self._read_file(folder / name, element)).root
             files = [
                 (_read_config_version(child), child.text.strip())
                 for child in root.list_children("sdf")

@@ -151,7 +151,7 @@ class MaterialWriter:
     def _place(self, image: Image) -> str:
         name = "image" if isinstance(image, bytes) else image.stem
         try:
-            data = image if isinstance(image, bytes) else image.read_bytes()
+            data = image if isinstance(image, bytes) else self._read_file(image)
         except OSError:
             data = b""
         suffix = next((end for start, end in _STARTS.items() if data.startswith(start)), "")
@@ -163,6 +163,11 @@ class MaterialWriter:
         file = f"{FOLDER}/{self._file_names.take(replace_file_name(name))}{suffix}"
         self.written.files[file] = data if isinstance(image, bytes) else image
         return file
+
+    def _read_file(self, image: Path) -> bytes:
+        if self.robot.source is None:
+            return b""
+        return self.robot.source.workspace.read_bytes(image)
 
     def _report(self, code: str, message: str, part: Material | Robot) -> None:
         self.written.report_loss(code, message, part.place, kind="material", name=part.name)

@@ -2,23 +2,29 @@
 
 Bodies become links, and joints become joints of URDF. Attributes of Newton take precedence over
 those of PhysX. Names and frames that an export of this tool stored in ``customData`` are restored.
+OpenUSD runs in a process with limits, because a small file can be a large stage.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+from ...dependencies import Dependencies
 from ...extras import is_installed, make_missing_error
-from ...model.elements import Robot
-from ...model.provenance import Written
-from ...source.description import Description
-from ...source.document import STDIN, Document, Element, read_file
-from ...source.location import SourceFile
+from ...limited import Limits, call_with_limits
+from ...source.document import STDIN
+from ...source.location import Place, SourceFile
 from ...source.packages import Packages
 from ...storage import cache_folder
 from ...workspace import Workspace
-from ..reading import Losses, Reading
+from ..reading import Opened, Reading, choose_limits, open_description, report_limits
+
+LIMITS = Limits(time=300.0, processor=15.0, memory=640 << 20)
+"""Limits of reading a stage. Chosen so that a command stays below 20 s and 1 GiB; no source."""
 
 
 def read(
@@ -49,28 +55,57 @@ def read(
     """
     if not is_installed("pxr"):
         raise make_missing_error("pxr", "a USD file")
-    from .read_mesh import MeshFolder
-    from .read_open import convert_errors, open_stage
-    from .read_shapes import add_shapes
-    from .read_stage import Context
-    from .read_tree import add_tree
-    from .read_unread import report_unread
+    opened = open_description(path, file, packages, workspace)
+    folder = Path(mesh_folder) if mesh_folder is not None else cache_folder("usd-meshes")
+    opened.packages.access.allow(folder)
+    with (
+        report_limits("OpenUSD", "stage", Place(opened.file, 0, 0)),
+        _locate(opened.file) as located,
+    ):
+        reading, read_files = call_with_limits(
+            _read_stage,
+            *opened,
+            *(str(path), located, articulation, folder),
+            limits=choose_limits(LIMITS, opened.workspace),
+            prepare=_import_library,
+        )
+    if opened.workspace.dependencies is not None:
+        opened.workspace.dependencies.include(read_files)
+    return reading
 
-    workspace = workspace or Workspace()
-    file = file or read_file(path, workspace)
-    losses = Losses()
-    with convert_errors(file):
-        stage, layers = open_stage(file, losses, workspace)
-        context = Context(stage, layers, losses, articulation)
-        robot = Robot(Written(context.get_place(context.top)), context.robot_name, format="usd")
-        source = None if file.path == STDIN else file.path
-        finder = packages or Packages(source, workspace=workspace)
-        root = Element("robot", {"name": robot.name}, None, file, 0)
-        document = Document(file, root, [])
-        robot.source = Description(str(path), document, layers.list_files(), finder)
-        add_tree(context, robot)
-        report_unread(context)
-        folder = Path(mesh_folder) if mesh_folder is not None else cache_folder("usd-meshes")
-        add_shapes(context, robot, MeshFolder(folder))
-    robot.unread = losses.make_findings()
-    return Reading(robot, robot.unread)
+
+def _import_library() -> None:
+    """Import OpenUSD and its schemas; it has no threads, each of which would reserve memory."""
+    from pxr import Usd, Work
+
+    from . import read_child  # noqa: F401
+
+    Work.SetConcurrencyLimit(1)
+    Usd.Stage.CreateInMemory()
+
+
+def _read_stage(
+    file: SourceFile, packages: Packages, workspace: Workspace, *arguments: Any
+) -> tuple[Reading, Dependencies]:
+    """Read a robot in the process with limits, which imports OpenUSD."""
+    from .read_child import read_stage
+
+    return read_stage(Opened(file, packages, workspace), *arguments)
+
+
+@contextmanager
+def _locate(file: SourceFile) -> Iterator[str]:
+    """Yield the path of a stage: of a temporary copy, if it is standard input."""
+    if file.path != STDIN:
+        yield file.path
+        return
+    with TemporaryDirectory(prefix="urdftool-") as folder:
+        copy = Path(folder) / f"stdin{_get_suffix(file.data)}"
+        copy.write_bytes(file.data)
+        yield str(copy)
+
+
+def _get_suffix(data: bytes) -> str:
+    if data.startswith(b"PXR-USDC"):
+        return ".usdc"
+    return ".usdz" if data.startswith(b"PK") else ".usda"

@@ -43,7 +43,7 @@ def read_material(
     written, name = context.get_written(bound.GetPrim()), bound.GetPrim().GetName()
     color, image = _read_color(surface)
     if image is not None:
-        texture = _store_image(image, folder) if has_coordinates else ""
+        texture = _store_image(context, image, folder) if has_coordinates else ""
         if texture:
             return Material(written, name, None, texture)
         what = "textures whose image is not found, or of shapes without texture coordinates"
@@ -121,13 +121,14 @@ def _read_display_color(context: Context, prim: Usd.Prim) -> Material | None:
     return Material(written, name, (red, green, blue, alpha))
 
 
-def _store_image(image: Sdf.AssetPath, folder: MeshFolder) -> str:
+def _store_image(context: Context, image: Sdf.AssetPath, folder: MeshFolder) -> str:
     """Return the path of an image, which is copied out of a package; empty if it is not found."""
     found = image.resolvedPath
     if not found:
         return ""
     if not Ar.IsPackageRelativePath(found):
         return str(found)
+    context.layers.files.check(found)
     asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(found))
     if not asset:
         return ""

@@ -11,7 +11,12 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Usd, UsdGeom
 
+from ...errors import ModelError
+from ...source.location import Place
 from ...storage import write_files
+
+MAX_BYTES = 512 << 20
+"""Maximum size of the files of a stage [bytes]. Chosen, no source."""
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -42,9 +47,16 @@ class Triangles:
 class MeshFolder:
     """Folder of the meshes and images of stages; files are named by prim and content."""
 
-    def __init__(self, folder: Path) -> None:
-        """Store the path; the folder is created with the first file."""
-        self._folder = folder
+    def __init__(self, folder: Path, place: Place) -> None:
+        """Store the path; the folder is created with the first file.
+
+        Args:
+            folder: The folder.
+            place: Location of errors.
+        """
+        self._folder, self._place = folder, place
+        self._size = 0
+        self._new: list[Path] = []
         self._known: dict[str, str] = {}
 
     def store(self, triangles: Triangles, name: str, *, textured: bool) -> str:
@@ -67,12 +79,26 @@ class MeshFolder:
         return self._known[key]
 
     def store_file(self, name: str, content: bytes) -> str:
-        """Write a file unless it exists, and return its path."""
+        """Write a file unless it exists, and return its path.
+
+        Raises:
+            ModelError: The files of the stage are too large.
+        """
+        self._size += len(content)
+        if self._size > MAX_BYTES:
+            text = f"the meshes and images of the stage are larger than {MAX_BYTES >> 20} MiB"
+            raise ModelError(f"{text}; it is not read", at=self._place)
         path = self._folder / name
         if not path.is_file():
             self._folder.mkdir(parents=True, exist_ok=True)
+            self._new.append(path)
             write_files({path: content})
         return str(path)
+
+    def remove_new(self) -> None:
+        """Remove the files that did not exist before."""
+        for path in self._new:
+            path.unlink(missing_ok=True)
 
 
 def _format_stl(corners: Array) -> bytes:
@@ -127,13 +153,13 @@ def read_triangles(prim: Usd.Prim, residual: Array, length: float) -> Triangles 
 def _split_faces(sizes: Indices) -> tuple[Indices, Indices]:
     """Return the corners of the fans of the faces, shape (n, 3), and the face of each triangle."""
     starts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
-    fans, faces = [np.zeros((0, 3), dtype=np.int64)], [np.zeros(0, dtype=np.int64)]
-    for corner in range(1, int(sizes.max(initial=3)) - 1):
-        chosen = np.flatnonzero(sizes > corner + 1)
-        rows = starts[chosen]
-        fans.append(np.stack([rows, rows + corner, rows + corner + 1], axis=1))
-        faces.append(chosen)
-    return np.concatenate(fans), np.concatenate(faces)
+    counts = np.maximum(sizes - 2, 0)
+    faces = np.repeat(np.arange(len(sizes)), counts)
+    corner = np.arange(len(faces)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
+    order = np.argsort(corner, kind="stable")  # the first triangles of all faces are first
+    faces, corner = faces[order], corner[order]
+    first = starts[faces]
+    return np.stack([first, first + corner, first + corner + 1], axis=1), faces
 
 
 def _read_coordinates(prim: Usd.Prim, corners: Indices, points: int) -> Array | None:

@@ -5,18 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from pxr import Pcp, Tf, Usd, UsdUtils
 
 from ...diagnostic import Severity
 from ...errors import ModelError
-from ...source.document import STDIN
 from ...source.location import Place, SourceFile
 from ...workspace import Workspace
 from ..reading import Losses
+from .read_layers import LayerFiles, check_count, open_layers
 from .read_places import Layers
 
 _INCOMPLETE = (
@@ -44,8 +42,16 @@ def convert_errors(file: SourceFile) -> Iterator[None]:
         raise ModelError(text, at=Place(file, 0, 0), notes=notes) from None
 
 
-def open_stage(file: SourceFile, losses: Losses, workspace: Workspace) -> tuple[Usd.Stage, Layers]:
+def open_stage(
+    path: str, file: SourceFile, losses: Losses, workspace: Workspace
+) -> tuple[Usd.Stage, Layers]:
     """Open a stage with its payloads, and record the warnings of OpenUSD.
+
+    Args:
+        path: The file, or a copy of standard input.
+        file: The file.
+        losses: Receives the warnings.
+        workspace: Access to files.
 
     Returns:
         The stage, and its layers.
@@ -56,8 +62,11 @@ def open_stage(file: SourceFile, losses: Losses, workspace: Workspace) -> tuple[
     """
     delegate = UsdUtils.CoalescingDiagnosticDelegate()
     place = Place(file, 0, 0)
-    stage = _open(file)
-    layers = Layers(stage, file, workspace)
+    files = LayerFiles(workspace, place)
+    opened = open_layers(os.path.abspath(path), files)
+    check_count(opened, place)
+    stage = Usd.Stage.Open(os.path.abspath(path), Usd.Stage.LoadAll)
+    layers = Layers(stage, file, files, workspace)
     errors = [error for error in stage.GetCompositionErrors() if isinstance(error, _INCOMPLETE)]
     if errors:
         delegate.TakeUncoalescedDiagnostics()
@@ -72,21 +81,6 @@ def open_stage(file: SourceFile, losses: Losses, workspace: Workspace) -> tuple[
 
 
 _MOST = 3
-
-
-def _open(file: SourceFile) -> Usd.Stage:
-    if file.path != STDIN:
-        return Usd.Stage.Open(os.path.abspath(file.path), Usd.Stage.LoadAll)
-    with TemporaryDirectory(prefix="urdftool-") as folder:
-        copy = Path(folder) / f"stdin{_get_suffix(file.data)}"
-        copy.write_bytes(file.data)
-        return Usd.Stage.Open(str(copy), Usd.Stage.LoadAll)
-
-
-def _get_suffix(data: bytes) -> str:
-    if data.startswith(b"PXR-USDC"):
-        return ".usdc"
-    return ".usdz" if data.startswith(b"PK") else ".usda"
 
 
 _NOT_TEXT = "the text is not valid UTF-8"

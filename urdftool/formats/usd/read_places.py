@@ -11,6 +11,7 @@ from pxr import Sdf, Usd
 from ...source.document import STDIN
 from ...source.location import Place, SourceFile
 from ...workspace import Workspace
+from .read_layers import LayerFiles
 
 _PRIM = re.compile(rb'^([ \t]*)(?:def|over|class)(?: \w+)? "(\w+)"', re.MULTILINE)
 
@@ -20,21 +21,32 @@ class Layers:
 
     A prim is at the line of a text layer that defines it. Layers without lines, which are binary
     or in a package, have the path of the prim instead.
+
+    Attributes:
+        files: The files of the layers.
     """
 
-    def __init__(self, stage: Usd.Stage, file: SourceFile, workspace: Workspace) -> None:
+    def __init__(
+        self, stage: Usd.Stage, file: SourceFile, files: LayerFiles, workspace: Workspace
+    ) -> None:
         """Store the stage; layers are read on demand.
 
         Args:
             stage: The stage.
             file: The file of its root layer.
+            files: The files that were checked.
             workspace: Access to files.
+
+        Raises:
+            SourceError: A layer was not checked.
         """
         self._file, self._workspace = file, workspace
+        self.files = files
         self._root: Sdf.Layer = stage.GetRootLayer()
         self._files: dict[str, SourceFile] = {}
         self._texts: dict[str, TextLayer] = {}
         self._numbers: dict[str, int] = {}
+        files.check_used(stage.GetUsedLayers())
         self._used = [layer for layer in stage.GetUsedLayers() if not layer.anonymous]
 
     def list_files(self) -> list[SourceFile]:

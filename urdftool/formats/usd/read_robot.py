@@ -65,9 +65,9 @@ def _connect(context: Context, joints: Iterable[Ends]) -> list[set[str]]:
     group = {path: {path} for path in context.bodies}
     for first, second, _ in joints:
         if first in group and second in group and group[first] is not group[second]:
-            joined = group[first] | group[second]
-            for path in joined:
-                group[path] = joined
+            fewer, more = sorted((group[first], group[second]), key=len)
+            more |= fewer
+            group.update(dict.fromkeys(fewer, more))
     unique = {id(paths): paths for paths in group.values()}
     return list(unique.values())
 

@@ -96,7 +96,7 @@ def add_tree(context: Context, robot: Robot) -> None:
                 robot.joint_actuators.append(actuator)
     _join_anchored(context, robot, tree, root, taken)
     _join_frames(context, robot, frames, taken)
-    _join_free_bodies(context, robot, root, taken)
+    _join_free_bodies(context, robot, root, frames, taken)
     _add_base(context, robot, root, frames)
     for path, shift in context.shifts.items():
         if path and compute_norm(shift.translation) > 0:
@@ -298,9 +298,16 @@ def _join_frames(
         robot.joints.append(joint)
 
 
-def _join_free_bodies(context: Context, robot: Robot, root: str, taken: set[str]) -> None:
+def _join_free_bodies(
+    context: Context,
+    robot: Robot,
+    root: str,
+    frames: dict[str, tuple[str, Pose]],
+    taken: set[str],
+) -> None:
     """Add a floating joint for each body that no joint holds, except the base."""
     held = {joint.child for joint in robot.joints}
+    known = {context.names[key]: key for key in (*context.bodies, *frames)}
     for path, prim in context.bodies.items():
         name = context.names[path]
         if path == root or name in held:
@@ -308,7 +315,6 @@ def _join_free_bodies(context: Context, robot: Robot, root: str, taken: set[str]
         written = context.get_written(prim)
         stored = str(prim.GetCustomDataByKey("urdf:floating_joint") or f"{name}_floating")
         parent = str(prim.GetCustomDataByKey("urdf:parent") or "")
-        known = {context.names[key]: key for key in (*context.bodies, *_find_frames(context))}
         start = known.get(parent, root)
         joint = Joint(written, _take_name(stored, taken), "floating")
         joint.parent, joint.child = context.names[start], name

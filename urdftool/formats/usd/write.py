@@ -9,7 +9,7 @@ from ...lint.validate import validate
 from ...model.elements import Robot
 from ..common.naming import replace_file_name
 from ..common.srdf import Srdf, read_srdf
-from ..defects import FATAL, refuse, report_defects, report_taken_world
+from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .bodies import Bodies, make_bodies, report_floating
 from .contacts import write_pairs, write_self_collision
@@ -55,6 +55,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         *([] if options.force else world),
         *report_defects(robot),
         *validate(robot, "export:usd"),
+        *report_size(robot, "USD"),
     ]
     if any(finding.code in FATAL for finding in found):
         refuse(found, force=options.force)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -108,6 +109,11 @@ class Bodies:
             return root, False
         return root, None if self.robot.base is None else self.robot.base.is_free
 
+    def reset_root(self) -> None:
+        """Make the top body the root, as if it were not an empty world."""
+        self.root, self.is_free = self.top, None
+        self.__dict__.pop("joints", None)
+
     def has_content(self, body: Body) -> bool:
         """Tell whether a link of a body has mass or geometry."""
         links = self.get_links(body)
@@ -127,7 +133,7 @@ class Bodies:
         pose: Array = body.members[joint.parent] @ get_origin_matrix(joint.origin)
         return pose
 
-    @property
+    @cached_property
     def joints(self) -> dict[str, Joint]:
         """Return the joints between bodies by name, parents first."""
         return {

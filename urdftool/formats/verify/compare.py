@@ -301,22 +301,23 @@ def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Compari
 def _compare_tree(walk: _Walk, match: Match) -> None:
     """Compare two bodies and everything below them."""
     todo = [match]
+    pair = walk.pair
+    links, known = set(pair.links.values()), set(pair.joints.values())
     while todo:
         match = todo.pop()
-        pair = walk.pair
-        if match.two.name not in pair.links.values():
-            pair.links.setdefault(match.one.name, match.two.name)
+        if match.two.name not in links:
+            links.add(pair.links.setdefault(match.one.name, match.two.name))
         _compare_content(pair, match, walk.comparison)
         pairs = [(j, other) for j in match.one.joints if (other := _find_joint(pair, j))]
-        known = set(pair.joints.values())
         left = [j for j in match.one.joints if j.name not in pair.joints]
         right = [j for j in match.two.joints if j.name not in known]
         for x, y in match_children(pair.a, pair.b, left, right, match.frame):
             pair.joints[x.name] = y.name
+            known.add(y.name)
             pairs.append((x, y))
         for side, joints in enumerate((left, right)):
             for joint in joints:
-                if joint.name not in (pair.joints, set(pair.joints.values()))[side]:
+                if joint.name not in (pair.joints, known)[side]:
                     _add_unmatched(walk, side, joint, match)
         for x, y in pairs:
             frame, same = match.frame, pair.b.body_of[y.parent] == match.two.name

@@ -72,11 +72,14 @@ def match_names(a: Sequence[str], b: Sequence[str], given: Mapping[str, str]) ->
     Returns:
         Names in the second robot by those in the first; each name occurs once.
     """
-    found = {x: y for x, y in given.items() if x in a and y in b}
-    found |= {x: x for x in a if x in b and x not in found and x not in found.values()}
+    firsts, seconds = set(a), set(b)
+    found = {x: y for x, y in given.items() if x in firsts and y in seconds}
+    taken = set(found.values())
+    found |= {x: x for x in a if x in seconds and x not in found and x not in taken}
     for plain in (_simplify, _strip):
         left = [x for x in a if x not in found]
-        right = [y for y in b if y not in found.values()]
+        taken = set(found.values())
+        right = [y for y in b if y not in taken]
         one, two = plain(left, a), plain(right, b)
         for key in one.keys() & two.keys():
             if len(one[key]) == len(two[key]) == 1:

@@ -63,7 +63,7 @@ def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
         joints |= fixed
     if keep_root:
         for bodies in (one, two):
-            bodies.root, bodies.is_free = bodies.top, None
+            bodies.reset_root()
     return Pair(one, two, joints, links, meshes)
 
 

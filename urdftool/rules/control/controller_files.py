@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import ConfigError, PackageNotFound
+from ...errors import AccessError, ConfigError, PackageNotFound
 from ...model.controllers import Controller, list_controllers
 from ...model.elements import Robot
 from ...source.description import Description
@@ -162,7 +162,7 @@ def _find_named_by_plugins(robot: Robot, description: Description) -> Iterator[P
             if path.startswith(("/", "package://", "file://")):
                 try:
                     yield description.resolve(path)
-                except PackageNotFound:
+                except (AccessError, PackageNotFound):
                     continue
 
 

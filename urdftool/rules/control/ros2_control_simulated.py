@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...errors import PackageNotFound
+from ...errors import AccessError, PackageNotFound
 from ...model.elements import Robot
 from ...source.description import Description
 from ...workspace import Workspace
@@ -206,7 +206,7 @@ def ros2_control_empty_parameters(robot: Robot, description: Description) -> Ite
 def _is_there(path: str, description: Description) -> bool:
     try:
         return description.workspace.exists(description.resolve(path))
-    except PackageNotFound:
+    except (AccessError, PackageNotFound):
         return True  # cannot be checked
 
 

@@ -93,12 +93,11 @@ def compute_body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
 def find_negligible_links(robot: Robot, light: float) -> set[str]:
     """Find the links that hardly influence the center of mass of the robot or of their body."""
     least = light * compute_mass(robot.links)
-    return {
-        link.name
-        for links in find_rigid_bodies(robot).values()
-        for link in links
-        if link.mass < max(least, 10 * light * compute_mass(links))
-    }
+    found: set[str] = set()
+    for links in find_rigid_bodies(robot).values():
+        most = max(least, 10 * light * compute_mass(links))
+        found.update(link.name for link in links if link.mass < most)
+    return found
 
 
 def find_slight_parts(robot: Robot) -> set[str]:

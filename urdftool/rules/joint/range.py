@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Link, Robot
@@ -427,7 +428,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
 
 def _is_frame_joint(robot: Robot, joint: Joint) -> bool:
     """Tell whether a joint only positions the next one, as several joints at a free root do."""
-    if not any(map(_is_body, robot.links)):
+    if not robot.memo.get("has bodies", lambda: any(map(_is_body, robot.links))):
         return False  # the robot has only frames
     while joint.child in robot.link and not _is_body(robot.link[joint.child]):
         above = robot.tree.get_parent_joint(joint.parent)
@@ -439,9 +440,14 @@ def _is_frame_joint(robot: Robot, joint: Joint) -> bool:
 
 def _has_shape_as_long(robot: Robot, length: float) -> bool:
     """Tell whether a shape has between half and twice a length [m], as the rail of a slide has."""
-    reach = get_extents(robot)
-    boxes = (reach.get_shape_box(shape) for _, shape in robot.shapes)
-    return any(box is not None and 0.5 <= max(box.size) / length <= 2 for box in boxes if length)
+
+    def measure() -> list[float]:
+        boxes = map(get_extents(robot).get_shape_box, (shape for _, shape in robot.shapes))
+        return sorted(filter(math.isfinite, (max(box.size) for box in boxes if box is not None)))
+
+    lengths = robot.memo.get("lengths of shapes", measure)
+    first = bisect_left(lengths, length / 2)
+    return length > 0 and first < len(lengths) and lengths[first] <= 2 * length
 
 
 def _is_body(link: Link) -> bool:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.attached import MAX_PAIRS, TooManyAttached
 from ...model.elements import Robot
 from ...source.description import Description
 from ..collision import overlap
 from ..mesh.link_extents import get_convex_points
 from ..mesh.mesh_uses import get_mesh_uses
 from ..rule import INFO, Problem, rule
+from ..words import join_some
 
-APPLIES_TO = ("mesh", "collision")
+APPLIES_TO = ("mesh", "collision", "joint")
 
 _READ = (".stl", ".obj", ".dae", ".ply", ".gltf", ".glb")
 
@@ -25,7 +27,7 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
     these rules report nothing. Missing and corrupt meshes are reported by other rules. One finding
     names the links. In robots with so many links that the checks would take minutes, other
     findings count the pairs that ``self-collision-at-zero`` and the joints that
-    ``self-collision-in-range`` skipped.
+    ``self-collision-in-range`` skipped, and name the rules that stopped at a rigid body.
     """
     found = {}
     for use in get_mesh_uses(robot, description):
@@ -53,6 +55,14 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             robot,
             "overlaps with all joints at rest were checked for the first "
             f"{overlap.RESTING} pairs of links only; more are near each other",
+        )
+    stopped = robot.memo.peek(TooManyAttached)
+    if stopped:
+        names = join_some([f"'{name}'" for name in stopped], "rules")
+        yield Problem(
+            robot,
+            f"rules {names} did not check all links, because fixed joints connect more than "
+            f"{MAX_PAIRS} pairs of links; merge links",
         )
     joints = overlap.get_skipped_joints(robot)
     if joints:

@@ -17,7 +17,7 @@ from ...source.packages import find_own_package, shorten_path
 from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, SAFE, URDF_AND_SDF, Problem, rule
+from ..rule import ERROR, SAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import find_nearest
 from .changes import change_uses
 from .dropped import is_dropped
@@ -53,6 +53,7 @@ def mesh_not_found(
     file are one finding, and so are more than ``together`` missing files of one missing folder.
     """
     missing: dict[Path, list[MeshUse]] = {}
+    yield from _report_refused(get_mesh_uses(robot, description))
     for use in get_mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_absolute:
             continue
@@ -89,6 +90,25 @@ def mesh_not_found(
                 data={"uri": first.uri, "path": str(path)},
                 effects=_select_effects(keeps, missing[path]),
             )
+
+
+def _report_refused(uses: list[MeshUse]) -> Iterator[Problem]:
+    """Report files that exist, but that the description may not read, so that none is checked."""
+    groups: dict[str, dict[str, MeshUse]] = {}
+    for use in uses:
+        if use.refusal:
+            groups.setdefault(use.refusal_reason, {}).setdefault(use.uri, use)
+    for group in groups.values():
+        use, others = next(iter(group.values())), len(group) - 1
+        more = f" (and {others} more meshes)" if others else ""
+        yield Problem(
+            use.link,
+            f"mesh of link '{use.link.name}' is not read{more}: {use.refusal}",
+            at=use.mesh.locate_attribute("filename"),
+            severity=WARNING,
+            data={"uri": use.uri, "refusal": use.refusal},
+            effects=[],
+        )
 
 
 def _select_effects(keeps: bool, uses: list[MeshUse]) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ...errors import PackageNotFound
+from ...errors import AccessError, PackageNotFound
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...source.description import Description, GltfUp
 from ...workspace import Workspace
@@ -25,6 +25,8 @@ class MeshUse:
         size: Size of the file [bytes]; None if it does not exist.
         missing_package: The package that was not found, if that is the cause.
         searched: Folders in which the package was searched.
+        refusal: Why the description may not read the file, which is then unknown; empty if it may.
+        refusal_reason: The part of it that is equal for files of one folder.
         gltf_up: Up axis of a glTF file.
     """
 
@@ -36,6 +38,8 @@ class MeshUse:
     size: int | None = None
     missing_package: str = ""
     searched: list[str] = field(default_factory=list)
+    refusal: str = ""
+    refusal_reason: str = ""
     gltf_up: GltfUp = "y"
 
     @property
@@ -90,6 +94,7 @@ def _locate_meshes(robot: Robot, description: Description) -> Iterator[MeshUse]:
         else:
             use.path, use.size = known.path, known.size
             use.missing_package, use.searched = known.missing_package, known.searched
+            use.refusal, use.refusal_reason = known.refusal, known.refusal_reason
         yield use
 
 
@@ -108,6 +113,9 @@ def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) 
         return
     try:
         use.path = description.resolve(uri.replace("\\", "/"))
+    except AccessError as error:
+        use.refusal, use.refusal_reason = error.message, error.data["reason"]
+        return
     except PackageNotFound as error:
         if scheme == "package":
             use.missing_package, use.searched = package, list(error.notes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...errors import PackageNotFound
+from ...errors import AccessError, PackageNotFound
 from ...model.attached import find_attached_links
 from ...model.elements import Material, Robot
 from ...source.description import Description
@@ -217,6 +217,15 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
         try:
             path = description.resolve(uri)
         except PackageNotFound:
+            continue
+        except AccessError as error:
+            yield Problem(
+                element,
+                f"texture '{uri}' is not read: {error.message}",
+                at=element.locate_attribute("filename"),
+                data={"uri": uri, "refusal": error.message},
+                effects=[],
+            )
             continue
         if not description.workspace.is_file(path):
             yield Problem(

@@ -1,0 +1,54 @@
+"""Restriction of a workspace: the policy it asks, and the error for a file that it refuses."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from collections.abc import Hashable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from .workspace import Workspace
+
+
+class AccessRefused(OSError):  # noqa: N818 -- reads as what happened
+    """Error for a file that may not be read; ``strerror`` is the reason."""
+
+    def __init__(self, reason: str, path: str | Path) -> None:
+        """Store the reason and the path."""
+        super().__init__(errno.EACCES, reason, os.fspath(path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle with both arguments."""
+        return AccessRefused, (self.strerror, self.filename)
+
+
+class Access(Protocol):
+    """Policy that decides which files a workspace reads."""
+
+    @property
+    def key(self) -> Hashable:
+        """Identity of the policy: equal for policies that decide equally."""
+
+    def explain_refusal(self, path: str | Path, files: Workspace) -> str:
+        """Return why a file may not be read; empty if it may be.
+
+        Args:
+            path: The file or folder.
+            files: The workspace that asks, without restriction.
+        """
+
+
+IRREGULAR = "is a device or a pipe, not a file"
+"""Reason for which no command reads a file that may never end."""
+
+
+def is_irregular(path: str | Path) -> bool:
+    """Tell whether a path leads to a device, pipe or socket, without opening it."""
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))

@@ -1,0 +1,58 @@
+"""Reading of a stage in the process with limits. The reader's only use of OpenUSD is below it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...dependencies import Dependencies
+from ...model.elements import Robot
+from ...model.provenance import Written
+from ...source.description import Description
+from ...source.document import Document, Element
+from ...source.location import Place
+from ..reading import Losses, Opened, Reading
+from .read_mesh import MeshFolder
+from .read_open import convert_errors, open_stage
+from .read_shapes import add_shapes
+from .read_stage import Context
+from .read_tree import add_tree
+from .read_unread import report_unread
+
+
+def read_stage(
+    opened: Opened, shown: str, path: str, articulation: str, mesh_folder: Path
+) -> tuple[Reading, Dependencies]:
+    """Read a robot, and return the files that were read.
+
+    Args:
+        opened: The file, finder of packages, and access to files.
+        shown: The file as the user names it.
+        path: The file, or a copy of standard input.
+        articulation: Path of the prim of a robot; empty for the default prim.
+        mesh_folder: Folder for the meshes of the stage.
+
+    Raises:
+        SourceError: A layer cannot be read.
+        ModelError: OpenUSD does not open it, or it has no rigid body.
+    """
+    file, finder, workspace = opened
+    view = workspace.with_record()
+    assert view.dependencies is not None
+    losses = Losses()
+    with convert_errors(file):
+        stage, layers = open_stage(path, file, losses, view)
+        context = Context(stage, layers, losses, articulation)
+        robot = Robot(Written(context.get_place(context.top)), context.robot_name, format="usd")
+        root = Element("robot", {"name": robot.name}, None, file, 0)
+        document = Document(file, root, [])
+        robot.source = Description(shown, document, layers.list_files(), finder)
+        add_tree(context, robot)
+        report_unread(context)
+        folder = MeshFolder(mesh_folder, Place(file, 0, 0))
+        try:
+            add_shapes(context, robot, folder)
+        except BaseException:
+            folder.remove_new()
+            raise
+    robot.unread = losses.make_findings()
+    return Reading(robot, robot.unread), view.dependencies

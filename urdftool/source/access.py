@@ -1,0 +1,338 @@
+"""Policy of file access: which files a description may read.
+
+A description may be untrusted. It reads files of its project, of packages that the user, ROS or
+Gazebo names, and of packages in its ROS workspace. Decisions are made for real paths, so that a
+symbolic link does not lead out. Hidden files and folders, devices and pipes are never read.
+
+A project is the repository around a file, else the nearest folder above with a project file, else
+the folder of the file. Folders that everybody uses, such as the home folder, are never projects.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Hashable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import AccessError
+from ..file_access import IRREGULAR, AccessRefused
+from ..workspace import Workspace, memoize_by_workspace
+
+if TYPE_CHECKING:
+    from .location import Place
+    from .packages import Packages
+
+TRUST = "URDFTOOL_TRUST"
+"""Environment variable that trusts descriptions, also in child processes; ``--trust`` sets it."""
+
+TRUST_REMEDY = "pass --trust if the input is trusted"
+
+MODEL_PATHS = (
+    *("SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"),
+)
+"""Environment variables that list folders of Gazebo models."""
+
+_PACKAGE_PATHS = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH")
+_SYSTEM = Path("/opt/ros")
+_MODEL_MARK = "model.config"
+_REPOSITORY_MARKS = (".git", ".hg")
+_PROJECT_MARKS = (
+    *("package.xml", _MODEL_MARK, "pyproject.toml", "CMakeLists.txt"),
+    *("urdftool.toml", ".urdftool.toml"),
+)
+_LIBRARIES = ("site-packages", "dist-packages")
+_HOMES = ("home", "Users")
+_OWN_FOLDERS = ("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP")
+_SHARED = frozenset(
+    (
+        *("bin", "boot", "dev", "etc", "home", "lib", "lib32", "lib64", "media", "mnt", "opt"),
+        *("proc", "root", "run", "sbin", "srv", "sys", "tmp", "usr", "var"),
+        *("Applications", "Library", "System", "Users", "Volumes", "cores", "private"),
+    )
+)
+"""Folders below the root of the file system that hold more than one project."""
+
+
+def disable_sandbox() -> None:
+    """Trust all descriptions in this process and its children."""
+    os.environ[TRUST] = "1"
+
+
+def is_trusted(files: Workspace) -> bool:
+    """Tell whether the user trusts all descriptions."""
+    return files.read_variable(TRUST) == "1"
+
+
+def find_project(path: str | Path, files: Workspace) -> Path | None:
+    """Return the project of a file; None in a folder that everybody uses.
+
+    Args:
+        path: The file, which need not exist.
+        files: Access to files without restriction.
+    """
+    found = _find_project(files, os.path.dirname(os.path.abspath(path)))
+    return None if found is None else Path(found)
+
+
+@memoize_by_workspace
+def _find_project(files: Workspace, folder: str) -> str | None:
+    above = list(_list_above(Path(folder), files))
+    if not above:
+        return None
+    if above[-1].parent.name in _LIBRARIES or _is_cmeel(above[-1].parent):
+        return str(above[-1])
+    for marks in (_REPOSITORY_MARKS, _PROJECT_MARKS):
+        for place in above:
+            if any(files.exists(place / mark) for mark in marks):
+                return str(place)
+    return folder
+
+
+def _list_above(folder: Path, files: Workspace) -> Iterator[Path]:
+    """Yield a folder and those above it that can be a project."""
+    for place in (folder, *folder.parents):
+        if is_shared(place, files):
+            return
+        yield place
+        if place.name.startswith("."):
+            return  # a hidden folder, such as a cache, is not a part of what is around it
+
+
+def _is_model(folder: Path, files: Workspace) -> bool:
+    return files.is_file(folder / _MODEL_MARK)
+
+
+def _is_cmeel(folder: Path) -> bool:
+    """Tell whether a folder holds packages that cmeel installs."""
+    return folder.parts[-2:] == ("cmeel.prefix", "share")
+
+
+def is_shared(folder: Path, files: Workspace) -> bool:
+    """Tell whether a folder holds more than one project: a system, home or temporary folder."""
+    if len(folder.parts) <= 1 or folder.name in _LIBRARIES or _is_cmeel(folder):
+        return True
+    inner = folder.parts[1:]
+    if len(inner) == 1 and inner[0] in _SHARED:
+        return True
+    if len(inner) == 2 and (inner[0] in _HOMES or inner in (("var", "tmp"), ("usr", "share"))):
+        return True
+    for variable in _OWN_FOLDERS:
+        own = files.read_variable(variable) or ""
+        if os.path.isabs(own):
+            real = Path(files.resolve_links(own))
+            if real.is_relative_to(folder) or Path(own).is_relative_to(folder):
+                return True
+    return False
+
+
+def is_within(path: Path, root: Path) -> bool:
+    """Tell whether a file is below a folder and not hidden there."""
+    if not path.is_relative_to(root):
+        return False
+    return not any(part.startswith(".") for part in path.relative_to(root).parts)
+
+
+def check_companion(mesh: Path, path: Path) -> Path:
+    """Check a file that a mesh file refers to: it is in the project of the mesh.
+
+    Args:
+        mesh: The mesh file, which may be read.
+        path: The other file.
+
+    Returns:
+        The other file.
+
+    Raises:
+        OSError: It is outside, hidden, a device or a pipe.
+    """
+    files = Workspace()
+    if _is_irregular(path, files):
+        raise AccessRefused(IRREGULAR, path)
+    if is_trusted(files):
+        return path
+    real = Path(_resolve(files, path))
+    mesh = Path(_resolve(files, mesh))
+    project = find_project(mesh, files) or mesh.parent
+    if not is_within(real, project):
+        raise AccessRefused(f"is outside of the project of {mesh.name}; {TRUST_REMEDY}", path)
+    return path
+
+
+def list_companions(mesh: Path, pattern: str) -> list[Path]:
+    """Return the files in the folder of a mesh file that match a pattern and that it may refer to.
+
+    Args:
+        mesh: The mesh file.
+        pattern: Name with wildcards.
+    """
+    files = Workspace()
+    found = files.list_matches(mesh.parent, pattern)
+    return [path for path in found if files.is_file(path) and is_companion_allowed(mesh, path)]
+
+
+def is_companion_allowed(mesh: Path, path: Path) -> bool:
+    """Tell whether a mesh file may refer to a file; see :func:`check_companion`."""
+    try:
+        check_companion(mesh, path)
+    except OSError:
+        return False
+    return True
+
+
+class FileAccess:
+    """Decision which files one description may read."""
+
+    def __init__(self, packages: Packages) -> None:
+        """Store the packages of the description; folders are searched on demand."""
+        self._packages = packages
+        self._allowed: list[Path] = []
+        self._included: list[FileAccess] = []
+        self._rules: tuple[Hashable, list[Path], list[Path]] | None = None
+
+    @property
+    def key(self) -> Hashable:
+        """Return the identity of the policy: equal for descriptions that may read the same."""
+        return self._get_rules()[0]
+
+    def allow(self, path: str | Path) -> None:
+        """Allow a file or folder that the tool made, or that was checked for another reader."""
+        real = Path(_resolve(self._packages.files, path))
+        if real not in self._allowed:
+            self._allowed.append(real)
+            self._rules = None
+
+    def include(self, other: FileAccess) -> None:
+        """Allow what another description may read, from which this one was made."""
+        self._included.append(other)
+        self._rules = None
+
+    def with_packages(self, packages: Packages) -> FileAccess:
+        """Return the policy for the same description with another finder."""
+        other = FileAccess(packages)
+        other._allowed = self._allowed.copy()
+        other._included = self._included.copy()
+        return other
+
+    def _get_rules(self) -> tuple[Hashable, list[Path], list[Path]]:
+        """Return the key, the files of the description itself, and the folders that it reads."""
+        if self._rules is None:
+            files = self._packages.files
+            own = self._list_own_files(files)
+            roots = self._list_roots(files)
+            included = [other.key for other in self._included]
+            key = FileAccess, is_trusted(files), *map(str, (*own, *roots)), *included
+            self._rules = key, own, roots
+        return self._rules
+
+    def check(self, path: str | Path, at: Place | None = None) -> None:
+        """Check that the description may read a file, which need not exist.
+
+        Args:
+            path: The file.
+            at: Location of the reference, if known.
+
+        Raises:
+            AccessError: It may not, or the file is a device or a pipe.
+        """
+        reason = self.explain_refusal(path)
+        if reason:
+            raise AccessError(f"{path} {reason}", at=at, rule="include-not-found")
+
+    def explain_refusal(self, path: str | Path, files: Workspace | None = None) -> str:
+        """Return why a file may not be read, as a predicate with a remedy; empty if it may be.
+
+        Args:
+            path: The file, which need not exist.
+            files: The workspace that asks, without restriction; None is that of the description.
+        """
+        files = files or self._packages.files
+        key = FileAccess.explain_refusal, self.key, os.fspath(path)
+        return files.memoize(key, lambda inner: self._decide(path, inner))
+
+    def _decide(self, path: str | Path, files: Workspace) -> str:
+        try:
+            real = Path(_resolve(files, path))
+        except ValueError as error:
+            return f"is not a path: {error}"
+        if _is_irregular(real, files):
+            return IRREGULAR
+        _, own, roots = self._get_rules()
+        if is_trusted(files) or real in own:
+            return ""
+        if any(is_within(real, root) for root in roots):
+            return ""
+        if self._is_in_package(real, files) or self._is_in_model(real, files):
+            return ""
+        if any(not other.explain_refusal(path, files) for other in self._included):
+            return ""
+        linked = "" if str(real) == os.path.abspath(path) else f"is a link to {real}, which "
+        if any(real.is_relative_to(root) for root in roots):
+            return f"{linked}is a hidden file or in a hidden folder; {TRUST_REMEDY}"
+        return f"{linked}is outside of the project; {self._suggest_package(real, files)}"
+
+    def _list_own_files(self, files: Workspace) -> list[Path]:
+        """Return the file of the description, which the user named, as given and without links."""
+        file = self._packages.file
+        return list(dict.fromkeys((file, Path(_resolve(files, file)))))
+
+    def _list_roots(self, files: Workspace) -> list[Path]:
+        """Return the real paths of the folders below which the description reads."""
+        packages = self._packages
+        found: list[str | Path | None] = [
+            find_project(file, files) for file in self._list_own_files(files)
+        ]
+        found += [*packages.named.values(), *packages.paths, *packages.list_configured()]
+        for variable in (*_PACKAGE_PATHS, *MODEL_PATHS):
+            found += (files.read_variable(variable) or "").split(os.pathsep)
+        found.append(_SYSTEM)
+        real = (Path(_resolve(files, folder)) for folder in found if folder)
+        return list(dict.fromkeys((*real, *self._allowed)))
+
+    def _is_in_package(self, real: Path, files: Workspace) -> bool:
+        """Tell whether a file is in a package that ``$(find …)`` finds by a ``package.xml``."""
+        own = self._packages.find_owner(real)
+        if own is None or not is_within(real, own[1]) or is_shared(own[1], files):
+            return False
+        folder = self._packages.find_by_manifest(own[0])
+        if folder is not None and Path(_resolve(files, folder)) == own[1]:
+            # a link of the project itself must not lead to the packages of others
+            projects = filter(None, (find_project(f, files) for f in self._list_own_files(files)))
+            return not any(folder.is_relative_to(project) for project in projects)
+        prefixes = (files.read_variable("AMENT_PREFIX_PATH") or "").split(os.pathsep)
+        manifests = (Path(one, "share", own[0], "package.xml") for one in prefixes if one)
+        # `colcon build --symlink-install` links installed files to the sources
+        return any(Path(_resolve(files, one)).parent == own[1] for one in manifests)
+
+    def _is_in_model(self, real: Path, files: Workspace) -> bool:
+        """Tell whether a file is in a Gazebo model next to that of the description."""
+        for file in self._get_rules()[1]:
+            own = next((f for f in _list_above(file.parent, files) if _is_model(f, files)), None)
+            if own is None or is_shared(own.parent, files) or not is_within(real, own.parent):
+                continue
+            if _is_model(own.parent / real.relative_to(own.parent).parts[0], files):
+                return True
+        return False
+
+    def _suggest_package(self, real: Path, files: Workspace) -> str:
+        """Return the remedy for a file outside: the folder around it and the description."""
+        try:
+            around = Path(os.path.commonpath((self._list_own_files(files)[-1].parent, real)))
+        except ValueError:  # on another drive
+            around = real.parent
+        if is_shared(around, files) or around.name.startswith("."):
+            return f"set the package with --package NAME=DIR, or {TRUST_REMEDY}"
+        return f"pass --package {around.name}={_shorten(around)}, or {TRUST_REMEDY}"
+
+
+def _is_irregular(path: Path, files: Workspace) -> bool:
+    return files.exists(path) and not files.is_file(path) and not files.is_folder(path)
+
+
+def _resolve(files: Workspace, path: str | Path) -> str:
+    return files.resolve_links(os.path.abspath(path))
+
+
+def _shorten(folder: Path) -> str:
+    here = os.path.relpath(folder)
+    return here if not here.startswith("../..") else str(folder)

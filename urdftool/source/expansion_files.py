@@ -1,0 +1,169 @@
+"""Files, packages and variables that an expansion requests."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..control_characters import LINES, escape_controls
+from ..errors import XacroError
+from ..suggestions import find_nearest
+from .document import read_file
+from .location import SourceFile
+from .packages import Packages, shorten_path
+from .sandbox import Sandbox
+from .yaml_bounds import MAX_BYTES
+
+_MAX_FOLDERS = 6
+"""Maximum number of folders after a wildcard; chosen, each may list the folders of all before."""
+
+_MAX_MESSAGES = 10_000  # characters; chosen
+
+
+class ExpansionFiles:
+    """Answers to the requests of an expansion, by the rules of the sandbox.
+
+    Attributes:
+        files: XML files that were read, the description itself first.
+        messages: Messages of the description, each with its line end.
+    """
+
+    def __init__(self, file: SourceFile, packages: Packages) -> None:
+        """Set the description and the finder of its packages."""
+        self.files = [file]
+        self.messages: list[str] = []
+        self._packages = packages
+        self._sandbox = Sandbox(packages)
+        self._indices = {file.path: 0}
+        self._read: set[str] = set()
+        self._length = 0
+
+    @property
+    def trusted(self) -> bool:
+        """Tell whether the description is trusted."""
+        return self._sandbox.trusted
+
+    @property
+    def requests(self) -> dict[str, Callable[..., Any]]:
+        """Return the functions that an expansion may request, by name."""
+        return {
+            "find": self.find_package,
+            "locate": self.locate_file,
+            "include": self.read_xml,
+            "yaml": self.read_yaml,
+            "match": self.list_matches,
+            "env": self._sandbox.read_variable,
+            "optenv": self._sandbox.read_optional_variable,
+            "suggest": self.suggest_path,
+            "message": self.add_message,
+        }
+
+    def find_package(self, name: str) -> str:
+        """Return the folder of a package.
+
+        Raises:
+            PackageNotFound: It was not found.
+        """
+        return str(self._packages.find(name))
+
+    def locate_file(self, path: str) -> str:
+        """Return a path, or that of its source by the install rules if it does not exist."""
+        there = self._packages.workspace.exists(path)
+        return path if there else str(self._packages.find_installed(path))
+
+    def read_xml(self, path: str) -> tuple[int, SourceFile]:
+        """Return a file to include, and its index in ``files``.
+
+        Raises:
+            XacroError: The description may not read it.
+            SourceError: It cannot be read.
+        """
+        found = shorten_path(self._packages.find_installed(path))
+        if found not in self._indices:
+            self._sandbox.check_file(found)
+            self.files.append(read_file(found, self._packages.workspace))
+            self._indices[found] = len(self.files) - 1
+        index = self._indices[found]
+        return index, self.files[index]
+
+    def read_yaml(self, path: str) -> bytes:
+        """Return the contents of a YAML file.
+
+        Raises:
+            XacroError: The description may not read it, or it is larger than ``MAX_BYTES``.
+            OSError: It cannot be read.
+        """
+        self._sandbox.check_file(path)
+        self._read.add(shorten_path(self._packages.find_installed(path)))
+        with self._packages.workspace.open(path) as stream:
+            data = stream.read(MAX_BYTES + 1)
+        if len(data) > MAX_BYTES:
+            raise XacroError(
+                f"{path}: the file has more than {MAX_BYTES} bytes, the limit of YAML in a "
+                "description",
+                rule="expansion-failed",
+            )
+        return data
+
+    def list_matches(self, pattern: str) -> list[str]:
+        """Return the paths that match a pattern.
+
+        Raises:
+            XacroError: The description may not read the folder.
+        """
+        fixed, *rest = re.split(r"(?=[*[?])", pattern, maxsplit=1)
+        below = "".join(rest).split("/")
+        if ".." in below or len(below) > _MAX_FOLDERS:
+            raise XacroError(
+                f"the folders after a wildcard cannot be '..' or more than {_MAX_FOLDERS}",
+                rule="include-not-found",
+            )
+        self._sandbox.check_file(os.path.dirname(fixed))
+        return self._packages.workspace.match(pattern)
+
+    def suggest_path(self, path: str) -> tuple[str, str]:
+        """Return what helps to correct the path of a file that cannot be read.
+
+        Returns:
+            The first missing folder of the path, and the nearest existing name in its folder, if
+            the description may read it; empty if there is none.
+        """
+        folder, name = os.path.split(path)
+        workspace = self._packages.workspace
+        try:
+            self._sandbox.check_file(folder or ".")
+            there = [entry.name for entry in workspace.list_folder(folder or ".")]
+        except XacroError:
+            return "", ""
+        except OSError:
+            above = reversed(Path(path).parents)
+            return str(next((p for p in above if not workspace.exists(p)), "")), ""
+        return "", find_nearest(name, there, 0.75) or ""
+
+    def add_message(self, text: str) -> None:
+        """Store a message of the description.
+
+        Raises:
+            XacroError: The messages exceed the limit of their size.
+        """
+        self._length += len(text) + 1
+        if self._length > _MAX_MESSAGES:
+            raise XacroError(
+                f"the messages of the description exceed the limit of {_MAX_MESSAGES} characters",
+                rule="endless-expansion",
+            )
+        self.messages.append(text + "\n")
+
+    def print_messages(self) -> None:
+        """Print the messages, with control characters escaped."""
+        sys.stderr.write(escape_controls("".join(self.messages), LINES))
+
+    def finish(self, included: list[str]) -> list[str]:
+        """Return the paths of the included files that were read, each once."""
+        find = self._packages.find_installed
+        paths = dict.fromkeys(shorten_path(find(path)) for path in included)
+        return [path for path in paths if path in self._indices or path in self._read]

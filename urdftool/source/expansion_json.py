@@ -1,0 +1,219 @@
+"""Expansions and errors as JSON, with which a process that is not trusted returns them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
+from .expansion import Argument, Expansion, Warned
+from .location import Call, Place, SourceFile
+from .well_formed import MAX_DEPTH
+from .xacro_tree import (
+    TEXT,
+    Attributes,
+    Characters,
+    Node,
+    Parent,
+    XacroDocument,
+    XacroElement,
+)
+
+_ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, PackageNotFound)}
+
+Json = dict[str, Any]
+
+
+class Writer:
+    """Conversion of an expansion or an error to JSON, by the side that expanded.
+
+    Places refer to files by their index in ``files``.
+    """
+
+    def __init__(self, files: Sequence[SourceFile]) -> None:
+        """Set the files, in the order in which the other side knows them."""
+        self._files = {id(file): index for index, file in enumerate(files)}
+        self._encodings = [file.encoding for file in files]
+        self._calls: list[Any] = []
+        self._call_indices: dict[int, int] = {}
+        self._stacks: list[list[int]] = []
+        self._stack_indices: dict[int, int] = {}
+        self._kept: list[object] = []  # objects whose id() is a key
+
+    def write_result(self, result: Expansion, included: Sequence[str]) -> Json:
+        """Return an expansion and the files that xacro included.
+
+        Raises:
+            XacroError: The tree is too deep.
+        """
+        return self._finish(
+            nodes=self._list_nodes(result.tree),
+            arguments=[
+                (a.name, a.default, self._write_place(a.place)) for a in result.arguments.values()
+            ],
+            warnings=[(w.message, self._write_place(w.place)) for w in result.warnings],
+            included=list(included),
+        )
+
+    def write_error(self, error: UrdftoolError) -> Json:
+        """Return an error."""
+        return self._finish(
+            error=type(error).__name__,
+            message=error.message,
+            path=error.path,
+            line=error.line,
+            column=error.column,
+            at=self._write_place(error.at),
+            calls=self._write_calls(error.calls),
+            notes=error.notes,
+            rule=error.rule,
+            case=error.case,
+            data=dict(error.data),
+        )
+
+    def _finish(self, **values: Any) -> Json:
+        return {
+            **values,
+            "encodings": self._encodings,
+            "call_table": self._calls,
+            "stack_table": self._stacks,
+        }
+
+    def _list_nodes(self, document: XacroDocument) -> list[Any]:
+        """Return the nodes in document order, each with its depth."""
+        nodes: list[Any] = []
+        todo: list[tuple[int, Node | None]] = [(1, document.firstChild)]
+        while todo:
+            depth, node = todo.pop()
+            if node is None:
+                continue
+            todo.append((depth, node.nextSibling))
+            if isinstance(node, XacroElement):
+                if depth > MAX_DEPTH:
+                    raise XacroError(
+                        f"expanded elements are nested more than {MAX_DEPTH} deep, the limit of a "
+                        "robot description",
+                        at=node.place,
+                    )
+                calls = self._write_calls(node.calls)
+                place = self._files[id(node.file)], node.start, calls
+                nodes.append((depth, node.tagName, node.attributes, *place))
+                todo.append((depth + 1, node.firstChild))
+            elif isinstance(node, Characters) and not _is_indentation(node):
+                nodes.append((depth, node.nodeType, node.data))
+        return nodes
+
+    def _write_place(self, place: Place | None) -> Any:
+        if place is None:
+            return None
+        calls = self._write_calls(place.calls)
+        return self._files[id(place.file)], place.start, place.end, calls
+
+    def _write_calls(self, calls: tuple[Call, ...]) -> int:
+        """Return the index of a stack of calls."""
+        index = self._stack_indices.get(id(calls))
+        if index is None:
+            index = self._stack_indices[id(calls)] = len(self._stacks)
+            self._kept.append(calls)
+            self._stacks.append([self._write_call(call) for call in calls])
+        return index
+
+    def _write_call(self, call: Call) -> int:
+        index = self._call_indices.get(id(call))
+        if index is None:
+            index = self._call_indices[id(call)] = len(self._calls)
+            self._kept.append(call)
+            self._calls.append((self._files[id(call.file)], call.start, call.macro, call.arguments))
+        return index
+
+
+def _is_indentation(node: Characters) -> bool:
+    """Tell whether a node is white space next to another kind of node, which no reader uses."""
+    if node.nodeType != TEXT or not node.data.isspace():
+        return False
+    around = (node.previousSibling, node.nextSibling)
+    return any(other is not None and other.nodeType != TEXT for other in around)
+
+
+class Reader:
+    """Conversion of JSON to an expansion or an error, by the side that reads files."""
+
+    def __init__(self, value: Json, files: Sequence[SourceFile]) -> None:
+        """Set the JSON of :class:`Writer` and the files to which it refers."""
+        self._value = value
+        self._files = files
+        for file, encoding in zip(files, value["encodings"], strict=False):
+            file.encoding = str(encoding)
+        calls = [
+            Call(
+                self._get_file(index),
+                int(start),
+                str(macro),
+                tuple((str(k), str(v)) for k, v in arguments),
+            )
+            for index, start, macro, arguments in value["call_table"]
+        ]
+        self._stacks = [tuple(calls[index] for index in stack) for stack in value["stack_table"]]
+
+    def read_result(self, result: Expansion) -> list[str]:
+        """Set tree, arguments and warnings of an expansion; return the included files."""
+        value = self._value
+        result.tree = self._read_tree(value["nodes"])
+        for name, default, place in value["arguments"]:
+            argument = Argument(str(name), str(default), self._read_place(place))
+            result.arguments[argument.name] = argument
+        result.warnings = [
+            Warned(str(message), None if place is None else self._read_place(place))
+            for message, place in value["warnings"]
+        ]
+        return [str(path) for path in value["included"]]
+
+    def read_error(self) -> UrdftoolError:
+        """Return an error."""
+        value = self._value
+        kind = _ERRORS.get(value["error"], XacroError)
+        facts: Json = {
+            key: value[key] for key in ("path", "line", "column", "rule", "case", "data")
+        }
+        at = value["at"]
+        return kind(
+            str(value["message"]),
+            **facts,
+            at=None if at is None else self._read_place(at),
+            calls=self._stacks[value["calls"]],
+            notes=[str(note) for note in value["notes"]],
+        )
+
+    def _get_file(self, index: int) -> SourceFile:
+        return self._files[int(index)]
+
+    def _read_place(self, place: Any) -> Place:
+        file, start, end, calls = place
+        return Place(self._get_file(file), int(start), int(end), self._stacks[calls])
+
+    def _read_tree(self, nodes: Any) -> XacroDocument:
+        document = XacroDocument()
+        above: list[Parent] = [document]
+        for depth, kind, *rest in nodes:
+            del above[depth:]
+            if isinstance(kind, int):
+                above[-1].appendChild(Characters(_check_text(rest[0]), kind))
+                continue
+            attributes, file, start, calls = rest
+            values = Attributes(attributes)
+            for text in values.values():
+                _check_text(text)
+            element = XacroElement(
+                _check_text(kind), values, self._files[file], int(start), self._stacks[calls]
+            )
+            above[-1].appendChild(element)
+            if depth == 1:
+                document.documentElement = element
+            above.append(element)
+        return document
+
+
+def _check_text(value: Any) -> str:
+    if type(value) is not str:
+        raise TypeError(f"{type(value).__name__} in place of text")
+    return value

@@ -1,0 +1,469 @@
+"""Separate process in which xacro expands a description.
+
+The process has no access to files, programs and the network: it requests each file of this process,
+which decides. Time and memory are limited by the system. Its answers are JSON, read by type.
+
+On Linux the process is a fork, which starts in milliseconds; where other threads run, and on other
+systems, it is a new interpreter.
+"""
+
+from __future__ import annotations
+
+import codecs
+import json
+import os
+import re
+import signal
+import struct
+import sys
+from collections.abc import Iterable
+from contextlib import suppress
+from importlib import import_module
+from typing import Any, NoReturn
+
+from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
+from ..landlock import disable_files_and_network
+from ..parallel import can_fork, ignore_interrupts, limit_resources, measure_memory
+from . import limits
+from .expansion import Expansion
+from .expansion_files import ExpansionFiles
+from .expansion_json import Reader, Writer
+from .location import Place, SourceFile
+from .packages import Packages
+from .well_formed import WIDE
+
+MAX_ANSWER = 64 << 20
+"""Maximum size of an expanded description [bytes]; chosen, the limit of a file is 32 MiB."""
+
+_MAX_PATH = 4096  # characters; the limit of Linux
+_MAX_STARTS = 4  # an expansion starts again for each encoding of its files, and for YAML; chosen
+_HEAD = 16  # bytes: lengths of JSON and data, each as 8 digits in base 16
+_NOT_INTERRUPTIBLE = 1.0  # s: after TOTAL_SECONDS, until the system ends the process
+_ALWAYS = ("urdftool.source.tags", "difflib", "resource")
+"""Modules that an expansion may import when it cannot open files any more."""
+
+_ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, PackageNotFound)}
+_ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)")
+_START = f"import sys; sys.path[:] = sys.argv[1:]; from {__name__} import serve; serve()"
+
+
+class _Ended(Exception):  # noqa: N818 -- reads as what happened
+    """Signal that the other end of a channel is closed."""
+
+
+class _RequiresModules(Exception):  # noqa: N818
+    """Signal that the expansion must start again with further modules imported."""
+
+
+class Channel:
+    """Two pipes that carry JSON values, each with bytes."""
+
+    def __init__(self, source: int, target: int) -> None:
+        """Set the file descriptors to read from and to write to."""
+        self._source, self._target = source, target
+
+    def send(self, value: Any, data: bytes = b"") -> None:
+        """Send a value.
+
+        Raises:
+            OSError: The other end is closed.
+        """
+        text = json.dumps(value, check_circular=False).encode("ascii")
+        rest = memoryview(b"%08x%08x" % (len(text), len(data)) + text + data)
+        while rest:
+            rest = rest[os.write(self._target, rest) :]
+
+    def receive(self, most: int = sys.maxsize) -> tuple[Any, bytes]:
+        """Return the next value.
+
+        Args:
+            most: Maximum size [bytes].
+
+        Raises:
+            _Ended: The other end is closed, or sent more than ``most``.
+        """
+        head = self._read(_HEAD)
+        length, size = int(head[:8], 16), int(head[8:], 16)
+        if length + size > most:
+            raise _Ended
+        text = self._read(length)
+        return json.loads(text), self._read(size)
+
+    def _read(self, size: int) -> bytes:
+        parts = []
+        while size:
+            part = os.read(self._source, min(size, 1 << 20))
+            if not part:
+                raise _Ended
+            parts.append(part)
+            size -= len(part)
+        return b"".join(parts)
+
+    def close(self) -> None:
+        """Close both pipes."""
+        for end in (self._source, self._target):
+            with suppress(OSError):
+                os.close(end)
+
+
+# Side that reads files ----------------------------------------------------------------------------
+
+
+def expand(result: Expansion, packages: Packages) -> None:
+    """Expand a description in a separate process.
+
+    Args:
+        result: Expansion with its file and arguments; the result is stored in it.
+        packages: Finder of its packages and files.
+
+    Raises:
+        SourceError: The expansion failed, or exceeded a limit.
+    """
+    modules = {*_ALWAYS, *_list_modules(result.file)}
+    for _ in range(_MAX_STARTS):
+        files = ExpansionFiles(result.file, packages)
+        try:
+            _run(result, files, modules)
+        except _RequiresModules:
+            files.messages.clear()
+            continue
+        finally:
+            files.print_messages()
+        return
+    raise XacroError(
+        "the included files have too many different encodings; save them as UTF-8",
+        at=Place(result.file, 0, 0),
+        rule="expansion-failed",
+    )
+
+
+def _list_modules(file: SourceFile) -> Iterable[str]:
+    """Yield the modules that the expansion of a file imports."""
+    if b"yaml" in file.data:
+        yield "yaml"
+    head = _ENCODING.match(file.data.removeprefix(codecs.BOM_UTF8)[:200])
+    names = [head[1].decode("ascii").lower()] if head else []
+    names += [encoding for start, encoding in WIDE if file.data.startswith(start)]
+    for name in names:
+        with suppress(LookupError):
+            yield "encodings." + codecs.lookup(name).name.replace("-", "_")
+
+
+def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
+    job = {
+        "path": result.file.path,
+        "encoding": result.file.encoding,
+        "given": result.given,
+        "trusted": files.trusted,
+        "modules": sorted(modules),
+    }
+    process = (_Fork if can_fork() else _Interpreter)(job, result.file.data)
+    try:
+        answer = _serve_requests(process.channel, files, modules)
+        if "bug" in answer:
+            raise RuntimeError(f"the expansion failed: {answer['bug']}")
+        reader = Reader(answer, files.files)
+        if "error" in answer:
+            raise reader.read_error()
+        result.dependencies = files.finish(reader.read_result(result))
+        result.files = {file.path: file for file in files.files}
+    except _INVALID as error:
+        code = process.end()
+        at = process.find_place(files.files) or Place(result.file, 0, 0)
+        raise _make_death_error(code, error, at) from None
+    finally:
+        process.end()
+
+
+def _serve_requests(channel: Channel, files: ExpansionFiles, modules: set[str]) -> dict[str, Any]:
+    """Serve the requests of the process until it sends its result; return that."""
+    known = 1
+    while True:
+        request, _ = channel.receive(MAX_ANSWER)
+        name, arguments = str(request[0]), [str(word) for word in request[1:]]
+        if name == "result":
+            answer: dict[str, Any] = request[1]
+            return answer
+        data = b""
+        value: Any
+        try:
+            if name != "message" and max(map(len, arguments), default=0) > _MAX_PATH:
+                raise XacroError(
+                    f"a path or name is longer than {_MAX_PATH} characters",
+                    rule="expansion-failed",
+                )
+            value = files.requests[name](*arguments)
+        except UrdftoolError as error:
+            keys = ("notes", "rule", "path", "line", "column", "data")
+            facts: dict[str, Any] = {key: getattr(error, key) for key in keys}
+            channel.send({"error": type(error).__name__, "message": error.message, **facts})
+            continue
+        except OSError as error:
+            reason, path = error.strerror or str(error), error.filename
+            channel.send({"error": "OSError", "message": reason, "path": path})
+            continue
+        if name == "include":
+            index, file = value
+            value = [index, file.path]
+            if index >= known:
+                known, data = index + 1, file.data
+                modules_before = len(modules)
+                modules.update(_list_modules(file))
+                if len(modules) > modules_before:
+                    raise _RequiresModules
+        elif name == "yaml":
+            value, data = None, value
+        channel.send({"value": value}, data)
+
+
+_INVALID = (
+    *(_Ended, OSError, ValueError, TypeError, LookupError, AttributeError, OverflowError),
+    RecursionError,
+)
+"""Errors while an answer is read: the process has ended, or its answer is not as expected."""
+
+
+def _make_death_error(exit_code: int, error: Exception, at: Place) -> XacroError:
+    """Return the error for a process that ended without a valid result."""
+    if -exit_code == getattr(signal, "SIGXCPU", 0):
+        return limits.make_time_error(at)
+    message = f"the expansion returned an invalid result ({type(error).__name__}: {error})"
+    if isinstance(error, (_Ended, OSError)):
+        message = (
+            "the expansion was ended, because it exceeds a limit of the system or "
+            f"{limits.TOTAL_SECONDS:g} s of CPU time, {limits.MEMORY >> 20} MiB of memory or "
+            f"{MAX_ANSWER >> 20} MiB of expanded text"
+        )
+    return XacroError(message, at=at, rule="endless-expansion")
+
+
+class _Process:
+    """Process that expands, with the channel to it."""
+
+    channel: Channel
+
+    def find_place(self, files: list[SourceFile]) -> Place | None:
+        """Return the location of the last evaluated element; None if unknown."""
+        return None
+
+    def end(self) -> int:
+        """End the process and close the channel; return its exit code, negative for a signal."""
+        raise NotImplementedError
+
+
+class _Fork(_Process):
+    """Fork of this process."""
+
+    def __init__(self, job: dict[str, Any], data: bytes) -> None:
+        import gc
+        import mmap
+
+        import_module("ctypes")
+        _import_modules(job["modules"])
+        import_module(".xacro_hooks", __package__)
+        self._code: int | None = None
+        self._place = mmap.mmap(-1, _PLACE.size)
+        requests, answers = os.pipe(), os.pipe()
+        self._pid = os.fork()
+        if self._pid:
+            self.channel = Channel(requests[0], answers[1])
+            os.close(requests[1])
+            os.close(answers[0])
+            return
+        code = 1
+        try:
+            gc.freeze()  # what exists is not copied by a collection
+            for number in (signal.SIGTERM, signal.SIGHUP):
+                signal.signal(number, signal.SIG_DFL)
+            _close_files(keep=(answers[0], requests[1]))
+            _serve(job, data, Channel(answers[0], requests[1]), self._place)
+            code = 0
+        finally:
+            os._exit(code)
+
+    def find_place(self, files: list[SourceFile]) -> Place | None:
+        index, start = _PLACE.unpack_from(self._place)
+        known = 0 <= index < len(files) and 0 <= start < len(files[index].data)
+        return Place(files[index], start, files[index].find_tag_end(start)) if known else None
+
+    def end(self) -> int:
+        if self._code is None:
+            self.channel.close()
+            with suppress(ProcessLookupError):
+                os.kill(self._pid, signal.SIGKILL)
+            status = os.waitpid(self._pid, 0)[1]
+            self._code = os.waitstatus_to_exitcode(status)
+        return self._code
+
+
+class _Interpreter(_Process):
+    """New interpreter, without the environment of this process."""
+
+    def __init__(self, job: dict[str, Any], data: bytes) -> None:
+        import subprocess
+
+        kept = ("LANG", "LC_ALL", "LC_CTYPE", "SYSTEMROOT", "LD_LIBRARY_PATH")
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _START, *sys.path],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={name: os.environ[name] for name in kept if name in os.environ},
+        )
+        stdin, stdout = self._process.stdin, self._process.stdout
+        assert stdin is not None
+        assert stdout is not None
+        self.channel = Channel(stdout.fileno(), stdin.fileno())
+        with suppress(OSError):  # reported at the next answer
+            self.channel.send(job, data)
+
+    def end(self) -> int:
+        if self._process.poll() is None:
+            self._process.kill()
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):
+                pipe.close()  # type: ignore[union-attr]
+        return self._process.wait()
+
+
+def _import_modules(names: Iterable[str]) -> None:
+    for name in names:
+        with suppress(ImportError):
+            import_module(name)
+
+
+# Side that expands --------------------------------------------------------------------------------
+
+_PLACE = struct.Struct("qq")
+"""File and first byte of the element that is evaluated."""
+
+
+def serve() -> NoReturn:
+    """Expand one description; the main function of a new interpreter."""
+    channel = Channel(os.dup(0), os.dup(1))
+    os.dup2(2, 0)  # the null device
+    os.dup2(2, 1)
+    job, data = channel.receive()
+    import_module(".xacro_hooks", __package__)
+    _import_modules(job["modules"])
+    _serve(job, data, channel, None)
+    os._exit(0)
+
+
+def _close_files(keep: tuple[int, int]) -> None:
+    """Close all files but two, and replace the standard streams by the null device."""
+    null = os.open(os.devnull, os.O_RDWR)
+    for stream in range(3):
+        os.dup2(null, stream)
+    first, second = sorted(keep)
+    for start, stop in ((3, first), (first + 1, second), (second + 1, os.sysconf("SC_OPEN_MAX"))):
+        os.closerange(start, stop)
+
+
+def _serve(job: dict[str, Any], data: bytes, channel: Channel, mark: Any) -> None:
+    """Restrict this process, expand a description and send the result."""
+    from .xacro_hooks import Run
+
+    ignore_interrupts()
+    os.environ.clear()
+    used = measure_memory()
+    disable_files_and_network()
+    processor = limits.TOTAL_SECONDS + _NOT_INTERRUPTIBLE
+    memory = None if used is None else used[0] + limits.MEMORY
+    limit_resources(processor=processor, memory=memory, files=0)
+    file = SourceFile(str(job["path"]), data, str(job["encoding"]))
+    result = Expansion(file, job["given"])
+    files = RequestedFiles(file, channel, mark)
+    run = Run(result, files, trusted=job["trusted"])
+    try:
+        included = run.expand()
+        value = Writer(files.files).write_result(result, included)
+    except UrdftoolError as error:
+        value = Writer(files.files).write_error(error)
+    except Exception as error:
+        value = {"bug": f"{type(error).__name__}: {error}, at {_format_traceback(error)}"}
+    with suppress(OSError):  # the other side has ended
+        channel.send(["result", value])
+
+
+def _format_traceback(error: Exception) -> str:
+    """Return the locations that led to an error; the module ``traceback`` would read files."""
+    places = []
+    trace = error.__traceback__
+    while trace is not None:
+        places.append(f"{trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}")
+        trace = trace.tb_next
+    return ", ".join(places[-5:])
+
+
+class RequestedFiles:
+    """Files, packages and variables, requested of the other side.
+
+    Attributes:
+        files: XML files received, in the order of the other side.
+    """
+
+    def __init__(self, file: SourceFile, channel: Channel, mark: Any) -> None:
+        """Set the description, the channel and the memory for the location of an element."""
+        self.files = [file]
+        self._indices = {id(file): 0}
+        self._channel = channel
+        self._mark = mark
+
+    def find_package(self, name: str) -> str:
+        """Return the folder of a package; see :meth:`ExpansionFiles.find_package`."""
+        return str(self._request("find", name)[0])
+
+    def locate_file(self, path: str) -> str:
+        """Return a path; see :meth:`ExpansionFiles.locate_file`."""
+        return str(self._request("locate", path)[0])
+
+    def read_xml(self, path: str) -> SourceFile:
+        """Return a file to include; see :meth:`ExpansionFiles.read_xml`."""
+        (place, found), data = self._request("include", path)
+        index = int(place)
+        if index == len(self.files):
+            file = SourceFile(found, data)
+            self.files.append(file)
+            self._indices[id(file)] = index
+        return self.files[index]
+
+    def read_yaml(self, path: str) -> bytes:
+        """Return the contents of a YAML file; see :meth:`ExpansionFiles.read_yaml`."""
+        return self._request("yaml", path)[1]
+
+    def list_matches(self, pattern: str) -> list[str]:
+        """Return the paths that match a pattern."""
+        return list(self._request("match", pattern)[0])
+
+    def read_variable(self, name: str) -> str:
+        """Return the value of ``$(env NAME)``."""
+        return str(self._request("env", name)[0])
+
+    def read_optional_variable(self, name: str, default: str = "") -> str:
+        """Return the value of ``$(optenv NAME DEFAULT)``."""
+        return str(self._request("optenv", name, default)[0])
+
+    def suggest_path(self, path: str) -> tuple[str, str]:
+        """Return parts of an error message; see :meth:`ExpansionFiles.suggest_path`."""
+        missing, nearest = self._request("suggest", path)[0]
+        return str(missing), str(nearest)
+
+    def add_message(self, text: str) -> None:
+        """Print a message of the description."""
+        self._request("message", text)
+
+    def mark_place(self, file: SourceFile, start: int) -> None:
+        """Store the location of the element that is evaluated, for the other side."""
+        if self._mark is not None:
+            _PLACE.pack_into(self._mark, 0, self._indices[id(file)], start)
+
+    def _request(self, *words: str) -> tuple[Any, bytes]:
+        self._channel.send(words)
+        answer, data = self._channel.receive()
+        if answer.get("error") == "OSError":
+            raise OSError(0, answer["message"], answer["path"])
+        if "error" in answer:
+            kind = _ERRORS.get(answer.pop("error"), XacroError)
+            raise kind(**answer)
+        return answer["value"], data
