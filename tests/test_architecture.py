@@ -12,6 +12,7 @@ TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
 BASE = (
     *("control_characters", "errors", "extras", "suggestions", "parallel", "landlock", "isolated"),
     *("limited", "exchange", "leftovers", "storage", "dependencies", "file_access", "workspace"),
+    "projects",
     *("git_command", "diagnostic"),
 )
 """Modules that know nothing of robots, each of which may import those before it."""
@@ -33,7 +34,7 @@ BELOW = {
         *("lint", "rules", "finding", "mechanics", "geometry", "model", "source"),
         *BASE,
     ),
-    "collision": ("drawing", "geometry", "inertia", "model", "source", *BASE),
+    "collision": ("drawing", "geometry", "inertia", "model", "output", "source", *BASE),
     "viewer": ("drawing", "mechanics", "finding", "model", "source", *BASE),
     "rules": ("finding", "mechanics", "model", "source", "geometry", *BASE),
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),

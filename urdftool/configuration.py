@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
+from .projects import explain_link_out
 from .source.packages import ConfiguredFolder
 from .suggestions import suggest_name
 from .workspace import Workspace, memoize_by_workspace
@@ -25,6 +26,12 @@ if TYPE_CHECKING:
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
 TABLES = ("packages", "lint", "collision", "simulate")
 GLTF_UP = "gltf-up"
+_MOST_BYTES = 1 << 20
+"""Maximum size of a configuration file; chosen, a long pyproject.toml has 50 kB."""
+_MOST_PARTS = 64
+"""Maximum number of parts of a dotted key; chosen, real ones have up to five."""
+_TEXT_IN_QUOTES = re.compile(rb"\"(?:[^\"\\\n]|\\.)*\"|'[^'\n]*'")
+_NO_KEY = re.compile(rb"^$|[^A-Za-z0-9_ \t-]")
 
 
 @dataclass
@@ -81,14 +88,20 @@ def _find_above(workspace: Workspace, folder: str) -> Configuration:
 
 
 def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration | None:
+    outside = "" if required else explain_link_out(path, workspace.restrict(None))
+    if outside:
+        raise ConfigError(f"is not read: it {outside} with --config", path=path)
     try:
-        data = workspace.read_bytes(path)
+        with workspace.open(path) as stream:
+            data = stream.read(_MOST_BYTES + 1)
     except OSError as error:
         if required:
             raise ConfigError(
                 f"cannot be read: {error.strerror}; pass a TOML file with --config", path=path
             ) from None
         return None
+    if len(data) > _MOST_BYTES or _has_long_key(data):
+        raise ConfigError("is not read: it is too large, or has too long a dotted key", path=path)
     in_pyproject = path.name == "pyproject.toml"
     if in_pyproject and b"tool.urdftool" not in data:
         return None
@@ -98,7 +111,7 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
         import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
     try:
         table: Any = tomllib.loads(data.decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise ConfigError(f"is not valid TOML: {error}", path=path) from None
     if in_pyproject or "tool" in table:
         table = table.get("tool", {}).get("urdftool", {})
@@ -134,6 +147,16 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
         simulate,
         gltf_up,
     )
+
+
+def _has_long_key(data: bytes) -> bool:
+    """Tell whether a key may have so many parts that a parser needs much memory."""
+    count = 0
+    for part in _TEXT_IN_QUOTES.sub(b"q", data).split(b"."):
+        count = 0 if _NO_KEY.search(part.strip()) else count + 1
+        if count > _MOST_PARTS:
+            return True
+    return False
 
 
 def _find_line(name: str, data: bytes) -> int:

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from .source.description import GltfUp
 
 
+_LONGEST_LINE = 4000
+"""Maximum length of a line of a message [characters]; chosen, fifty lines of a terminal."""
+
+
 @dataclass
 class Console:
     """Settings shared by all commands.
@@ -76,4 +80,13 @@ class Console:
 
     def _write(self, line: str) -> None:
         with suppress(OSError):  # stderr may be closed; the exit code remains
-            click.echo(escape_controls(line), err=True)
+            click.echo(escape_controls(_shorten(line)), err=True)
+
+
+def _shorten(line: str) -> str:
+    """Return a line without the middle of a text of a file that nobody would read to its end."""
+    left_out = len(line) - _LONGEST_LINE
+    if left_out <= 0:
+        return line
+    half = _LONGEST_LINE // 2
+    return f"{line[:half]} [… {left_out} characters …] {line[-half:]}"

@@ -44,11 +44,32 @@ class Access(Protocol):
 IRREGULAR = "is a device or a pipe, not a file"
 """Reason for which no command reads a file that may never end."""
 
+_KERNEL = ("/proc/", "/sys/")
+"""Folders of Linux whose files wait, or have no size and no end, although they look regular."""
+
+_STREAMS = ("/dev/fd/", "/proc/self/fd/")
+
 
 def is_irregular(path: str | Path) -> bool:
-    """Tell whether a path leads to a device, pipe or socket, without opening it."""
+    """Tell whether a path leads to a device, pipe, socket or kernel file, without opening it."""
     try:
         mode = os.stat(path).st_mode
     except (OSError, ValueError):
         return False
-    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+    if stat.S_ISDIR(mode):
+        return False
+    return not stat.S_ISREG(mode) or os.path.realpath(path).startswith(_KERNEL)
+
+
+def is_stream(path: str | Path) -> bool:
+    """Tell whether a path is an open stream of this process, such as ``<(command)`` of a shell.
+
+    A named pipe, which may have no writer, is none.
+    """
+    name = os.fspath(path)
+    if name != "/dev/stdin" and not name.startswith(_STREAMS):
+        return False
+    try:
+        return not stat.S_ISBLK(os.stat(path).st_mode)
+    except (OSError, ValueError):
+        return False

@@ -8,7 +8,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from .errors import OutputError
+from .projects import explain_link_out
 from .storage import write_files
+from .workspace import Workspace
 
 
 def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] = ()) -> None:
@@ -83,8 +85,10 @@ def check_folder(folder: Path, target: str | Path) -> None:
         target: Path of the output, for the message.
 
     Raises:
-        OutputError: A part of the path is a file, or its last existing folder is read-only.
+        OutputError: A part of the path is a file or a link out of its project, or its last
+            existing folder is read-only.
     """
+    check_links(target)
     if folder.is_dir():
         return
     above = folder
@@ -96,6 +100,17 @@ def check_folder(folder: Path, target: str | Path) -> None:
         )
     if not os.access(above, os.W_OK):
         raise OutputError(f"folder {folder} cannot be created: {above} is read-only", path=target)
+
+
+def check_links(target: str | Path) -> None:
+    """Check that no link that may have come with a project leads an output out of it.
+
+    Raises:
+        OutputError: A link does.
+    """
+    reason = explain_link_out(target, Workspace())
+    if reason:
+        raise OutputError(f"is not written: it {reason}", path=target)
 
 
 def check_targets(
@@ -156,6 +171,7 @@ def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> N
         OutputError: A file has other contents than expected, or cannot be written.
     """
     for path in after:
+        check_links(path)
         _check_unchanged(path, before[path])
         if before[path] is not None and not os.access(path, os.W_OK):
             raise OutputError("not fixed, because the file is read-only", path=path)

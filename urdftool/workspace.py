@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeVar, cast
 
 from .dependencies import Dependencies
-from .file_access import IRREGULAR, Access, AccessRefused, is_irregular
+from .file_access import IRREGULAR, Access, AccessRefused, is_irregular, is_stream
 
 if TYPE_CHECKING:
     from typing import Concatenate, ParamSpec
@@ -224,14 +224,14 @@ class Workspace:
 
         Args:
             path: The file.
-            is_named: Whether the user may have named the file, which may then be a pipe, such as
-                the output of a command, if the view is not restricted.
+            is_named: Whether the user may have named the file, which may then be a stream of this
+                process, such as the output of a command, if the view is not restricted.
 
         Raises:
             OSError: The file cannot be read, or the view may not read it.
         """
         data = self.get_overlay(path)
-        if data is None and not (is_named and self._access is None):
+        if data is None and not (is_named and self._access is None and is_stream(path)):
             self._check(path)
         self.record("file", path)
         if data is None:

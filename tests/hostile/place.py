@@ -10,6 +10,8 @@ import os
 import re
 import shutil
 import zipfile
+import zlib
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,6 +23,8 @@ MEGABYTES = 1000
 
 MESSAGE = 20_000
 """Maximum length of the messages of a command that fails [bytes]."""
+
+_DAMAGE = zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError
 
 VARIABLE = "URDFTOOL_TEST_SECRET"
 SECRETS = {
@@ -236,11 +240,12 @@ def find_secrets_in(path: Path) -> list[str]:
     data = path.read_bytes()
     found = find_secrets(data)
     if data[:2] == b"PK":
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        with suppress(*_DAMAGE), zipfile.ZipFile(io.BytesIO(data)) as archive:
             for member in archive.infolist():
                 found += find_secrets(archive.read(member))
     if data[:2] == b"\x1f\x8b":
-        found += find_secrets(gzip.decompress(data))
+        with suppress(gzip.BadGzipFile, EOFError):
+            found += find_secrets(gzip.decompress(data))
     return found
 
 

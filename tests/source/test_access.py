@@ -10,7 +10,8 @@ from tests.assets import DAE, make_gltf, make_png, make_stl
 from urdftool.errors import AccessError, UrdftoolError
 from urdftool.extras import is_installed
 from urdftool.file_access import AccessRefused
-from urdftool.source.access import TRUST, check_companion
+from urdftool.projects import TRUST
+from urdftool.source.access import check_companion
 from urdftool.source.packages import ConfiguredFolder, Packages
 from urdftool.workspace import Workspace
 

@@ -10,8 +10,8 @@ import pytest
 
 from urdftool import expand
 from urdftool.errors import UrdftoolError
+from urdftool.projects import TRUST
 from urdftool.source import limits
-from urdftool.source.sandbox import TRUST
 
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
 

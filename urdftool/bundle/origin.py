@@ -10,7 +10,9 @@ from hashlib import sha1, sha256
 from pathlib import Path
 
 from ..git_command import run_git
+from ..projects import find_repository
 from ..source.packages import find_own_package
+from ..workspace import Workspace
 from .layout import make_portable
 
 _LICENSE = re.compile(r"(?i)(licen[cs]es?|copying|notice|copyright|unlicense)([-._].*)?")
@@ -104,7 +106,7 @@ def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:
     by_root: dict[Path, dict[Path, str]] = {}
     for path, name in sources.items():
         real = Path(os.path.realpath(path))
-        root = _find_repository(real.parent)
+        root = find_repository(real.parent, Workspace())
         if root is not None:
             by_root.setdefault(root, {})[real] = name
     found = []
@@ -122,7 +124,7 @@ def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:
 
 def _list_folders(folder: Path) -> Iterator[Path]:
     """Yield a folder and those above it up to its repository, or else its package."""
-    root = _find_repository(folder)
+    root = find_repository(folder, Workspace())
     own = find_own_package(folder / "-")
     top = root or (own[1] if own is not None else folder)
     for _ in range(_MAX_CLIMB):
@@ -130,13 +132,6 @@ def _list_folders(folder: Path) -> Iterator[Path]:
         if folder in (top, folder.parent):
             return
         folder = folder.parent
-
-
-def _find_repository(folder: Path) -> Path | None:
-    for place in (folder, *folder.parents):
-        if (place / ".git").exists():
-            return place
-    return None
 
 
 def _list_licenses(folder: Path) -> Iterator[Path]:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..errors import OutputError, SourceError
 from ..leftovers import restore_folder
-from ..output import check_folder, write_file
+from ..output import check_folder, check_links, write_file
 from ..storage import write_folder
 from .make import Bundle
 from .manifest import MANIFEST, compute_digest, read_digests
@@ -130,6 +130,7 @@ def _check_files(
             raise OutputError(f"is a folder that is not a bundle; {_OVERWRITE}", path=target)
     for name in files:
         place = folder / name
+        check_links(place)
         if os.path.realpath(place) in read:
             raise OutputError("is an input of the bundle; choose another output", path=place)
         if place.is_dir():

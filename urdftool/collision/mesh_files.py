@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import OutputError
+from ..output import check_links
 from ..storage import write_files
 from .piece import Piece
 
@@ -66,6 +67,7 @@ def write_all(
     for path in files:
         if os.path.realpath(path) in read:
             raise OutputError("is an input; write the output to another file", path=path)
+        check_links(path)
         _check(path, overwrite)
     write_files(files)
 

@@ -66,6 +66,6 @@ def _set_debug(ctx: click.Context, parameter: click.Parameter, value: bool) -> N
 
 def _set_trust(ctx: click.Context, parameter: click.Parameter, value: bool) -> None:
     if value:
-        from ..source.sandbox import disable_sandbox
+        from ..projects import disable_sandbox
 
         disable_sandbox()

@@ -14,7 +14,7 @@ from ..finding import Finding
 from ..isolated import ProcessDied
 from ..limited import LimitExceeded, Limits
 from ..model.elements import Robot
-from ..source.access import is_trusted
+from ..projects import is_trusted
 from ..source.document import STDIN, read_file
 from ..source.location import Place, SourceFile
 from ..source.packages import Packages

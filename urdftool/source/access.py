@@ -3,30 +3,30 @@
 A description may be untrusted. It reads files of its project, of packages that the user, ROS or
 Gazebo names, and of packages in its ROS workspace. Decisions are made for real paths, so that a
 symbolic link does not lead out. Hidden files and folders, devices and pipes are never read.
-
-A project is the repository around a file, else the nearest folder above with a project file, else
-the folder of the file. Folders that everybody uses, such as the home folder, are never projects.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import AccessError
+from ..errors import AccessError, PackageNotFound
 from ..file_access import IRREGULAR, AccessRefused
-from ..workspace import Workspace, memoize_by_workspace
+from ..projects import (
+    TRUST_REMEDY,
+    find_project,
+    is_shared,
+    is_trusted,
+    is_within,
+    list_above,
+)
+from ..workspace import Workspace
 
 if TYPE_CHECKING:
     from .location import Place
     from .packages import Packages
-
-TRUST = "URDFTOOL_TRUST"
-"""Environment variable that trusts descriptions, also in child processes; ``--trust`` sets it."""
-
-TRUST_REMEDY = "pass --trust if the input is trusted"
 
 MODEL_PATHS = (
     *("SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"),
@@ -36,101 +36,10 @@ MODEL_PATHS = (
 _PACKAGE_PATHS = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH")
 _SYSTEM = Path("/opt/ros")
 _MODEL_MARK = "model.config"
-_REPOSITORY_MARKS = (".git", ".hg")
-_PROJECT_MARKS = (
-    *("package.xml", _MODEL_MARK, "pyproject.toml", "CMakeLists.txt"),
-    *("urdftool.toml", ".urdftool.toml"),
-)
-_LIBRARIES = ("site-packages", "dist-packages")
-_HOMES = ("home", "Users")
-_OWN_FOLDERS = ("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP")
-_SHARED = frozenset(
-    (
-        *("bin", "boot", "dev", "etc", "home", "lib", "lib32", "lib64", "media", "mnt", "opt"),
-        *("proc", "root", "run", "sbin", "srv", "sys", "tmp", "usr", "var"),
-        *("Applications", "Library", "System", "Users", "Volumes", "cores", "private"),
-    )
-)
-"""Folders below the root of the file system that hold more than one project."""
-
-
-def disable_sandbox() -> None:
-    """Trust all descriptions in this process and its children."""
-    os.environ[TRUST] = "1"
-
-
-def is_trusted(files: Workspace) -> bool:
-    """Tell whether the user trusts all descriptions."""
-    return files.read_variable(TRUST) == "1"
-
-
-def find_project(path: str | Path, files: Workspace) -> Path | None:
-    """Return the project of a file; None in a folder that everybody uses.
-
-    Args:
-        path: The file, which need not exist.
-        files: Access to files without restriction.
-    """
-    found = _find_project(files, os.path.dirname(os.path.abspath(path)))
-    return None if found is None else Path(found)
-
-
-@memoize_by_workspace
-def _find_project(files: Workspace, folder: str) -> str | None:
-    above = list(_list_above(Path(folder), files))
-    if not above:
-        return None
-    if above[-1].parent.name in _LIBRARIES or _is_cmeel(above[-1].parent):
-        return str(above[-1])
-    for marks in (_REPOSITORY_MARKS, _PROJECT_MARKS):
-        for place in above:
-            if any(files.exists(place / mark) for mark in marks):
-                return str(place)
-    return folder
-
-
-def _list_above(folder: Path, files: Workspace) -> Iterator[Path]:
-    """Yield a folder and those above it that can be a project."""
-    for place in (folder, *folder.parents):
-        if is_shared(place, files):
-            return
-        yield place
-        if place.name.startswith("."):
-            return  # a hidden folder, such as a cache, is not a part of what is around it
 
 
 def _is_model(folder: Path, files: Workspace) -> bool:
     return files.is_file(folder / _MODEL_MARK)
-
-
-def _is_cmeel(folder: Path) -> bool:
-    """Tell whether a folder holds packages that cmeel installs."""
-    return folder.parts[-2:] == ("cmeel.prefix", "share")
-
-
-def is_shared(folder: Path, files: Workspace) -> bool:
-    """Tell whether a folder holds more than one project: a system, home or temporary folder."""
-    if len(folder.parts) <= 1 or folder.name in _LIBRARIES or _is_cmeel(folder):
-        return True
-    inner = folder.parts[1:]
-    if len(inner) == 1 and inner[0] in _SHARED:
-        return True
-    if len(inner) == 2 and (inner[0] in _HOMES or inner in (("var", "tmp"), ("usr", "share"))):
-        return True
-    for variable in _OWN_FOLDERS:
-        own = files.read_variable(variable) or ""
-        if os.path.isabs(own):
-            real = Path(files.resolve_links(own))
-            if real.is_relative_to(folder) or Path(own).is_relative_to(folder):
-                return True
-    return False
-
-
-def is_within(path: Path, root: Path) -> bool:
-    """Tell whether a file is below a folder and not hidden there."""
-    if not path.is_relative_to(root):
-        return False
-    return not any(part.startswith(".") for part in path.relative_to(root).parts)
 
 
 def check_companion(mesh: Path, path: Path) -> Path:
@@ -294,7 +203,10 @@ class FileAccess:
         own = self._packages.find_owner(real)
         if own is None or not is_within(real, own[1]) or is_shared(own[1], files):
             return False
-        folder = self._packages.find_by_manifest(own[0])
+        try:
+            folder = self._packages.find_by_manifest(own[0])
+        except PackageNotFound:  # a configuration that came along names a foreign folder
+            return False
         if folder is not None and Path(_resolve(files, folder)) == own[1]:
             # a link of the project itself must not lead to the packages of others
             projects = filter(None, (find_project(f, files) for f in self._list_own_files(files)))
@@ -307,7 +219,7 @@ class FileAccess:
     def _is_in_model(self, real: Path, files: Workspace) -> bool:
         """Tell whether a file is in a Gazebo model next to that of the description."""
         for file in self._get_rules()[1]:
-            own = next((f for f in _list_above(file.parent, files) if _is_model(f, files)), None)
+            own = next((f for f in list_above(file.parent, files) if _is_model(f, files)), None)
             if own is None or is_shared(own.parent, files) or not is_within(real, own.parent):
                 continue
             if _is_model(own.parent / real.relative_to(own.parent).parts[0], files):

@@ -17,6 +17,7 @@ from xml.parsers import expat
 
 from ..errors import AccessError, SourceError, XmlError
 from ..file_access import AccessRefused
+from ..projects import explain_link_out
 from ..workspace import STDIN as STDIN
 from ..workspace import Workspace
 from .location import Call, Place, SourceFile
@@ -161,6 +162,9 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     if copy is not None:
         workspace.record("file", named)
         return SourceFile(named, copy)
+    outside = explain_link_out(shown, workspace.restrict(None), of_repository=True)
+    if outside and named != STDIN:
+        raise AccessError(f"is not read: it {outside}, or pass --trust", path=shown)
     try:
         if shown == "-":
             shown = STDIN

@@ -19,8 +19,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import AccessError, PackageNotFound
+from ..projects import find_project, is_shared, is_trusted, is_within
 from ..workspace import Workspace, memoize_by_workspace
-from .access import FileAccess, find_project, is_shared, is_trusted, is_within
+from .access import FileAccess
 from .install_rules import InstallRule, find_installed, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
@@ -37,10 +38,11 @@ _NEAR = 3
 @memoize_by_workspace
 def _read_package_name(workspace: Workspace, folder: str) -> str | None:
     try:
-        text = workspace.read_bytes(os.path.join(folder, "package.xml"))
+        with workspace.open(os.path.join(folder, "package.xml")) as stream:
+            text = stream.read(_MAX_MANIFEST)
     except OSError:
         return None
-    start, *rest = text[:_MAX_MANIFEST].split(b"<!--")
+    start, *rest = text.split(b"<!--")
     match = _NAME.search(start + b"".join(part.partition(b"-->")[2] for part in rest))
     return match[1].decode("utf-8", "replace") if match else os.path.basename(folder)
 
@@ -55,8 +57,8 @@ def _find_owner(workspace: Workspace, folder: str) -> tuple[str, Path] | None:
     name = _read_package_name(workspace, folder)
     if name is not None:
         return name, Path(folder)
-    parent = os.path.dirname(folder)
-    return _find_owner(workspace, parent) if parent != folder else None
+    parent = Path(folder).parent
+    return None if is_shared(parent, workspace) else _find_owner(workspace, str(parent))
 
 
 def find_packages(folder: Path, workspace: Workspace | None = None) -> dict[str, Path]:

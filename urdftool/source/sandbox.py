@@ -9,9 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import XacroError
-from .access import TRUST as TRUST
-from .access import TRUST_REMEDY, is_trusted
-from .access import disable_sandbox as disable_sandbox
+from ..projects import TRUST_REMEDY, is_trusted
 from .location import Place
 from .packages import Packages
 

@@ -20,10 +20,10 @@ from ...errors import MeshError
 from ...geometry.stl_header import is_lfs_pointer, read_stl_header
 
 _HEAD = 65536
-_NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_NUMBER = rb"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _POINT = re.compile(rb"(?m)^[ \t]*v(?:[ \t]+" + _NUMBER + rb"){3}")
 _FACE = re.compile(rb"(?m)^[ \t]*f(?:[ \t]+-?\d+(?:/-?\d*){0,2}(?:[ \t]*\\\r?\n)?){3}")
-_STL_CORNERS = re.compile(rb"(?is)\bfacet\s.*?(?:\bvertex(?:\s+" + _NUMBER + rb"){3}\s+){3}")
+_STL_CORNERS = re.compile(rb"(?i)(?:\bvertex(?:\s+" + _NUMBER + rb"){3}\s+){3}")
 _PLY_FACES = re.compile(rb"(?m)^element[ \t]+(?:face|tristrips)[ \t]+0*[1-9]")
 _MATERIAL = re.compile(rb"(?m)^[ \t]*newmtl[ \t]")
 _DAE_MESH = re.compile(r"<(?:\w+:)?(?:triangles|polylist|polygons|tristrips|trifans)\b")
@@ -102,7 +102,8 @@ def _is_read_by_pillow(path: Path) -> bool:
 def _is_stl(path: Path) -> bool:
     facts = read_stl_header(path)
     if facts.kind == "ascii":
-        return _STL_CORNERS.search(_get_head(path)) is not None
+        _, _, facets = _get_head(path).lower().partition(b"facet")
+        return _STL_CORNERS.search(facets) is not None
     return bool(facts.triangles) and facts.size_agrees
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from ... import __version__
 from ...errors import OutputError
 from ...leftovers import restore_folder
-from ...output import check_folder
+from ...output import check_folder, check_links
 from ...storage import write_files, write_folder
 from ..written import Written
 
@@ -171,6 +171,7 @@ def _check_files(
     read |= {os.path.realpath(content) for content in files.values() if isinstance(content, Path)}
     for name, content in files.items():
         place = folder / name
+        check_links(place)
         if os.path.realpath(place) in read:
             raise OutputError("is an input of the export; choose another output", path=place)
         if place.is_dir():
