@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 _LONGEST_LINE = 4000
 """Maximum length of a line of a message [characters]; chosen, fifty lines of a terminal."""
 
+_MOST_NOTES = 100
+"""Lines of notes of one error that are printed; chosen, more than anybody reads."""
+
 
 @dataclass
 class Console:
@@ -75,8 +78,10 @@ class Console:
         self._write(str(error) if error.path else f"urdftool: {error}")
         for call in error.calls:
             self._write(f"  from {call.file.path}:{call.line}:{call.column}: {call.what}")
-        for note in error.notes:
+        for note in error.notes[:_MOST_NOTES]:
             self._write(f"  {note}")
+        if len(error.notes) > _MOST_NOTES:
+            self._write(f"  … and {len(error.notes) - _MOST_NOTES} more")
 
     def _write(self, line: str) -> None:
         with suppress(OSError):  # stderr may be closed; the exit code remains

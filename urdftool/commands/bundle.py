@@ -145,7 +145,7 @@ def command(
                     add_srdf(bundle, model, srdf)
                 add_formats(bundle, formats, force=options.force, srdf=srdf)
         except Refused as refused:
-            return report_refused(refused.findings, as_json=False)
+            return report_refused(console, refused.findings, as_json=False)
         _report_notes(console, bundle)
         if options.limits.is_set:
             _report_sizes(console, bundle)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from ..control_characters import escape_controls
 from ..report.counted import format_count
 
 if TYPE_CHECKING:
@@ -19,18 +18,18 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
 
 
-def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
+def report_refused(console: Console, findings: Sequence[Finding], *, as_json: bool) -> int:
     """Print every defect on one line; nothing is written. Return the exit code."""
-    from ..formats.common.loss_report import format_lines
+    from ..formats.common.loss_report import format_lines, merge_instances
 
     if as_json:
         from ..report.exports import to_json
 
         click.echo(to_json(None, (), findings, ()), nl=False)
-    report = list(format_lines(findings))
-    for line in report:
-        click.echo(escape_controls(line), err=True)
-    click.echo(f"urdftool: no file was written: {format_count(len(report), 'error')}", err=True)
+    for line in format_lines(findings):
+        console.print_note(line, level=-1)
+    count = format_count(len(merge_instances(findings)), "error")
+    console.print_message(f"no file was written: {count}")
     return 2
 
 
@@ -86,7 +85,7 @@ def run_export(
         if strict and (lost := raise_losses_as_errors(written.losses)):
             raise Refused(lost)
     except Refused as refused:
-        return report_refused(refused.findings, as_json=as_json)
+        return report_refused(console, refused.findings, as_json=as_json)
     place = None if output == "-" else output
     if place is not None:
         restore_output(console, place)

@@ -31,7 +31,7 @@ def read(path: Path) -> Reading:
     size = path.stat().st_size
     check_instances(path, size, triangles=_count_triangles(path.read_bytes()))
     try:
-        mesh = trimesh.load_mesh(path, file_type="ply", process=False)
+        mesh = trimesh.load_mesh(path, file_type="ply", process=False, skip_materials=True)
     # the parser raises arbitrary exceptions for malformed files
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ...diagnostic import Severity
 from ...finding import Finding
+
+_MOST_LINES = 100
+"""Lines of one rule that are printed; chosen, more than anybody reads."""
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
@@ -22,13 +26,24 @@ def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
-    """Yield a line for each finding, with its remedy; files missing for one cause share a line."""
+    """Yield a line for each finding, with its remedy; files missing for one cause share a line.
+
+    Of more than ``_MOST_LINES`` findings of one rule, the others are counted.
+    """
+    counts: Counter[tuple[str, str]] = Counter()
     for finding, more in _merge_missing_files(merge_instances(findings)):
+        kind = finding.severity.label, finding.code
+        counts[kind] += 1
+        if counts[kind] > _MOST_LINES:
+            continue
         hint = f" (and {more} more)" if more else ""
         hint += f" ({finding.hint})" if finding.hint else ""
         times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
         label = "note" if finding.severity is Severity.INFO else finding.severity.label
         yield f"{finding.location}: {label}: {finding.message}{hint}{times} [{finding.code}]"
+    for (label, code), count in counts.items():
+        if count > _MOST_LINES:
+            yield f"{count - _MOST_LINES} more of severity {label} [{code}]"
 
 
 def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:

@@ -88,8 +88,7 @@ def fill_bodies(
         parts.extend(list_visual_geoms(link, assets, materials, names, written))
         friction = link_friction(structure.robot, name)
         parts.extend(list_collision_geoms(link, assets, names, written, friction))
-        for index, part in enumerate(parts):
-            body.insert(index, part)
+        body[0:0] = parts
         if link_is_weightless(structure.robot, name) and body.tag == "body":
             body.set("gravcomp", "1")
     for name, body in bodies.items():

@@ -131,14 +131,33 @@ def mimic_cycle(robot: Robot) -> Iterator[Problem]:
 @mimic_cycle.full
 def report_joints_of_cycles(robot: Robot) -> Iterator[Problem]:
     """Report each mimic joint that follows itself, directly or through others."""
+    circles: dict[str, list[str]] = {}
+    seen: set[str] = set()
+    for first, _ in _iterate_mimic_joints(robot):
+        names: dict[str, None] = {}
+        joint: Joint | None = first
+        while joint is not None and joint.mimic is not None and joint.name not in seen:
+            seen.add(joint.name)
+            names[joint.name] = None
+            joint = robot.joint.get(joint.mimic.joint)
+        if joint is not None and joint.name in names:
+            order = list(names)
+            circle = order[order.index(joint.name) :]
+            circles |= dict.fromkeys(circle, circle)
     for joint, mimic in _iterate_mimic_joints(robot):
-        circle = [joint.name]
-        leader = joint if mimic.joint == joint.name else robot.joint.get(mimic.joint)
-        while leader is not None and leader.mimic is not None and leader.name not in circle:
-            circle.append(leader.name)
-            leader = robot.joint.get(leader.mimic.joint)
-        if leader is not None and leader.mimic is not None and leader.name == joint.name:
+        if mimic.joint == joint.name:  # of several joints of one name, each
+            yield _report_cycle(joint, [joint.name])
+        elif robot.joint.get(joint.name) is joint and joint.name in circles:
+            circle = circles[joint.name]
+            if len(circle) <= _LONGEST_TURNED:
+                at = circle.index(joint.name)
+                circle = [*circle[at:], *circle[:at]]
             yield _report_cycle(joint, circle)
+
+
+_LONGEST_TURNED = 100
+"""Longest circle that each finding lists from its own joint; chosen."""
+_SHOWN = 6
 
 
 def _report_cycle(joint: Joint, circle: list[str]) -> Problem:
@@ -146,7 +165,10 @@ def _report_cycle(joint: Joint, circle: list[str]) -> Problem:
     if len(circle) == 1:
         message = f"joint '{joint.name}' mimics itself; it must follow another joint"
     else:
-        names = " follows ".join(f"'{name}'" for name in (*circle, circle[0]))
+        some = [f"'{name}'" for name in circle]
+        if len(some) > _SHOWN:
+            some = [*some[: _SHOWN - 1], f"{len(some) - _SHOWN + 1} others"]
+        names = " follows ".join((*some, f"'{circle[0]}'"))
         message = f"mimic joints follow each other: {names}; remove one <mimic>"
     place = joint.mimic.locate_attribute("joint")
     return Problem(joint, message, at=place, data={"joints": circle})

@@ -49,13 +49,11 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
 def report_every_root(robot: Robot) -> Iterator[Problem]:
     """Report each root after the first, also those that another finding explains."""
     roots = robot.tree.roots
+    if len(roots) < 2:
+        return
+    group, data = _describe_roots(roots[0], roots[1:]), {"roots": [root.name for root in roots]}
     for link in roots[1:]:
-        yield Problem(
-            link,
-            _describe_roots(roots[0], [link]),
-            group=_describe_roots(roots[0], roots[1:]),
-            data={"roots": [root.name for root in roots]},
-        )
+        yield Problem(link, _describe_roots(roots[0], [link]), group=group, data=data)
 
 
 def _describe_roots(main: Link, others: list[Link]) -> str:
