@@ -66,14 +66,14 @@ def write(folder, name, suffix, text):
 def test_elements_are_counted_before_mujoco_reads_them(tmp_path, name, monkeypatch):
     monkeypatch.delattr("urdftool.formats.mjcf.read.call_with_limits")
     path = write(tmp_path, name, ".xml", bombs.COUNTED_MJCF[name])
-    with pytest.raises(ModelError, match="more than 200000 elements") as error:
+    with pytest.raises(ModelError, match="more than 40000 elements") as error:
         read(path)
     assert error.value.line == 1
 
 
 def test_attached_models_are_counted(tmp_path, monkeypatch):
     monkeypatch.delattr("urdftool.formats.mjcf.read.call_with_limits")
-    with pytest.raises(ModelError, match="more than 200000 elements"):
+    with pytest.raises(ModelError, match="more than 40000 elements"):
         read(bombs.write_attached(tmp_path))
 
 

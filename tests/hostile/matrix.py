@@ -49,6 +49,8 @@ HEAVY = (
     *("collision IN --check -j 1 --no-cache", "collision IN -o OUT/c.urdf --method hull -j 1"),
 )
 ROBOT = tuple(chain(*zip(LIGHT, EXPORTS, strict=False), HEAVY))
+LARGE = ("links at one place", "links in a tree", "links in a star", "links that overlap")
+"""Robots of 10,000 links, of which each takes its time to be drawn, simulated or decomposed."""
 XML = (*LIGHT, "expand IN", *EXPORTS[:2])
 WITH_MESH = (
     *("export mjcf IN -o OUT/m --force", "lint IN --no-cache", "bundle IN -o OUT/b --force"),
@@ -308,8 +310,11 @@ def of_bundles() -> Iterator[Case]:
 @lru_cache(maxsize=1)
 def list_cases() -> list[Case]:
     """Return all cases."""
+    large = {name: given.URDF[name] for name in LARGE}
+    some = {name: files for name, files in given.URDF.items() if name not in LARGE}
     return [
-        *of_files("URDF", given.URDF, ROBOT, 3),
+        *of_files("URDF", some, ROBOT, 3),
+        *of_files("URDF", large, LIGHT + EXPORTS, 3),
         *of_files("reach", given.REACH, WITH_IMAGE + EXPORTS, 2),
         *of_files("SDF", given.SDF, READ, 2),
         *of_files("MJCF", given.MJCF, READ, 2),

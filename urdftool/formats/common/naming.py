@@ -35,6 +35,7 @@ class UniqueNames:
         """
         self._fold = fold
         self._taken = {self._format_key(name) for name in taken}
+        self._free: dict[str, int] = {}  # least number that may be free, by stem
 
     def __contains__(self, name: object) -> bool:
         """Return whether a name is taken."""
@@ -47,7 +48,12 @@ class UniqueNames:
         """Take the first candidate that is free, or the last one with the least number from 1."""
         names = [name for name in candidates if name]
         stem = names[-1] if names else "unnamed"
-        name = get_first_free(chain(names, list_numbered_names(stem, 1)), self)
+        name = next((name for name in names if name not in self), None)
+        if name is None:
+            number = self._free.get(stem, 1)
+            while (name := f"{stem}_{number}") in self:
+                number += 1
+            self._free[stem] = number + 1
         self._taken.add(self._format_key(name))
         return name
 

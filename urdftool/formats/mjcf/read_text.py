@@ -21,7 +21,7 @@ from ...source.well_formed import repair
 from ...workspace import Workspace
 from .read_assets import Asset, AssetNames
 
-MAX_ELEMENTS = 200_000
+MAX_ELEMENTS = 40_000
 """Maximum number of elements with those that MuJoCo creates: copies by ``<replicate>``, points of
 ``<flexcomp>`` and ``<composite>``, attached models. Chosen, no source."""
 
