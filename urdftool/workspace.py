@@ -11,6 +11,7 @@ in several threads.
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from collections.abc import Callable, Hashable, Iterator, Mapping
@@ -30,6 +31,12 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 STDIN = "<stdin>"
+
+MAX_BYTES = 256 << 20
+"""Maximum size of a file that is read into memory; chosen."""
+
+MAX_TEXT_BYTES = 16 << 20
+"""Maximum size of a text file, such as a manifest; chosen."""
 """Path of the contents of standard input in an overlay."""
 
 
@@ -201,22 +208,29 @@ class Workspace:
             return None
         return self._overlay.get(_get_key(path))
 
-    def read_bytes(self, path: str | Path) -> bytes:
+    def read_bytes(self, path: str | Path, most: int = MAX_BYTES) -> bytes:
         """Return the contents of a file.
 
+        Args:
+            path: The file.
+            most: Maximum size [bytes].
+
         Raises:
-            OSError: The file cannot be read.
+            OSError: The file cannot be read, or is larger.
         """
         with self.open(path) as stream:
-            return stream.read()
+            data = stream.read(most + 1)
+        if len(data) > most:
+            raise OSError(errno.EFBIG, f"is larger than {most >> 20} MiB", os.fspath(path))
+        return data
 
     def read_text(self, path: str | Path) -> str:
         """Return the contents of a file as UTF-8 with LF line ends; invalid bytes are replaced.
 
         Raises:
-            OSError: The file cannot be read.
+            OSError: The file cannot be read, or is larger than ``MAX_TEXT_BYTES``.
         """
-        text = self.read_bytes(path).decode("utf-8", "replace")
+        text = self.read_bytes(path, MAX_TEXT_BYTES).decode("utf-8", "replace")
         return text.replace("\r\n", "\n").replace("\r", "\n")
 
     def open(self, path: str | Path, *, is_named: bool = False) -> BinaryIO:

@@ -49,8 +49,11 @@ HEAVY = (
     *("collision IN --check -j 1 --no-cache", "collision IN -o OUT/c.urdf --method hull -j 1"),
 )
 ROBOT = tuple(chain(*zip(LIGHT, EXPORTS, strict=False), HEAVY))
-LARGE = ("links at one place", "links in a tree", "links in a star", "links that overlap")
-"""Robots of 10,000 links, of which each takes its time to be drawn, simulated or decomposed."""
+LARGE = (
+    *("links at one place", "links in a tree", "links in a star", "links that overlap"),
+    *("links in a chain", "links that turn in a chain"),
+)
+"""Robots of 2,000 to 10,000 links, of which each takes its time to be drawn, simulated or decomposed."""
 XML = (*LIGHT, "expand IN", *EXPORTS[:2])
 WITH_MESH = (
     *("export mjcf IN -o OUT/m --force", "lint IN --no-cache", "bundle IN -o OUT/b --force"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -14,6 +13,7 @@ from ..rules import get_rule
 from ..rules.fix import FixContext, OutsideError, Proposal, RefusedError
 from ..rules.rule import Problem
 from ..rules.table import FIXES
+from ..source.comments import list_comments
 from ..source.description import Description
 from ..source.document import Document
 from .fingerprint import get_fact
@@ -94,17 +94,17 @@ def add_fixes(
             group[0].fixes = (Fix(safe, whole[0].message, replacements, rewrites),)
 
 
-_COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)
-
-
 def _deletes_comments(replacements: Sequence[Replacement]) -> bool:
     """Tell whether the replacements delete comments of the user, which makes a fix unsafe."""
     kept = b"".join(replacement.data for replacement in replacements)
-    return any(
-        comment not in kept
-        for place, _ in replacements
-        for comment in _COMMENT.findall(place.file.data, place.start, place.end)
-    )
+    for place, _ in replacements:
+        deleted = place.file.data[place.start : place.end]
+        for begin, end in list_comments(deleted):
+            comment = deleted[begin:end]
+            is_ours = comment[4:].lstrip().startswith(b"urdftool-")
+            if not is_ours and comment not in kept:
+                return True
+    return False
 
 
 def _get_proposal(finding: Finding, origin: Origin | None, context: FixContext) -> Proposal | None:

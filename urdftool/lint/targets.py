@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ..model.elements import Robot
 from ..model.gazebo_plugins import is_for_gz
+from ..source.comments import remove_comments
 from ..source.description import Description
 from ..workspace import Workspace, memoize_by_workspace
 
@@ -79,7 +80,7 @@ def _read_manifest(workspace: Workspace, path: Path) -> frozenset[str]:
     import re
 
     try:
-        text = re.sub(r"<!--.*?-->", "", workspace.read_text(path), flags=re.DOTALL)
+        text = remove_comments(workspace.read_text(path))
     except OSError:
         return frozenset()
     targets = set()

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..workspace import Workspace
+from .comments import blank_cmake_comments
 
 _MAX_TEXT, _MAX_VALUE = 1 << 20, 512  # characters of a CMakeLists.txt and of a variable; chosen
-_COMMENT = re.compile(r"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
 _COMMAND = re.compile(r"\b(project|set|install)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)", re.IGNORECASE)
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
@@ -70,7 +70,8 @@ def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> li
         "CATKIN_GLOBAL_SHARE_DESTINATION": "share",
     }
     rules: list[InstallRule] = []
-    for command in _COMMAND.finditer(_COMMENT.sub("", text[:_MAX_TEXT])):
+    code = blank_cmake_comments(text[:_MAX_TEXT].encode()).decode()
+    for command in _COMMAND.finditer(code):
         words = [
             _VARIABLE.sub(lambda m: variables.get(m[1], m[0]), quoted or bare)
             for quoted, bare in _WORD.findall(command[2])

@@ -48,8 +48,8 @@ class UniqueNames:
         """Take the first candidate that is free, or the last one with the least number from 1."""
         names = [name for name in candidates if name]
         stem = names[-1] if names else "unnamed"
-        name = next((name for name in names if name not in self), None)
-        if name is None:
+        name = next((name for name in names if name not in self), "")
+        if not name:
             number = self._free.get(stem, 1)
             while (name := f"{stem}_{number}") in self:
                 number += 1

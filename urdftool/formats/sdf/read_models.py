@@ -20,6 +20,9 @@ from .read_values import Version, read_flag, read_text, read_version
 NEWEST: Version = (1, 12)
 MAX_DEPTH = 30
 MAX_ELEMENTS = 200_000
+"""Maximum number of elements with those of included files, which count each time. Chosen."""
+MAX_INCLUDES = 2000
+"""Maximum number of included files, which count each time. Chosen."""
 
 
 class Models:
@@ -37,6 +40,7 @@ class Models:
         self.files: list[SourceFile] = []
         self.losses = losses
         self._above: list[str] = []
+        self._count = self._included = 0
 
     def parse_root(self, file: SourceFile) -> Element:
         """Parse a file.
@@ -49,9 +53,10 @@ class Models:
         root = parse(file).root
         if root.tag != "sdf":
             raise ModelError(f"the root element is <{root.tag}>, not <sdf>", at=root.place)
-        for count, element in enumerate(root.walk(), 1):
-            if count > MAX_ELEMENTS:
-                text = f"the file has more than {MAX_ELEMENTS} elements; it is not read"
+        for element in root.walk():
+            self._count += 1
+            if self._count > MAX_ELEMENTS:
+                text = f"the model has more than {MAX_ELEMENTS} elements; it is not read"
                 raise ModelError(text, at=element.place)
         version = read_version(root)
         if version > NEWEST:
@@ -177,6 +182,10 @@ class Models:
         key = os.path.realpath(path)
         if key in self._above:
             raise SourceError(f"file '{path}' includes itself", at=element.place)
+        self._included += 1
+        if self._included > MAX_INCLUDES:
+            text = f"the model includes more than {MAX_INCLUDES} files; it is not read"
+            raise ModelError(text, at=element.place)
         root = self.parse_root(self._read_file(path, element))
         self._above.append(key)
         models = list(root.list_children("model"))

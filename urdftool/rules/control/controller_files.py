@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ...errors import AccessError, ConfigError, PackageNotFound
 from ...model.controllers import Controller, list_controllers
 from ...model.elements import Robot
+from ...source.comments import blank_comments, list_spans
 from ...source.description import Description
 from ...source.location import SourceFile
 from ...source.nearby_files import read_optional_file
@@ -21,7 +22,6 @@ _FOLDERS = ("config", "controllers", "control", "bringup/config", "params", "lau
 _CONTROLLER = re.compile(rb"\btype[\"']?\s*:\s*[\"']?\w+(?:/|::)\w")
 _FIND = re.compile(r"^\$\(find(?:-pkg-share)?\s+([\w-]+)\s*\)/")
 _TOP = re.compile(rb"<robot\b[^>]*\sname\s*=")
-_MACRO = re.compile(rb"<!--.*?-->|<xacro:macro\b.*?</xacro:macro\s*>", re.DOTALL)
 _MOST_FILES, _MOST_ENTRIES, _MOST_BYTES = 60, 3000, 1_000_000
 
 
@@ -186,8 +186,13 @@ def _is_robot(file: SourceFile) -> bool:
     """Tell whether a file is a complete robot, and not a part to include."""
     if not _TOP.search(file.data):
         return False
-    outside = _MACRO.sub(b"", file.data)
-    return b"<link" in outside or b"<xacro:" in outside
+    text, at = blank_comments(file.data), 0
+    for begin, end in (*list_spans(text, b"<xacro:macro", b"</xacro:macro"), (len(text), 0)):
+        outside = text[at:begin]
+        if b"<link" in outside or b"<xacro:" in outside:
+            return True
+        at = end
+    return False
 
 
 def _compile_names(*names: str) -> re.Pattern[bytes]:

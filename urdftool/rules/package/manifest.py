@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...model.elements import Link, Robot
+from ...source.comments import blank_cmake_comments, remove_comments
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
@@ -32,13 +33,12 @@ from ..words import quote
 from .dependencies import find_dependency_chain
 from .resolution import is_in_own_package
 
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _DEPEND = re.compile(r"<(?:\w+_)?depend\b[^>]*>\s*([\w-]+)\s*</")
 _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
 
 
 def _read_manifest(workspace: Workspace, folder: Path) -> str:
-    return _COMMENT.sub("", _read_text(workspace, folder / "package.xml"))
+    return remove_comments(_read_text(workspace, folder / "package.xml"))
 
 
 @memoize_by_workspace
@@ -217,7 +217,7 @@ def _get_package_name(use: MeshUse) -> str:
     return use.uri[10:].partition("/")[0] if use.uri.startswith("package://") else ""
 
 
-_INSTALL = re.compile(r"\binstall\s*\(([^)]*)\)", re.IGNORECASE | re.DOTALL)
+_INSTALL = re.compile(r"\binstall\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)", re.IGNORECASE)
 
 
 @rule(
@@ -278,7 +278,6 @@ _INSTALL_DIRECTORY = re.compile(
     rb"(?P<where>[^\s()]+)\s*\)",
     re.IGNORECASE,
 )
-_CMAKE_COMMENT = re.compile(rb"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
 _CATKIN, _SHARE = b"${CATKIN_PACKAGE_SHARE_DESTINATION}", b"share/${PROJECT_NAME}"
 
 
@@ -295,7 +294,7 @@ def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
     if own is None or file is None or re.search(r"['\s();#\"]", name):
         return None
     folder, data = name.encode(), file.data
-    code = _CMAKE_COMMENT.sub(lambda comment: re.sub(rb"[^\n]", b" ", comment[0]), data)
+    code = blank_cmake_comments(data)
     catkin = re.search(rb"\bcatkin_package\s*\(", code) is not None
     shares = (_CATKIN, _SHARE, b"share/" + own[0].encode())
     for found in _INSTALL_DIRECTORY.finditer(code):

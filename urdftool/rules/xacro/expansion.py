@@ -9,6 +9,7 @@ import os
 import re
 
 from ...finding import Finding
+from ...source.comments import blank_comments
 from ...source.location import SourceFile
 from ..fix import FixContext, Proposal, Span, safe, unsafe, write_inside
 from ..rule import BOTH, ERROR, SAFE, UNSAFE, Problem, rule
@@ -40,16 +41,10 @@ _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
 def declare_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
     """Declare the prefix in the root element."""
     file = finding.location.file
-    match = re.search(
-        rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank_out, file.data, flags=16)
-    )
+    match = re.search(rb"<(?![?!])[^\s/>]+", blank_comments(file.data))
     if match is None or b"xmlns:xacro" in file.data or b"<xacro:" not in file.data:
         return None
     return safe("declare xmlns:xacro", Span(file, match.end(), match.end(), _XMLNS))
-
-
-def _blank_out(match: re.Match[bytes]) -> bytes:
-    return b" " * len(match[0])
 
 
 @rule(
@@ -127,7 +122,7 @@ def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     if finding.data["suggestion"]:
         return write_inside(finding, name, finding.data["suggestion"])
     file = place.file
-    root = re.search(rb"<robot\b", re.sub(rb"<!--.*?-->", _blank_out, file.data, flags=16))
+    root = re.search(rb"<robot\b", blank_comments(file.data))
     if root is None:
         return None
     at = file.find_tag_end(root.start())

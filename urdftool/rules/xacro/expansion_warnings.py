@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.read import number
+from ...source.comments import blank_comments
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place, SourceFile
@@ -131,9 +132,9 @@ def _get_constant(name: str) -> float:
 
 def _rename_in_expressions(file: SourceFile, name: str, new: str) -> Iterator[Span]:
     """Yield the edits of a property's name in expressions of a file, outside comments."""
-    text = re.sub(rb"<!--.*?-->", lambda m: b" " * len(m[0]), file.data, flags=re.DOTALL)
+    text = blank_comments(file.data)
     word = re.compile(rb"(?<![\w.'\"])" + name.encode() + rb"(?![\w('\"])")
-    for expression in re.finditer(rb"\$\{[^}]*\}", text):
+    for expression in re.finditer(rb"\$\{[^}]{0,10000}\}", text):
         for match in word.finditer(text, expression.start(), expression.end()):
             yield Span(file, match.start(), match.end(), new.encode())
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ...source.comments import remove_comments
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import FixContext, Proposal, remove_element, set_attribute, set_text, unsafe
@@ -38,7 +39,7 @@ def _has_varying_includes(description: Description) -> bool:
 def _join_texts(description: Description) -> str:
     """Get the text of all files, without comments."""
     text = "\n".join(file.data.decode(file.encoding, "replace") for file in description.files)
-    return re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
+    return remove_comments(text)
 
 
 @rule(

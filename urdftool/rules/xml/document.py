@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
+from ...source.comments import list_comments
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import FixContext, Proposal, Span, safe, set_attribute, unsafe
@@ -41,12 +42,12 @@ def separate_hyphens(finding: Finding, context: FixContext) -> Proposal | None:
         return None
     file = finding.location.file
     spans = []
-    for match in re.finditer(rb"<!--(.*?)-->", file.data, re.DOTALL):
-        inner = match[1]
+    for begin, end in list_comments(file.data):
+        inner = file.data[begin + 4 : end - 3]
         new = re.sub(rb"-(?=-)", b"- ", inner)
         new = new + b" " if new.endswith(b"-") else new
         if new != inner:
-            spans.append(Span(file, match.start(1), match.end(1), new))
+            spans.append(Span(file, begin + 4, end - 3, new))
     return safe("write '- -' in comments", *spans) if spans else None
 
 
