@@ -134,12 +134,13 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
     if gltf_up not in ("y", "z"):
         raise ConfigError(f'{GLTF_UP} must be "y" or "z", the up axis of glTF files', path=path)
     folder = Path(os.path.abspath(path)).parent
+    lines = _find_lines(data) if packages else {}
     return Configuration(
         str(path),
         {
             name: folder / value
             if required
-            else ConfiguredFolder(folder / value, str(path), _find_line(name, data))
+            else ConfiguredFolder(folder / value, str(path), lines.get(name, 1))
             for name, value in packages.items()
         },
         lint,
@@ -159,11 +160,14 @@ def _has_long_key(data: bytes) -> bool:
     return False
 
 
-def _find_line(name: str, data: bytes) -> int:
-    """Return the line of a key."""
-    text = data.decode("utf-8")
-    found = re.search(rf"^[ \t\"']*{re.escape(name)}[ \t\"']*=", text, re.MULTILINE)
-    return 1 if found is None else text.count("\n", 0, found.start()) + 1
+def _find_lines(data: bytes) -> dict[str, int]:
+    """Return the first line of each key, from 1."""
+    found: dict[str, int] = {}
+    for number, line in enumerate(data.decode("utf-8").split("\n"), 1):
+        key, assigns, _ = line.partition("=")
+        if assigns:
+            found.setdefault(key.strip(" \t\"'"), number)
+    return found
 
 
 def _suggest_name(name: str) -> str:

@@ -271,7 +271,7 @@ def _run_worker(function: Callable[[Any], Any], memory_limit: int | None, connec
     with suppress(RuntimeError):  # thread limit of the system reached
         Thread(target=_leave_with_parent, name=WATCHER, daemon=True).start()
     with terminate_gracefully():
-        _unblock_signals()
+        hold_signals(hold=False)
         if memory_limit is not None:
             limit_resources(memory=memory_limit)
         with suppress(EOFError, ConnectionError):  # the parent has ended
@@ -345,6 +345,7 @@ def limit_resources(
     memory: int | None = None,
     data: int | None = None,
     files: int | None = None,
+    processes: int | None = None,
 ) -> None:
     """Limit the resources of this process, where the system supports it; disable core dumps.
 
@@ -353,6 +354,8 @@ def limit_resources(
         memory: Address space [bytes] beyond which allocations fail.
         data: Memory that is not of files [bytes] beyond which allocations fail.
         files: Number of files beyond which none can be opened; 0 also forbids to write to files.
+        processes: Number of processes and threads of the user beyond which none is started; the
+            superuser has no limit.
     """
     try:
         import resource
@@ -367,6 +370,8 @@ def limit_resources(
         bounds[resource.RLIMIT_DATA] = data, data
     if files is not None:
         bounds[resource.RLIMIT_NOFILE] = files, files
+    if processes is not None:
+        bounds[resource.RLIMIT_NPROC] = processes, processes
     if files == 0:
         bounds[resource.RLIMIT_FSIZE] = 0, 0
     for limit, bound in bounds.items():
@@ -403,22 +408,19 @@ def ignore_interrupts() -> None:
 
 @contextmanager
 def _block_signals() -> Iterator[None]:
-    """Block signals while a process is forked, until :func:`_unblock_signals` runs in it.
+    """Block signals while a process is forked, until :func:`hold_signals` runs in it.
 
     The new process inherits the signal handlers of this one, which would raise during its start.
     """
-    _mask(hold=True)
+    hold_signals(hold=True)
     try:
         yield
     finally:
-        _mask(hold=False)
+        hold_signals(hold=False)
 
 
-def _unblock_signals() -> None:
-    _mask(hold=False)
-
-
-def _mask(*, hold: bool) -> None:
+def hold_signals(*, hold: bool) -> None:
+    """Block the signals that end a process, or unblock them."""
     import signal
 
     if hasattr(signal, "pthread_sigmask"):

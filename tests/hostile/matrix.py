@@ -53,7 +53,7 @@ LARGE = (
     *("links at one place", "links in a tree", "links in a star", "links that overlap"),
     *("links in a chain", "links that turn in a chain"),
 )
-"""Robots of 2,000 to 10,000 links, of which each takes its time to be drawn, simulated or decomposed."""
+"""Robots of 2,000 to 10,000 links, of which each takes its time to be drawn or simulated."""
 XML = (*LIGHT, "expand IN", *EXPORTS[:2])
 WITH_MESH = (
     *("export mjcf IN -o OUT/m --force", "lint IN --no-cache", "bundle IN -o OUT/b --force"),

@@ -5,6 +5,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
 
@@ -76,7 +77,7 @@ def expand_quietly(path):
     """Expand; the replaced expansion has no tree to write."""
     try:
         expand(path)
-    except AttributeError:
+    except XacroError:
         return
 
 
@@ -121,6 +122,23 @@ def test_a_process_that_is_killed_is_reported_at_its_element(path, monkeypatch):
         {"nodes": [[1, "robot", {}, 7, 0, 0]]},
         {"nodes": [[1, "robot", {}, 0, 0, 9]]},
         {"nodes": [[1, 3, 5]]},
+        {"nodes": []},
+        {"nodes": [[0, "robot", {}, 0, 0, 0]]},
+        {"nodes": [[2, "robot", {}, 0, 0, 0]]},
+        {"nodes": [[1, "robot", {}, -1, 0, 0]]},
+        {"nodes": [[1, "robot", {}, 0, -1, 0]]},
+        {"nodes": [[1, "robot", {}, 0, 10**30, 0]]},
+        {"nodes": [[1, "robot", {}, 0, True, 0]]},
+        {"nodes": [[1, "robot", {}, 0, 0, -1]]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0], [1, "robot", {}, 0, 0, 0]]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0], [2, 99, "text"]]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0]], "encodings": ["no-such-encoding"]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0]], "encodings": [7]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0]], "warnings": [["w", [0, 5, 4, 0]]]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0]], "arguments": [["a", 1, [0, 0, 1, 0]]]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0]], "included": [{"a": 1}]},
+        {"nodes": [[1, "robot", {}, 0, 0, 0]], "stack_table": [[-1]]},
+        {"error": "XacroError", "message": ["m"], "path": None},
         {"nodes": "text"},
         {"error": "SystemExit", "message": "m"},
     ],
@@ -132,6 +150,30 @@ def test_a_result_that_is_not_as_expected_is_an_error(path, monkeypatch, result)
     monkeypatch.setattr(expansion_process.Writer, "write_result", lambda *_: sent)
     with pytest.raises(XacroError, match="invalid result"):
         expand(path)
+
+
+@FORKS
+def test_an_answer_of_too_many_values_is_not_parsed(path, monkeypatch):
+    monkeypatch.setattr(expansion_process, "MAX_VALUES", 1000)
+    monkeypatch.setattr(expansion_process.Writer, "write_result", lambda *_: [[]] * 2000)
+    with pytest.raises(XacroError, match="exceeds a limit"):
+        expand(path)
+
+
+@FORKS
+def test_a_process_that_sleeps_is_ended(path, monkeypatch):
+    monkeypatch.setattr(expansion_process, "PATIENCE", 0.3)
+    run_in_process(monkeypatch, lambda _: time.sleep(600))
+    with pytest.raises(XacroError, match="exceeds a limit"):
+        expand(path)
+
+
+@FORKS
+@pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() == 0, reason="has no limit")
+def test_the_process_starts_no_other(path, monkeypatch, capfd):
+    run_in_process(monkeypatch, lambda _: os.fork())
+    expand_quietly(path)
+    assert capfd.readouterr().err == ""
 
 
 @FORKS

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import codecs
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
 from .expansion import Argument, Expansion, Warned
 from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH
 from .xacro_tree import (
+    CDATA,
+    COMMENT,
+    INSTRUCTION,
     TEXT,
     Attributes,
     Characters,
@@ -21,7 +25,10 @@ from .xacro_tree import (
 
 _ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, PackageNotFound)}
 
+T = TypeVar("T")
 Json = dict[str, Any]
+
+_KINDS = frozenset((TEXT, COMMENT, CDATA, INSTRUCTION))
 
 
 class Writer:
@@ -143,60 +150,76 @@ class Reader:
         self._value = value
         self._files = files
         for file, encoding in zip(files, value["encodings"], strict=False):
-            file.encoding = str(encoding)
+            file.encoding = codecs.lookup(_check_text(encoding)).name and encoding
         calls = [
             Call(
-                self._get_file(index),
-                int(start),
-                str(macro),
-                tuple((str(k), str(v)) for k, v in arguments),
+                *self._read_start(index, start),
+                _check_text(macro),
+                tuple((_check_text(k), _check_text(v)) for k, v in arguments),
             )
             for index, start, macro, arguments in value["call_table"]
         ]
-        self._stacks = [tuple(calls[index] for index in stack) for stack in value["stack_table"]]
+        self._stacks = [
+            tuple(_pick(calls, index) for index in stack) for stack in value["stack_table"]
+        ]
 
     def read_result(self, result: Expansion) -> list[str]:
         """Set tree, arguments and warnings of an expansion; return the included files."""
         value = self._value
         result.tree = self._read_tree(value["nodes"])
         for name, default, place in value["arguments"]:
-            argument = Argument(str(name), str(default), self._read_place(place))
+            argument = Argument(_check_text(name), _check_text(default), self._read_place(place))
             result.arguments[argument.name] = argument
         result.warnings = [
-            Warned(str(message), None if place is None else self._read_place(place))
+            Warned(_check_text(message), None if place is None else self._read_place(place))
             for message, place in value["warnings"]
         ]
-        return [str(path) for path in value["included"]]
+        return [_check_text(path) for path in value["included"]]
 
     def read_error(self) -> UrdftoolError:
         """Return an error."""
         value = self._value
-        kind = _ERRORS.get(value["error"], XacroError)
-        facts: Json = {
-            key: value[key] for key in ("path", "line", "column", "rule", "case", "data")
-        }
+        kind = _ERRORS.get(_check_text(value["error"]), XacroError)
+        facts: Json = {key: _check_text(value[key]) for key in ("rule", "case")}
+        if value["path"] is not None:
+            facts["path"] = _check_text(value["path"])
+        for key in ("line", "column"):
+            facts[key] = None if value[key] is None else _check_number(value[key])
         at = value["at"]
         return kind(
-            str(value["message"]),
+            _check_text(value["message"]),
             **facts,
+            data={_check_text(key): one for key, one in value["data"].items()},
             at=None if at is None else self._read_place(at),
-            calls=self._stacks[value["calls"]],
-            notes=[str(note) for note in value["notes"]],
+            calls=_pick(self._stacks, value["calls"]),
+            notes=[_check_text(note) for note in value["notes"]],
         )
 
-    def _get_file(self, index: int) -> SourceFile:
-        return self._files[int(index)]
+    def _read_start(self, index: Any, start: Any) -> tuple[SourceFile, int]:
+        """Return a file and the position of a byte in it."""
+        file = _pick(self._files, index)
+        if _check_number(start) > len(file.data):
+            raise ValueError(f"byte {start} of a file of {len(file.data)}")
+        return file, start
 
     def _read_place(self, place: Any) -> Place:
-        file, start, end, calls = place
-        return Place(self._get_file(file), int(start), int(end), self._stacks[calls])
+        index, start, end, calls = place
+        file, _ = self._read_start(index, end)
+        if _check_number(start) > end:
+            raise ValueError(f"from byte {start} to byte {end}")
+        return Place(file, start, end, _pick(self._stacks, calls))
 
     def _read_tree(self, nodes: Any) -> XacroDocument:
         document = XacroDocument()
         above: list[Parent] = [document]
+        roots = 0
         for depth, kind, *rest in nodes:
+            if not 0 < _check_number(depth) <= min(len(above), MAX_DEPTH + 1):
+                raise ValueError(f"depth {depth} below {len(above)}")
             del above[depth:]
             if isinstance(kind, int):
+                if kind not in _KINDS:
+                    raise ValueError(f"kind {kind}")
                 above[-1].appendChild(Characters(_check_text(rest[0]), kind))
                 continue
             attributes, file, start, calls = rest
@@ -204,13 +227,31 @@ class Reader:
             for text in values.values():
                 _check_text(text)
             element = XacroElement(
-                _check_text(kind), values, self._files[file], int(start), self._stacks[calls]
+                _check_text(kind),
+                values,
+                *self._read_start(file, start),
+                _pick(self._stacks, calls),
             )
             above[-1].appendChild(element)
             if depth == 1:
+                if roots:
+                    raise ValueError("two root elements")
                 document.documentElement = element
+                roots += 1
             above.append(element)
+        if not roots:
+            raise ValueError("no root element")
         return document
+
+
+def _pick(items: Sequence[T], index: Any) -> T:
+    return items[_check_number(index)]
+
+
+def _check_number(value: Any) -> int:
+    if type(value) is not int or value < 0:
+        raise TypeError(f"{value!r} in place of a number from 0")
+    return value
 
 
 def _check_text(value: Any) -> str:

@@ -23,7 +23,7 @@ from typing import Any, NoReturn
 
 from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
 from ..landlock import disable_files_and_network
-from ..parallel import can_fork, ignore_interrupts, limit_resources, measure_memory
+from ..parallel import can_fork, hold_signals, ignore_interrupts, limit_resources, measure_memory
 from . import limits
 from .expansion import Expansion
 from .expansion_files import ExpansionFiles
@@ -35,11 +35,20 @@ from .well_formed import WIDE
 MAX_ANSWER = 64 << 20
 """Maximum size of an expanded description [bytes]; chosen, the limit of a file is 32 MiB."""
 
+MAX_VALUES = 8_000_000
+"""Maximum number of separators in the JSON of an answer; chosen, for 1 GB of memory."""
+
+PATIENCE = 20 * limits.TOTAL_SECONDS
+"""Time [s] without an answer after which the process is ended; chosen, for a machine that is busy
+with twenty others."""
+
 _MAX_PATH = 4096  # characters; the limit of Linux
 _MAX_STARTS = 4  # an expansion starts again for each encoding of its files, and for YAML; chosen
 _HEAD = 16  # bytes: lengths of JSON and data, each as 8 digits in base 16
+_ON_DEMAND = frozenset(("yaml",))
+"""Modules that an expansion may ask for."""
 _NOT_INTERRUPTIBLE = 1.0  # s: after TOTAL_SECONDS, until the system ends the process
-_ALWAYS = ("urdftool.source.tags", "difflib", "resource")
+_ALWAYS = ("urdftool.source.tags", "difflib", "resource", "unicodedata")
 """Modules that an expansion may import when it cannot open files any more."""
 
 _ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, PackageNotFound)}
@@ -58,9 +67,15 @@ class _RequiresModules(Exception):  # noqa: N818
 class Channel:
     """Two pipes that carry JSON values, each with bytes."""
 
-    def __init__(self, source: int, target: int) -> None:
-        """Set the file descriptors to read from and to write to."""
-        self._source, self._target = source, target
+    def __init__(self, source: int, target: int, patience: float | None = None) -> None:
+        """Set the file descriptors to read from and to write to.
+
+        Args:
+            source: File descriptor to read from.
+            target: File descriptor to write to.
+            patience: Time [s] without an answer after which the other end counts as closed.
+        """
+        self._source, self._target, self._patience = source, target, patience
 
     def send(self, value: Any, data: bytes = b"") -> None:
         """Send a value.
@@ -87,17 +102,31 @@ class Channel:
         if length + size > most:
             raise _Ended
         text = self._read(length)
+        if most < sys.maxsize and sum(map(text.count, (b",", b"[", b"{"))) > MAX_VALUES:
+            raise _Ended
         return json.loads(text), self._read(size)
 
     def _read(self, size: int) -> bytes:
         parts = []
         while size:
+            if self._patience is not None:
+                self._wait(self._patience)
             part = os.read(self._source, min(size, 1 << 20))
             if not part:
                 raise _Ended
             parts.append(part)
             size -= len(part)
         return b"".join(parts)
+
+    def _wait(self, seconds: float) -> None:
+        """Wait until there is something to read."""
+        import select
+
+        if hasattr(select, "poll"):  # not on Windows
+            poll = select.poll()
+            poll.register(self._source, select.POLLIN)
+            if not poll.poll(seconds * 1000):
+                raise _Ended
 
     def close(self) -> None:
         """Close both pipes."""
@@ -184,6 +213,9 @@ def _serve_requests(channel: Channel, files: ExpansionFiles, modules: set[str]) 
         if name == "result":
             answer: dict[str, Any] = request[1]
             return answer
+        if name == "import":
+            modules.update(_ON_DEMAND.intersection(arguments))
+            raise _RequiresModules
         data = b""
         value: Any
         try:
@@ -197,6 +229,9 @@ def _serve_requests(channel: Channel, files: ExpansionFiles, modules: set[str]) 
             keys = ("notes", "rule", "path", "line", "column", "data")
             facts: dict[str, Any] = {key: getattr(error, key) for key in keys}
             channel.send({"error": type(error).__name__, "message": error.message, **facts})
+            continue
+        except ValueError as error:  # a name that the system cannot represent
+            channel.send({"error": "XacroError", "message": str(error), **_NO_FACTS})
             continue
         except OSError as error:
             reason, path = error.strerror or str(error), error.filename
@@ -215,6 +250,14 @@ def _serve_requests(channel: Channel, files: ExpansionFiles, modules: set[str]) 
             value, data = None, value
         channel.send({"value": value}, data)
 
+
+_NO_FACTS: dict[str, Any] = {
+    "notes": [],
+    "rule": "expansion-failed",
+    "path": None,
+    "line": None,
+    "column": None,
+}
 
 _INVALID = (
     *(_Ended, OSError, ValueError, TypeError, LookupError, AttributeError, OverflowError),
@@ -264,9 +307,15 @@ class _Fork(_Process):
         self._code: int | None = None
         self._place = mmap.mmap(-1, _PLACE.size)
         requests, answers = os.pipe(), os.pipe()
-        self._pid = os.fork()
+        hold_signals(hold=True)
+        try:
+            self._pid = os.fork()
+        except BaseException:
+            hold_signals(hold=False)
+            raise
         if self._pid:
-            self.channel = Channel(requests[0], answers[1])
+            hold_signals(hold=False)
+            self.channel = Channel(requests[0], answers[1], PATIENCE)
             os.close(requests[1])
             os.close(answers[0])
             return
@@ -275,6 +324,8 @@ class _Fork(_Process):
             gc.freeze()  # what exists is not copied by a collection
             for number in (signal.SIGTERM, signal.SIGHUP):
                 signal.signal(number, signal.SIG_DFL)
+            ignore_interrupts()
+            hold_signals(hold=False)
             _close_files(keep=(answers[0], requests[1]))
             _serve(job, data, Channel(answers[0], requests[1]), self._place)
             code = 0
@@ -313,7 +364,7 @@ class _Interpreter(_Process):
         stdin, stdout = self._process.stdin, self._process.stdout
         assert stdin is not None
         assert stdout is not None
-        self.channel = Channel(stdout.fileno(), stdin.fileno())
+        self.channel = Channel(stdout.fileno(), stdin.fileno(), PATIENCE)
         with suppress(OSError):  # reported at the next answer
             self.channel.send(job, data)
 
@@ -370,7 +421,7 @@ def _serve(job: dict[str, Any], data: bytes, channel: Channel, mark: Any) -> Non
     disable_files_and_network()
     processor = limits.TOTAL_SECONDS + _NOT_INTERRUPTIBLE
     memory = None if used is None else used[0] + limits.MEMORY
-    limit_resources(processor=processor, memory=memory, files=0)
+    limit_resources(processor=processor, memory=memory, files=0, processes=0)
     file = SourceFile(str(job["path"]), data, str(job["encoding"]))
     result = Expansion(file, job["given"])
     files = RequestedFiles(file, channel, mark)
@@ -427,6 +478,12 @@ class RequestedFiles:
             self.files.append(file)
             self._indices[id(file)] = index
         return self.files[index]
+
+    def import_yaml(self) -> Any:
+        """Return the module yaml; the expansion starts again if it is not imported."""
+        if "yaml" not in sys.modules:
+            self._request("import", "yaml")
+        return import_module("yaml")
 
     def read_yaml(self, path: str) -> bytes:
         """Return the contents of a YAML file; see :meth:`ExpansionFiles.read_yaml`."""

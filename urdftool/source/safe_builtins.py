@@ -23,7 +23,7 @@ MAX_RANGE = 1_000_000
 MAX_WIDTH = 9_999
 MAX_DIGITS = 400
 
-_WIDE = re.compile(r"\*|[0-9]{5}")
+_WIDE = re.compile(r"\*|\d{5}")  # also digits of other scripts
 _SEQUENCES = (str, bytes, list, tuple)
 _COLLECTIONS = (dict, set, frozenset)
 

@@ -90,6 +90,9 @@ class Files(Protocol):
     def read_xml(self, path: str) -> SourceFile:
         """Return a file to include."""
 
+    def import_yaml(self) -> Any:
+        """Return the module yaml."""
+
     def read_yaml(self, path: str) -> bytes:
         """Return the contents of a YAML file."""
 
@@ -231,8 +234,7 @@ class Run:
 
     def load_yaml(self, filename: str) -> Any:
         """Load a file as ``xacro.load_yaml``, within limits and with libyaml."""
-        import yaml
-
+        yaml = self.files.import_yaml()
         path = str(xacro.abs_filename_spec(filename))
         fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         loader: Any = type("Loader", (fast,), {})
