@@ -9,6 +9,23 @@ PACKAGE = Path(__file__).parents[1] / "urdftool"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
 
+
+def for_each_module(test):
+    """Run a test for each module as one test, and name the modules for which it fails."""
+
+    def run():
+        found = []
+        for path in MODULES:
+            try:
+                test(path)
+            except AssertionError as error:
+                found.append(f"{path.relative_to(PACKAGE)}: {error}")
+        assert not found, "\n".join(found)
+
+    run.__name__, run.__doc__ = test.__name__, test.__doc__
+    return run
+
+
 BASE = (
     *("control_characters", "errors", "extras", "suggestions", "parallel", "landlock", "isolated"),
     *("limited", "exchange", "leftovers", "storage", "dependencies", "file_access", "workspace"),
@@ -140,7 +157,7 @@ def imports(path):
             yield from (("library", alias.name.split(".")[0]) for alias in node.names)
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_imports_go_down(path):
     relative = path.relative_to(PACKAGE)
     package = relative.parts[0].removesuffix(".py")
@@ -151,7 +168,7 @@ def test_imports_go_down(path):
     assert used <= allowed, f"{relative} imports {sorted(used - allowed)}"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_each_library_has_its_place(path):
     relative = str(path.relative_to(PACKAGE))
     for kind, name in imports(path):
@@ -159,7 +176,7 @@ def test_each_library_has_its_place(path):
             assert relative.startswith(PLACES[name]), f"{relative} imports {name}"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_only_commands_print_and_exit(path):
     relative = path.relative_to(PACKAGE)
     if relative.parts[0] in ("commands", "cli.py", "console.py", "output.py"):
@@ -171,7 +188,7 @@ def test_only_commands_print_and_exit(path):
             )
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_a_file_is_one_idea(path):
     assert path.stem not in ("utils", "util", "common", "helpers", "misc", "core")
     text = path.read_text("utf-8")
@@ -188,7 +205,7 @@ CALLS = {
 }
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_each_deed_has_its_place(path):
     relative = str(path.relative_to(PACKAGE))
     for node in ast.walk(TREES[path]):
@@ -264,7 +281,7 @@ def state(tree):
                 yield function.name
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_no_module_keeps_state(path):
     assert not set(state(TREES[path]))
 
@@ -287,7 +304,7 @@ def patches(tree):
                 yield target
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_no_function_of_another_module_is_replaced(path):
     found = {f"{path.name}: {name}" for name in patches(TREES[path])}
     assert not found - set(KNOWN_PATCHES)
@@ -381,7 +398,7 @@ def openings(tree):
             yield called
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@for_each_module
 def test_files_are_opened_through_the_workspace(path):
     name = path.relative_to(PACKAGE).as_posix()
     assert name in OPENERS or not list(openings(TREES[path]))
@@ -552,7 +569,7 @@ def _text_decisions(tree, function="module"):
         yield from _text_decisions(child, function)
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+@for_each_module
 def test_no_code_decides_by_the_text_of_a_message(path):
     name = path.relative_to(PACKAGE).as_posix()
     found = [
@@ -605,7 +622,7 @@ def forms_with_code(tree):
                 yield called
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+@for_each_module
 def test_no_file_is_read_in_a_form_that_runs_code(path):
     if path.relative_to(PACKAGE).as_posix() not in BETWEEN_PROCESSES:
         assert not list(forms_with_code(TREES[path]))

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 
 _LONGEST_LINE = 4000
-"""Maximum length of a line of a message [characters]; chosen, fifty lines of a terminal."""
+"""Maximum length of a line of a message [characters]; chosen."""
 
 _MOST_NOTES = 100
-"""Lines of notes of one error that are printed; chosen, more than anybody reads."""
+"""Lines of notes of one error that are printed; chosen."""
 
 
 @dataclass
@@ -89,7 +89,7 @@ class Console:
 
 
 def _shorten(line: str) -> str:
-    """Return a line without the middle of a text of a file that nobody would read to its end."""
+    """Return a line without the middle of a long text from a file."""
     left_out = len(line) - _LONGEST_LINE
     if left_out <= 0:
         return line

@@ -11,7 +11,7 @@ import pytest
 
 from urdftool import expand
 from urdftool.errors import XacroError
-from urdftool.source import expansion_process, limits, xacro_hooks
+from urdftool.source import expansion_channel, expansion_process, limits, xacro_hooks
 
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
 FORKS = pytest.mark.skipif(sys.platform != "linux", reason="the process is a fork on Linux")
@@ -154,7 +154,7 @@ def test_a_result_that_is_not_as_expected_is_an_error(path, monkeypatch, result)
 
 @FORKS
 def test_an_answer_of_too_many_values_is_not_parsed(path, monkeypatch):
-    monkeypatch.setattr(expansion_process, "MAX_VALUES", 1000)
+    monkeypatch.setattr(expansion_channel, "MAX_VALUES", 1000)
     monkeypatch.setattr(expansion_process.Writer, "write_result", lambda *_: [[]] * 2000)
     with pytest.raises(XacroError, match="exceeds a limit"):
         expand(path)

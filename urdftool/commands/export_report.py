@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def report_refused(console: Console, findings: Sequence[Finding], *, as_json: bool) -> int:
     """Print every defect on one line; nothing is written. Return the exit code."""
-    from ..formats.common.loss_report import format_lines, merge_instances
+    from ..formats.common.loss_report import count_messages, format_lines
 
     if as_json:
         from ..report.exports import to_json
@@ -28,7 +28,7 @@ def report_refused(console: Console, findings: Sequence[Finding], *, as_json: bo
         click.echo(to_json(None, (), findings, ()), nl=False)
     for line in format_lines(findings):
         console.print_note(line, level=-1)
-    count = format_count(len(merge_instances(findings)), "error")
+    count = format_count(count_messages(findings), "error")
     console.print_message(f"no file was written: {count}")
     return 2
 

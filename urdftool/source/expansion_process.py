@@ -10,7 +10,6 @@ systems, it is a new interpreter.
 from __future__ import annotations
 
 import codecs
-import json
 import os
 import re
 import signal
@@ -26,6 +25,7 @@ from ..landlock import disable_files_and_network
 from ..parallel import can_fork, hold_signals, ignore_interrupts, limit_resources, measure_memory
 from . import limits
 from .expansion import Expansion
+from .expansion_channel import Channel, Ended
 from .expansion_files import ExpansionFiles
 from .expansion_json import Reader, Writer
 from .location import Place, SourceFile
@@ -35,16 +35,12 @@ from .well_formed import WIDE
 MAX_ANSWER = 64 << 20
 """Maximum size of an expanded description [bytes]; chosen, the limit of a file is 32 MiB."""
 
-MAX_VALUES = 8_000_000
-"""Maximum number of separators in the JSON of an answer; chosen, for 1 GB of memory."""
-
 PATIENCE = 20 * limits.TOTAL_SECONDS
 """Time [s] without an answer after which the process is ended; chosen, for a machine that is busy
 with twenty others."""
 
 _MAX_PATH = 4096  # characters; the limit of Linux
 _MAX_STARTS = 4  # an expansion starts again for each encoding of its files, and for YAML; chosen
-_HEAD = 16  # bytes: lengths of JSON and data, each as 8 digits in base 16
 _ON_DEMAND = frozenset(("yaml",))
 """Modules that an expansion may ask for."""
 _NOT_INTERRUPTIBLE = 1.0  # s: after TOTAL_SECONDS, until the system ends the process
@@ -56,83 +52,8 @@ _ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)")
 _START = f"import sys; sys.path[:] = sys.argv[1:]; from {__name__} import serve; serve()"
 
 
-class _Ended(Exception):  # noqa: N818 -- reads as what happened
-    """Signal that the other end of a channel is closed."""
-
-
 class _RequiresModules(Exception):  # noqa: N818
     """Signal that the expansion must start again with further modules imported."""
-
-
-class Channel:
-    """Two pipes that carry JSON values, each with bytes."""
-
-    def __init__(self, source: int, target: int, patience: float | None = None) -> None:
-        """Set the file descriptors to read from and to write to.
-
-        Args:
-            source: File descriptor to read from.
-            target: File descriptor to write to.
-            patience: Time [s] without an answer after which the other end counts as closed.
-        """
-        self._source, self._target, self._patience = source, target, patience
-
-    def send(self, value: Any, data: bytes = b"") -> None:
-        """Send a value.
-
-        Raises:
-            OSError: The other end is closed.
-        """
-        text = json.dumps(value, check_circular=False).encode("ascii")
-        rest = memoryview(b"%08x%08x" % (len(text), len(data)) + text + data)
-        while rest:
-            rest = rest[os.write(self._target, rest) :]
-
-    def receive(self, most: int = sys.maxsize) -> tuple[Any, bytes]:
-        """Return the next value.
-
-        Args:
-            most: Maximum size [bytes].
-
-        Raises:
-            _Ended: The other end is closed, or sent more than ``most``.
-        """
-        head = self._read(_HEAD)
-        length, size = int(head[:8], 16), int(head[8:], 16)
-        if length + size > most:
-            raise _Ended
-        text = self._read(length)
-        if most < sys.maxsize and sum(map(text.count, (b",", b"[", b"{"))) > MAX_VALUES:
-            raise _Ended
-        return json.loads(text), self._read(size)
-
-    def _read(self, size: int) -> bytes:
-        parts = []
-        while size:
-            if self._patience is not None:
-                self._wait(self._patience)
-            part = os.read(self._source, min(size, 1 << 20))
-            if not part:
-                raise _Ended
-            parts.append(part)
-            size -= len(part)
-        return b"".join(parts)
-
-    def _wait(self, seconds: float) -> None:
-        """Wait until there is something to read."""
-        import select
-
-        if hasattr(select, "poll"):  # not on Windows
-            poll = select.poll()
-            poll.register(self._source, select.POLLIN)
-            if not poll.poll(seconds * 1000):
-                raise _Ended
-
-    def close(self) -> None:
-        """Close both pipes."""
-        for end in (self._source, self._target):
-            with suppress(OSError):
-                os.close(end)
 
 
 # Side that reads files ----------------------------------------------------------------------------
@@ -260,7 +181,7 @@ _NO_FACTS: dict[str, Any] = {
 }
 
 _INVALID = (
-    *(_Ended, OSError, ValueError, TypeError, LookupError, AttributeError, OverflowError),
+    *(Ended, OSError, ValueError, TypeError, LookupError, AttributeError, OverflowError),
     RecursionError,
 )
 """Errors while an answer is read: the process has ended, or its answer is not as expected."""
@@ -271,7 +192,7 @@ def _make_death_error(exit_code: int, error: Exception, at: Place) -> XacroError
     if -exit_code == getattr(signal, "SIGXCPU", 0):
         return limits.make_time_error(at)
     message = f"the expansion returned an invalid result ({type(error).__name__}: {error})"
-    if isinstance(error, (_Ended, OSError)):
+    if isinstance(error, (Ended, OSError)):
         message = (
             "the expansion was ended, because it exceeds a limit of the system or "
             f"{limits.TOTAL_SECONDS:g} s of CPU time, {limits.MEMORY >> 20} MiB of memory or "

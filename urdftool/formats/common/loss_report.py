@@ -10,7 +10,7 @@ from ...diagnostic import Severity
 from ...finding import Finding
 
 _MOST_LINES = 100
-"""Lines of one rule that are printed; chosen, more than anybody reads."""
+"""Lines of one rule that are printed; chosen."""
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
@@ -44,6 +44,11 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
     for (label, code), count in counts.items():
         if count > _MOST_LINES:
             yield f"{count - _MOST_LINES} more of severity {label} [{code}]"
+
+
+def count_messages(findings: Iterable[Finding]) -> int:
+    """Return the number of findings, in which files missing for one cause count once."""
+    return sum(1 for _ in _merge_missing_files(merge_instances(findings)))
 
 
 def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:
