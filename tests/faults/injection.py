@@ -33,9 +33,14 @@ class Events:
         self.kind = kind
         self.number = number
         self.count = 0
+        self.process = 0
 
     def install(self):
-        """Observe this process; nothing takes it back. Its files need not survive a crash."""
+        """Observe this process, not those it starts; nothing takes it back.
+
+        Its files need not survive a crash.
+        """
+        self.process = os.getpid()
         os.fsync = lambda number: None
         for name in CALLS:
             paths = 2 if name in ("rename", "replace", "link", "symlink") else 1
@@ -77,6 +82,8 @@ class Events:
         return False
 
     def _happen(self, *, before):
+        if os.getpid() != self.process:
+            return
         self.count += 1
         if self.count != self.number:
             return
