@@ -381,14 +381,15 @@ class RequestedFiles:
         self._indices = {id(file): 0}
         self._channel = channel
         self._mark = mark
+        self._known: dict[tuple[str, ...], Any] = {}
 
     def find_package(self, name: str) -> str:
         """Return the folder of a package; see :meth:`ExpansionFiles.find_package`."""
-        return str(self._request("find", name)[0])
+        return str(self._request_once("find", name))
 
     def locate_file(self, path: str) -> str:
         """Return a path; see :meth:`ExpansionFiles.locate_file`."""
-        return str(self._request("locate", path)[0])
+        return str(self._request_once("locate", path))
 
     def read_xml(self, path: str) -> SourceFile:
         """Return a file to include; see :meth:`ExpansionFiles.read_xml`."""
@@ -435,6 +436,12 @@ class RequestedFiles:
         """Store the location of the element that is evaluated, for the other side."""
         if self._mark is not None:
             _PLACE.pack_into(self._mark, 0, self._indices[id(file)], start)
+
+    def _request_once(self, *words: str) -> Any:
+        """Return the value of a request, of which the answer stays the same."""
+        if words not in self._known:
+            self._known[words] = self._request(*words)[0]
+        return self._known[words]
 
     def _request(self, *words: str) -> tuple[Any, bytes]:
         self._channel.send(words)

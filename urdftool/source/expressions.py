@@ -9,7 +9,7 @@ their owner and bound the size of results. Everything else is an error that name
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from types import CodeType
 from typing import Any
@@ -67,6 +67,14 @@ _HELPERS: dict[str, Callable[..., Any]] = {
     "<slice>": slice,
 }
 
+_LOAD = ast.Load()
+_AT: dict[str, Any] = {"lineno": 1, "col_offset": 0, "end_lineno": 1, "end_col_offset": 0}
+"""Position of the nodes that are added to a tree; messages do not show it."""
+
+_PARAMETERS = ast.arguments([], [ast.arg(name, **_AT) for name in _HELPERS], None, [], [], None, [])
+
+_REPLACED = frozenset((ast.Attribute, ast.Subscript, ast.Slice, ast.GeneratorExp, *_OPERATORS))
+
 
 class Expression:
     """Compiled expression."""
@@ -105,16 +113,17 @@ def compile_expression(source: str, *, trusted: bool = False) -> Expression:
     if len(text) > MAX_LENGTH:
         raise OverflowError(f"the expression is longer than the limit of {MAX_LENGTH} characters")
     tree = ast.parse(text, "<expression>", "eval")
-    _check_names(tree)
+    nodes = _list_nodes(tree)
+    _check_names(nodes)
     if not trusted:
-        _check_syntax(tree)
-    body = _Calls(trusted=trusted).visit(tree.body)
-    parameters = [ast.arg(name) for name in _HELPERS]
-    arguments = ast.arguments([], parameters, None, [], [], None, [])
-    function = ast.fix_missing_locations(ast.Expression(ast.Lambda(arguments, body)))
+        _check_syntax(nodes)
+    body = tree.body
+    if any(type(node) in _REPLACED for node in nodes):
+        body = _Calls(trusted=trusted).visit(body)
+    function = ast.Expression(ast.Lambda(_PARAMETERS, body, **_AT))
     code = compile(function, "<expression>", "eval")
     if not trusted:
-        _check_code(code, {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)})
+        _check_code(code, {node.id for node in nodes if type(node) is ast.Name})
     return Expression(code)
 
 
@@ -127,9 +136,22 @@ def list_names(source: str) -> set[str]:
     return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 
 
-def _list_identifiers(tree: ast.AST) -> Iterator[str]:
+def _list_nodes(tree: ast.AST) -> list[ast.AST]:
+    """Return all nodes of a tree, which an expression makes large, as fast as possible."""
+    nodes = [tree]
+    for node in nodes:
+        for name in node._fields:
+            value = getattr(node, name, None)
+            if type(value) is list:
+                nodes += [item for item in value if isinstance(item, ast.AST)]
+            elif isinstance(value, ast.AST):
+                nodes.append(value)
+    return nodes
+
+
+def _list_identifiers(nodes: Iterable[ast.AST]) -> Iterator[str]:
     """Yield all identifiers, in the form to which Python normalizes them."""
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Name):
             yield node.id
         elif isinstance(node, ast.Attribute):
@@ -138,28 +160,34 @@ def _list_identifiers(tree: ast.AST) -> Iterator[str]:
             yield node.arg
 
 
-def _check_names(tree: ast.AST) -> None:
+def _check_names(nodes: Iterable[ast.AST]) -> None:
     """Check that no name begins with two underscores, as xacro does."""
-    hidden = sorted({name for name in _list_identifiers(tree) if name.startswith("__")})
+    hidden = sorted({name for name in _list_identifiers(nodes) if name.startswith("__")})
     if hidden:
         raise ForbiddenNameError(f"names that begin with '__' are not allowed: {', '.join(hidden)}")
 
 
-def _check_syntax(tree: ast.AST) -> None:
+def _check_syntax(nodes: Iterable[ast.AST]) -> None:
     """Check that a tree contains only allowed nodes and literals."""
-    for node in ast.walk(tree):
-        if type(node) not in SYNTAX:
-            _refuse(_WORDS.get(type(node), type(node).__name__))
-        if isinstance(node, ast.Constant) and type(node.value) not in CONSTANTS:
-            _refuse(f"a literal of type {type(node.value).__name__}")
-        if isinstance(node, ast.keyword) and node.arg is None:
-            _refuse("an unpacked argument (**)")
-        if isinstance(node, ast.Dict) and None in node.keys:
-            _refuse("an unpacked dictionary (**)")
-        if isinstance(node, ast.comprehension) and node.is_async:
-            _refuse("async")
-        if isinstance(node, (ast.Attribute, ast.Subscript)) and not isinstance(node.ctx, ast.Load):
-            _refuse("an assignment")
+    for node in nodes:
+        kind = type(node)
+        if kind not in SYNTAX:
+            _refuse(_WORDS.get(kind, kind.__name__))
+        if isinstance(node, ast.Constant):
+            if type(node.value) not in CONSTANTS:
+                _refuse(f"a literal of type {type(node.value).__name__}")
+        elif isinstance(node, ast.keyword):
+            if node.arg is None:
+                _refuse("an unpacked argument (**)")
+        elif isinstance(node, ast.Dict):
+            if None in node.keys:
+                _refuse("an unpacked dictionary (**)")
+        elif isinstance(node, ast.comprehension):
+            if node.is_async:
+                _refuse("async")
+        elif isinstance(node, (ast.Attribute, ast.Subscript)):
+            if not isinstance(node.ctx, ast.Load):
+                _refuse("an assignment")
 
 
 def _refuse(what: str) -> None:
@@ -185,7 +213,7 @@ class _Calls(ast.NodeTransformer):
         if self.trusted and node.attr not in safe_builtins.BOUNDED_METHODS:
             return node
         helper = "<method>" if self.trusted else "<attribute>"
-        return _call(helper, node.value, ast.Constant(node.attr))
+        return _call(helper, node.value, ast.Constant(node.attr, **_AT))
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
         """Replace a subscript."""
@@ -195,17 +223,18 @@ class _Calls(ast.NodeTransformer):
     def visit_Slice(self, node: ast.Slice) -> ast.AST:
         """Replace the bounds of a slice by a slice object."""
         self.generic_visit(node)
-        bounds = (bound or ast.Constant(None) for bound in (node.lower, node.upper, node.step))
+        none = ast.Constant(None, **_AT)
+        bounds = (bound or none for bound in (node.lower, node.upper, node.step))
         return node if self.trusted else _call("<slice>", *bounds)
 
     def visit_GeneratorExp(self, node: ast.GeneratorExp) -> ast.AST:
         """Replace a generator by a list: no frame stays alive."""
         self.generic_visit(node)
-        return node if self.trusted else ast.ListComp(node.elt, node.generators)
+        return node if self.trusted else ast.ListComp(node.elt, node.generators, **_AT)
 
 
 def _call(helper: str, *arguments: ast.expr) -> ast.Call:
-    return ast.Call(ast.Name(helper, ast.Load()), list(arguments), [])
+    return ast.Call(ast.Name(helper, _LOAD, **_AT), list(arguments), [], **_AT)
 
 
 def _check_code(code: CodeType, names: set[str]) -> None:
