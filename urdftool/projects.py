@@ -130,10 +130,11 @@ def explain_link_out(path: str | Path, files: Workspace, *, of_repository: bool 
             continue
         project = _find_link_project(place, files, of_repository=of_repository)
         real = Path(files.resolve_links(place))
-        if project is not None and not real.is_relative_to(files.resolve_links(project)):
-            rest = full.relative_to(place)
-            link = "" if place == full else f"is below {place}, which "
-            return f"{link}is a link to {real}, outside of its project; name {real / rest} itself"
+        if project is None or is_within(real, Path(files.resolve_links(project))):
+            continue
+        link = "" if place == full else f"is below {place}, which "
+        where = f"{real}, outside of its project or hidden there"
+        return f"{link}is a link to {where}; name {real / full.relative_to(place)} itself"
     return ""
 
 

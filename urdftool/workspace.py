@@ -17,6 +17,7 @@ import stat
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from fnmatch import fnmatchcase
 from io import BytesIO
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeVar, cast
 
@@ -34,6 +35,9 @@ STDIN = "<stdin>"
 
 MAX_BYTES = 256 << 20
 """Maximum size of a file that is read into memory; chosen."""
+
+MAX_MATCHES = 2000
+"""Maximum number of paths that a path with wildcards matches; chosen."""
 
 MAX_TEXT_BYTES = 16 << 20
 """Maximum size of a text file, such as a manifest; chosen."""
@@ -246,7 +250,7 @@ class Workspace:
         """
         data = self.get_overlay(path)
         if data is None and not (is_named and self._access is None and is_stream(path)):
-            self._check(path)
+            self.check(path)
         self.record("file", path)
         if data is None:
             return open(path, "rb")
@@ -254,7 +258,7 @@ class Workspace:
         stream.name = os.fspath(path)
         return stream
 
-    def _check(self, path: str | Path) -> None:
+    def check(self, path: str | Path) -> None:
         """Check that the view may read a file, if it exists.
 
         Raises:
@@ -277,7 +281,7 @@ class Workspace:
         """
         data = self.get_overlay(path)
         if data is None:
-            self._check(path)
+            self.check(path)
         self.record("file", path)
         return Path(path) if data is None else self._copies.write(Path(path).name, data)
 
@@ -286,7 +290,7 @@ class Workspace:
         data = self.get_overlay(path)
         try:
             if data is None:
-                self._check(path)
+                self.check(path)
             self.record("file", path)
             if data is not None:
                 return len(data)
@@ -382,14 +386,20 @@ class Workspace:
 
         Args:
             pattern: A path; ``*``, ``?`` and ``[…]`` are wildcards.
+
+        Raises:
+            OSError: A part of it matches more than ``MAX_MATCHES`` paths.
         """
         start, *names = pattern.split("/")
         found = [start or "/"]
         for name in names:
             if any(sign in name for sign in "*?["):
-                found = [path for above in found for path in self._match_entries(above, name)]
+                matches = (path for above in found for path in self._match_entries(above, name))
+                found = list(islice(matches, MAX_MATCHES + 1))
             else:
                 found = [os.path.join(above, name) for above in found]
+            if len(found) > MAX_MATCHES:
+                raise OSError(errno.E2BIG, f"matches more than {MAX_MATCHES} paths", pattern)
         return sorted(path for path in found if self.exists_or_is_link(path))
 
     def _match_entries(self, folder: str, name: str) -> list[str]:

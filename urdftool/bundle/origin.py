@@ -12,11 +12,12 @@ from pathlib import Path
 from ..git_command import run_git
 from ..projects import find_repository
 from ..source.packages import find_own_package
+from ..storage import read_regular_file
 from ..workspace import Workspace
 from .layout import make_portable
 
 _LICENSE = re.compile(r"(?i)(licen[cs]es?|copying|notice|copyright|unlicense)([-._].*)?")
-_LICENSE_TAG = re.compile(rb"<license\b[^>]*>\s*([^<]*?)\s*</license\s*>")
+_LICENSE_TAG = re.compile(rb"<license\b[^<>]*>([^<]*)</license\s*>")
 _MOST_BYTES = 1 << 20
 _MAX_CLIMB = 8
 
@@ -86,10 +87,12 @@ def list_declared_licenses(sources: Iterable[Path]) -> dict[str, list[str]]:
         if own is None or own[0] in found:
             continue
         try:
-            data = (own[1] / "package.xml").read_bytes()
+            data = read_regular_file(own[1] / "package.xml", _MOST_BYTES)
         except OSError:
             continue
-        names = [match[1].decode("utf-8", "replace") for match in _LICENSE_TAG.finditer(data)]
+        names = [
+            match[1].decode("utf-8", "replace").strip() for match in _LICENSE_TAG.finditer(data)
+        ]
         found[own[0]] = [name for name in names if name]
     return dict(sorted(found.items()))
 

@@ -16,7 +16,8 @@ from pathlib import Path
 from ..errors import OutputError, SourceError
 from ..leftovers import restore_folder
 from ..output import check_folder, check_links, write_file
-from ..storage import write_folder
+from ..storage import read_regular_file, write_folder
+from ..workspace import MAX_TEXT_BYTES
 from .make import Bundle
 from .manifest import MANIFEST, compute_digest, read_digests
 from .store import Content
@@ -122,8 +123,9 @@ def _check_files(
     read = {os.path.realpath(path) for path in inputs}
     old: dict[str, str] = {}
     if folder.is_dir() and any(folder.iterdir()):
+        check_links(folder / MANIFEST)
         try:
-            old = read_digests((folder / MANIFEST).read_bytes()) or {}
+            old = read_digests(read_regular_file(folder / MANIFEST, MAX_TEXT_BYTES)) or {}
         except OSError:
             old = {}
         if not old and not overwrite:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
 import struct
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 from urllib.parse import quote, unquote
 
+from ..geometry.reference_patterns import INIT_FROM, MAP, MTLLIB
 from ..source.escape import escape, unescape
 
 Kind = Literal["image", "material", "buffer"]
@@ -28,13 +28,7 @@ class Reference(NamedTuple):
     size: int | None = None
 
 
-_MTLLIB = re.compile(rb"(?m)^[ \t]*mtllib[ \t]+([^\r\n]*[^\s])")
-_OPTION = rb"-\w+(?:[ \t]+(?:on|off|sphere|cube_\w+|[-+.\d][-+.\deE]*|[rgbmlz]))*[ \t]+"
-_MAP = re.compile(
-    rb"(?m)^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+(?:" + _OPTION + rb")*([^\r\n]*[^\s])"
-)
 _IMAGES, _IMAGES_END = b"<library_images", b"</library_images"
-_INIT_FROM = re.compile(rb"<init_from\b[^>]*>\s*(?:<ref\b[^>]*>\s*)?([^<]*[^<\s])\s*<")
 _GLB_HEAD = struct.Struct("<4sIIII")
 _JSON_CHUNK = 0x4E4F534A
 _LISTS: tuple[tuple[str, Kind], ...] = (("buffers", "buffer"), ("images", "image"))
@@ -114,7 +108,7 @@ def _find_obj_spans(data: bytes) -> Iterator[_Span]:
     at = data.find(b"mtllib")
     while at >= 0:  # an expression that looks at each line takes a second for 50 MB
         line = data.rfind(b"\n", 0, at) + 1
-        match = _MTLLIB.match(data, line)
+        match = MTLLIB.match(data, line)
         if match is not None:
             yield _Span(match.start(1), match.end(1), Reference(_decode(match[1]), "material"))
         end = data.find(b"\n", at)
@@ -122,7 +116,7 @@ def _find_obj_spans(data: bytes) -> Iterator[_Span]:
 
 
 def _find_mtl_spans(data: bytes) -> Iterator[_Span]:
-    for match in _MAP.finditer(data):
+    for match in MAP.finditer(data):
         yield _Span(match.start(1), match.end(1), Reference(_decode(match[1]), "image"))
 
 
@@ -132,7 +126,7 @@ def _find_dae_spans(data: bytes) -> Iterator[_Span]:
         end = data.find(_IMAGES_END, start)
         if end < 0:
             return
-        for match in _INIT_FROM.finditer(data, start, end + len(_IMAGES_END)):
+        for match in INIT_FROM.finditer(data, start, end + len(_IMAGES_END)):
             name = unescape(_decode(match[1]))
             yield _Span(match.start(1), match.end(1), Reference(name, "image"))
         start = data.find(_IMAGES, end)

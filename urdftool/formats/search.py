@@ -14,7 +14,7 @@ from ..source.document import read_file
 from .detect import format_of
 
 _ENDINGS = (".sdf", ".xml", ".mjcf")
-_INCLUDE = re.compile(rb"<include\b[^>]*?\bfile\s*=\s*[\"']([^\"']+)[\"']")
+_INCLUDE = re.compile(rb"<include\b[^<>]*?\bfile\s*=\s*[\"']([^\"']+)[\"']")
 _MODEL = re.compile(rb"<(?:include|model|attach)\b")
 
 

@@ -50,7 +50,7 @@ def _has_name(path: str) -> bool:
     """Tell whether a file has a ``<robot>`` with a name, which included files rarely have."""
     try:
         with open(path, "rb") as stream:
-            return re.search(rb"<robot\b[^>]*\sname\s*=", stream.read(_HEAD)) is not None
+            return re.search(rb"<robot\b[^<>]*\sname\s*=", stream.read(_HEAD)) is not None
     except OSError:
         return False
 

@@ -83,7 +83,7 @@ def _read_words(workspace: Workspace, path: str) -> frozenset[bytes]:
     return frozenset(_PLAIN.findall(workspace.read_bytes(path)[:_MOST_BYTES]))
 
 
-_INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']*)[\"']")
+_INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^<>]*?filename\s*=\s*[\"']([^\"']*)[\"']")
 
 
 def check_not_included(context: FixContext) -> None:

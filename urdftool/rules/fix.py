@@ -261,14 +261,17 @@ def find_element(problem: Problem, root: Element | None = None) -> Element | Non
         return at.element
     place = problem.place
     around = problem.element if root is None else root
-    for element in around.walk():
-        if element.file is place.file and element.start <= place.start < place.end:
-            if (
-                place.start < element.file.find_tag_end(element.start)
-                and element.calls == place.calls
-            ):
-                return element
-    return None
+    if place.start >= place.end:
+        return None
+    nearest: Element | None = None
+    least = -1
+    for element in around.walk():  # tags do not overlap: only the last one before can contain it
+        if least < element.start <= place.start and element.file is place.file:
+            if element.calls == place.calls:
+                nearest, least = element, element.start
+    if nearest is None or place.start >= nearest.file.find_tag_end(least):
+        return None
+    return nearest
 
 
 def remove_sign(problem: Problem) -> Proposal | None:

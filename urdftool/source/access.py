@@ -17,6 +17,7 @@ from ..file_access import IRREGULAR, AccessRefused
 from ..projects import (
     TRUST_REMEDY,
     find_project,
+    find_repository,
     is_shared,
     is_trusted,
     is_within,
@@ -221,6 +222,9 @@ class FileAccess:
         for file in self._get_rules()[1]:
             own = next((f for f in list_above(file.parent, files) if _is_model(f, files)), None)
             if own is None or is_shared(own.parent, files) or not is_within(real, own.parent):
+                continue
+            repository = find_repository(own, files)
+            if repository is not None and not own.parent.is_relative_to(repository):
                 continue
             if _is_model(own.parent / real.relative_to(own.parent).parts[0], files):
                 return True

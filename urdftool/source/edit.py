@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 from ..errors import SourceError
@@ -49,16 +50,23 @@ class Source:
         if file.data != data or file.encoding.startswith(("utf-16", "utf-32")):
             raise SourceError("cannot be edited in this encoding; save it as UTF-8", path=file.path)
         self.elements: dict[int, Element] = {e.start: e for e in self.document.root.walk()}
+        self._inner: dict[int, bytes | None] = {}
         self.line_end = b"\r\n" if b"\r\n" in data else b"\n"
 
     def get_indentation(self, element: Element) -> bytes | None:
         """Return the whitespace before an element; None if other text precedes it on its line."""
-        start = self.file.data.rfind(b"\n", 0, element.start) + 1
-        before = self.file.data[start : element.start]
-        return before if not before.strip(b" \t") else None
+        data, start = self.file.data, element.start
+        while start and data[start - 1] in b" \t":
+            start -= 1
+        return data[start : element.start] if not start or data[start - 1] in b"\n" else None
 
     def get_inner_indentation(self, element: Element) -> bytes | None:
         """Return the whitespace before the children of an element; None if it is on one line."""
+        if element.start not in self._inner:
+            self._inner[element.start] = self._find_inner_indentation(element)
+        return self._inner[element.start]
+
+    def _find_inner_indentation(self, element: Element) -> bytes | None:
         own = self.get_indentation(element)
         for child in element.children:
             inner = self.get_indentation(child)
@@ -68,7 +76,7 @@ class Source:
             return None
         return own + self.step
 
-    @property
+    @cached_property
     def step(self) -> bytes:
         """Return the indentation of one level in this file."""
         for element in self.elements.values():

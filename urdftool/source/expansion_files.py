@@ -123,7 +123,9 @@ class ExpansionFiles:
                 rule="include-not-found",
             )
         self._sandbox.check_file(os.path.dirname(fixed))
-        return self._packages.workspace.match(pattern)
+        found = self._packages.workspace.match(pattern)
+        # a link that matches may lead to the folders of others
+        return [path for path in found if not self._packages.access.explain_refusal(path)]
 
     def suggest_path(self, path: str) -> tuple[str, str]:
         """Return what helps to correct the path of a file that cannot be read.

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import AccessError, PackageNotFound
-from ..projects import find_project, is_shared, is_trusted, is_within
+from ..projects import find_project, find_repository, is_shared, is_trusted, is_within
 from ..workspace import Workspace, memoize_by_workspace
 from .access import FileAccess
 from .install_rules import InstallRule, find_installed, read_install_rules
@@ -74,13 +74,16 @@ def find_packages(folder: Path, workspace: Workspace | None = None) -> dict[str,
 def _scan_packages(workspace: Workspace, folder: str) -> dict[str, Path]:
     found: dict[str, Path] = {}
     level = [folder]
-    seen = 0
+    seen: set[str] = set()
     for _ in range(_MAX_DEPTH):
         following: list[str] = []
         for place in level:
-            seen += 1
-            if seen > _MAX_FOLDERS:
-                break
+            real = workspace.resolve_links(place)
+            if real in seen:  # links lead to folders above
+                continue
+            seen.add(real)
+            if len(seen) > _MAX_FOLDERS:
+                return found
             try:
                 listing = workspace.list_folder(place)
             except OSError:
@@ -366,6 +369,9 @@ class Packages:
     def _list_workspace_roots(self, package: Path | None) -> list[Path]:
         """Return the folders to search, from the parent of the package to the workspace root."""
         start = package.parent if package else self.file.parent
+        repository = find_repository(package or start, self.files)
+        # what lies beside a repository belongs to others, except in a workspace
+        is_own = repository is None or start.is_relative_to(repository)
         roots = []
         for folder in (start, *start.parents)[:_MAX_CLIMB]:
             if len(folder.parts) <= 2 or is_shared(folder, self.files):
@@ -373,7 +379,7 @@ class Packages:
             roots.append(folder)
             if any(self.files.exists(folder / mark) for mark in _WORKSPACE_MARKS):
                 return roots
-        return roots[:1]
+        return roots[:1] if is_own else []
 
     def find_installed(self, path: str | Path) -> Path:
         """Return the source file that is installed at a path inside a found package.

@@ -355,8 +355,8 @@ def _suggest_name(name: str, known: set[str]) -> str:
 
 
 _DEFINED = re.compile(
-    r"<xacro:(property|macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']"
-    r"(?:[^>]*?\bparams\s*=\s*[\"']([^\"']*)[\"'])?"
+    r"<xacro:(property|macro|arg)\b[^<>]*?\bname\s*=\s*[\"']([^\"']+)[\"']"
+    r"(?:[^<>]*?\bparams\s*=\s*[\"']([^\"']*)[\"'])?"
 )
 
 

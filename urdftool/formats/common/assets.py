@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 from ...errors import UrdftoolError
+from ...geometry.reference_patterns import INIT_FROM, MAP, MTLLIB, URI
 from ...model.elements import Robot
 from ...source.packages import find_own_package
 from .asset_filter import is_companion
 
 _NAMED = {
-    ".dae": re.compile(rb"<init_from>\s*(?:<ref>)?([^<]+)<"),
-    ".obj": re.compile(rb"(?m)^\s*mtllib\s+(.+?)\s*$"),
-    ".mtl": re.compile(rb"(?m)^\s*(?:map_\w+|bump|disp|refl|norm)\s+(?:-\S+\s+\S+\s+)*(\S+)\s*$"),
-    ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
+    ".dae": INIT_FROM,
+    ".obj": MTLLIB,
+    ".mtl": MAP,
+    ".gltf": URI,
 }
 """How each format names other files."""
 

@@ -82,6 +82,17 @@ class LayerFiles:
             text = f"the layers of the stage are larger than {MAX_BYTES >> 20} MiB"
             raise ModelError(f"{text}; move meshes and images to other stages", at=self._place)
 
+    def check_folder(self, path: str) -> None:
+        """Check that the stage may list a folder.
+
+        Raises:
+            AccessError: It may not.
+        """
+        try:
+            self._workspace.check(path)
+        except AccessRefused as error:
+            raise AccessError(f"folder '{path}' {error.strerror}", at=self._place) from None
+
     def check_used(self, layers: Iterable[Sdf.Layer]) -> None:
         """Check that OpenUSD composed no layer that was not checked.
 
@@ -110,7 +121,7 @@ def open_layers(path: str, files: LayerFiles) -> list[Sdf.Layer]:
     known = {root.identifier: root}
     todo = [root]
     for layer in todo:  # a layer that is found follows
-        for name in _list_assets(layer):
+        for name in _list_assets(layer, files):
             found = _find_layer(layer, _evaluate(name, root))
             if not found or found in known:
                 continue
@@ -122,7 +133,7 @@ def open_layers(path: str, files: LayerFiles) -> list[Sdf.Layer]:
     return todo
 
 
-def _list_assets(layer: Sdf.Layer) -> Iterator[str]:
+def _list_assets(layer: Sdf.Layer, files: LayerFiles) -> Iterator[str]:
     """Yield the asset paths of a layer at which OpenUSD may open layers, value clips included."""
     composed = layer.GetCompositionAssetDependencies()
     named: list[str] = []
@@ -135,8 +146,9 @@ def _list_assets(layer: Sdf.Layer) -> Iterator[str]:
     for asset in dict.fromkeys((*composed, *named)):
         if "#" in asset:  # the template of value clips
             folder, name = os.path.split(layer.ComputeAbsolutePath(asset))
-            name = re.sub("#+", "*", re.sub(r"([*?[])", r"[\1]", name))
-            yield from Workspace().match(os.path.join(folder, name))
+            files.check_folder(folder)
+            folder, name = (re.sub(r"([*?[])", r"[\1]", part) for part in (folder, name))
+            yield from Workspace().match(os.path.join(folder, re.sub("#+", "*", name)))
         elif asset in composed or Sdf.FileFormat.FindByExtension(asset) is not None:
             yield asset
 

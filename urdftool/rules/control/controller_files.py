@@ -21,7 +21,7 @@ from ...workspace import Workspace
 _FOLDERS = ("config", "controllers", "control", "bringup/config", "params", "launch")
 _CONTROLLER = re.compile(rb"\btype[\"']?\s*:\s*[\"']?\w+(?:/|::)\w")
 _FIND = re.compile(r"^\$\(find(?:-pkg-share)?\s+([\w-]+)\s*\)/")
-_TOP = re.compile(rb"<robot\b[^>]*\sname\s*=")
+_TOP = re.compile(rb"<robot\b[^<>]*\sname\s*=")
 _MOST_FILES, _MOST_ENTRIES, _MOST_BYTES = 60, 3000, 1_000_000
 
 

@@ -50,6 +50,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
     names = {*robot.link, *robot.joint}
     stripped = {name.strip() for name in names}
     of_sdf = set(_get_sdf_names(robot, "link"))
+    compared = 0
     for block in robot.gazebo:
         name = block.reference
         if not name or name.strip() in stripped or is_unexpanded(name):
@@ -63,9 +64,11 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
                 data={"name": name},
             )
             continue
-        known = [
-            one for one in _get_candidates(block, robot) if not _has_settings_of(block, one, robot)
-        ]
+        candidates = _get_candidates(block, robot)
+        compared += len(candidates)
+        if compared > _MOST_COMPARISONS:
+            candidates = ()
+        known = [one for one in candidates if not _has_settings_of(block, one, robot)]
         yield Problem(
             block.element,
             f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
@@ -74,6 +77,10 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
             data={"name": name, "suggestion": find_nearest(name, known, _MIN_SIMILARITY)},
         )
 
+
+_MOST_COMPARISONS = 50_000
+"""Comparisons of references with names of links and joints, of about 20 µs; chosen. Later ones get
+no suggestion."""
 
 _MIN_SIMILARITY = 0.8
 """Minimum similarity of a suggested name; high, because parts of an arm have similar names."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import unquote
 
+from ...geometry.reference_patterns import INIT_FROM, MTLLIB, URI
 from ...model.elements import Robot
 from ...source.description import Description
 from ...workspace import Workspace, memoize_by_workspace
@@ -16,9 +17,6 @@ from .mesh_uses import MeshUse, get_mesh_uses
 
 APPLIES_TO = ("mesh",)
 
-_OBJ = re.compile(rb"^mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
-_DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
-_GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')
 _RELIEF = re.compile(r"normal|bump|height|specular|_nrm", re.IGNORECASE)
 _MOST = 4_000_000  # bytes that are searched
 
@@ -75,7 +73,7 @@ def _find_missing(workspace: Workspace, path: Path) -> tuple[str, ...]:
 
 def _search_missing(workspace: Workspace, path: Path) -> Iterator[str]:
     ending = path.suffix.lower()
-    pattern = {".obj": _OBJ, ".dae": _DAE, ".gltf": _GLTF}.get(ending)
+    pattern = {".obj": MTLLIB, ".dae": INIT_FROM, ".gltf": URI}.get(ending)
     if pattern is None:
         return
     try:
@@ -103,5 +101,5 @@ def find_buffers(workspace: Workspace, path: Path) -> list[Path]:
         data = workspace.read_bytes(path)
     except OSError:
         return []
-    names = (match[1].decode("utf-8", "replace") for match in _GLTF.finditer(data))
+    names = (match[1].decode("utf-8", "replace") for match in URI.finditer(data))
     return [path.parent / unquote(name) for name in names if not name.startswith("data:")]

@@ -217,7 +217,7 @@ def overwrite_first_word(problem: Problem, context: FixContext) -> Proposal | No
     return safe("overwrite the first word of the header", *rewrites) if rewrites else None
 
 
-_UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
+_UNIT = re.compile(rb"<unit\b[^<>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
 _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
 
 

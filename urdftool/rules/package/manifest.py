@@ -33,7 +33,7 @@ from ..words import quote
 from .dependencies import find_dependency_chain
 from .resolution import is_in_own_package
 
-_DEPEND = re.compile(r"<(?:\w+_)?depend\b[^>]*>\s*([\w-]+)\s*</")
+_DEPEND = re.compile(r"<(?:\w+_)?depend\b[^<>]*>\s*([\w-]+)\s*</")
 _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
 
 

@@ -302,7 +302,7 @@ def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     return (safe if sure and not known else unsafe)('add <link name="world"/>', made)
 
 
-_WORLD = re.compile(rb"<link\b[^>]*\bname\s*=\s*[\"']world[\"']")
+_WORLD = re.compile(rb"<link\b[^<>]*\bname\s*=\s*[\"']world[\"']")
 
 
 def _write_suggestion(problem: Problem) -> Proposal | None:

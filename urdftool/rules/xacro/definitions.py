@@ -58,7 +58,7 @@ def _parse_documents(description: Description) -> Iterator[Document]:
             continue
 
 
-_NAME = re.compile(rb"<xacro:(macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']")
+_NAME = re.compile(rb"<xacro:(macro|arg)\b[^<>]*?\bname\s*=\s*[\"']([^\"']+)[\"']")
 
 
 def get_names(description: Description, file: SourceFile) -> list[tuple[str, str]]:
