@@ -55,6 +55,47 @@ def test_an_output_that_is_a_link_within_the_project(place, urdftool):
     assert (place / "deep" / "b.urdf").is_file()
 
 
+@pytest.mark.parametrize("target", [".git/hooks/pre-commit", ".git", ".hidden/a"])
+def test_a_link_to_what_is_hidden_in_the_project(target, place, urdftool):
+    hook = place / ".git" / "hooks" / "pre-commit"
+    hook.parent.mkdir(parents=True)
+    hook.write_text("true\n")
+    (place / ".hidden").mkdir()
+    (place / "out").symlink_to(target)
+    name = "out/config" if target == ".git" else "out"
+    done = urdftool("inertia", "robot", "r.urdf", "-o", name)
+    assert done.code == 2
+    assert "hidden" in done.err
+    assert hook.read_text() == "true\n"
+    assert not (place / ".git" / "config").exists()
+
+
+def test_the_manifest_of_a_bundle_that_is_a_link_is_not_read(place, urdftool):
+    (place / "b").mkdir()
+    (place / "b" / "bundle.json").symlink_to("/dev/zero")
+    assert urdftool("bundle", "r.urdf", "-o", "b").code == 2
+
+
+@pytest.mark.parametrize("is_repository", [True, False])
+def test_the_package_beside_a_repository_is_not_read(is_repository, place, urdftool):
+    for name in ("project", "outside"):
+        package = f"<package><name>{name}</name></package>"
+        (place.parent / name / "package.xml").write_text(package)
+    if is_repository:
+        (place / ".git").mkdir()
+    work = place.parent / "work"
+    work.mkdir()
+    for name in ("project", "outside"):
+        (place.parent / name).rename(work / name)
+    link = "<link name=\"${xacro.load_yaml('$(find outside)/a')}\"/>"
+    xacro = f'<robot name="r" xmlns:xacro="x">{link}</robot>'
+    file = work / "project" / "y.xacro"
+    file.write_text(xacro.replace('"x"', '"http://www.ros.org/wiki/xacro"'))
+    done = urdftool("expand", str(file))
+    assert ("qX7" in done.out) is not is_repository
+    assert done.code == (2 if is_repository else 0)
+
+
 def test_a_link_of_the_user_in_the_home_folder(place, urdftool):
     (place.parent / "link").symlink_to("outside")
     target = place.parent / "link" / "r.urdf"
