@@ -370,7 +370,7 @@ class Packages:
         """Return the folders to search, from the parent of the package to the workspace root."""
         start = package.parent if package else self.file.parent
         repository = find_repository(package or start, self.files)
-        # what lies beside a repository belongs to others, except in a workspace
+        # what is next to a repository belongs to others, except in a workspace
         is_own = repository is None or start.is_relative_to(repository)
         roots = []
         for folder in (start, *start.parents)[:_MAX_CLIMB]:
