@@ -80,8 +80,10 @@ class SanitizingStream(io.RawIOBase):
     def close(self) -> None:
         """Write what an end of the output left incomplete."""
         if not self.closed:
-            self._write(self._rest + self._decoder.decode(b"", final=True))
+            rest = self._rest + self._decoder.decode(b"", final=True)
             self._rest = ""
+            if rest:  # at the end of Python 3.13 the names of modules may be cleared
+                self._write(rest)
         super().close()
 
     def _write(self, text: str) -> None:
