@@ -7,24 +7,10 @@ from xml.sax.saxutils import quoteattr
 import pytest
 
 from tests.hostile import escape_bodies, escapes
-from tests.hostile.place import Place
-from tests.hostile.zygote import Zygote
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs processes that fork")
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
-
-
-@pytest.fixture(scope="module")
-def zygote():
-    process = Zygote()
-    yield process
-    process.close()
-
-
-@pytest.fixture
-def place(tmp_path):
-    return Place(tmp_path)
 
 
 def attribute(text):

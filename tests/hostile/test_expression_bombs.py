@@ -6,9 +6,7 @@ import threading
 import pytest
 
 from tests.hostile import expression_bombs
-from tests.hostile.place import Place
 from tests.hostile.test_escapes import by_argument, by_ros1, try_out
-from tests.hostile.zygote import Zygote
 from urdftool import expand
 from urdftool.errors import UrdftoolError
 
@@ -16,18 +14,6 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="measures proces
 
 EXPAND = "expand robot.xacro"
 LONG = "[0 for x in python.range(999999) for y in python.range(999999)]"
-
-
-@pytest.fixture(scope="module")
-def zygote():
-    process = Zygote()
-    yield process
-    process.close()
-
-
-@pytest.fixture
-def place(tmp_path):
-    return Place(tmp_path)
 
 
 def list_bombs():

@@ -6,24 +6,11 @@ from collections import Counter
 import pytest
 
 from tests.hostile.matrix import Run, execute, list_cases, list_runs
-from tests.hostile.place import SECRETS, Place
-from tests.hostile.zygote import Zygote
+from tests.hostile.place import SECRETS
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="measures processes in /proc")
 
 PARTS = 8
-
-
-@pytest.fixture(scope="module")
-def zygote():
-    process = Zygote()
-    yield process
-    process.close()
-
-
-@pytest.fixture
-def place(tmp_path):
-    return Place(tmp_path)
 
 
 def check(runs, place, start):

@@ -1,9 +1,10 @@
 """Small files that would take long or much memory to read: comments, includes, keys, manifests."""
 
+import sys
+
 import pytest
 
-from tests.hostile.place import Place
-from tests.hostile.zygote import Zygote
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="measures processes in /proc")
 
 ROBOT = '<robot name="r"><link name="a"/></robot>'
 XACRO = (
@@ -25,13 +26,6 @@ GAZEBO = "".join(
     for n in range(2000)
 )
 VISUAL = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
-
-
-@pytest.fixture(scope="module")
-def zygote():
-    process = Zygote()
-    yield process
-    process.close()
 
 
 def write_includes(count, times):
@@ -119,9 +113,8 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_it_ends_soon(name, zygote, tmp_path):
+def test_it_ends_soon(name, zygote, place):
     files, command = CASES[name]
-    place = Place(tmp_path)
     for file, text in files.items():
         (place.project / file).write_text(text)
     outcome = zygote.run(command.split(), place)
@@ -135,8 +128,7 @@ def write_link_farm(folder, count=100):
         (folder / f"z{number}").symlink_to(".")
 
 
-def test_wildcards_over_links_end_soon(zygote, tmp_path):
-    place = Place(tmp_path)
+def test_wildcards_over_links_end_soon(zygote, place):
     write_link_farm(place.project)
     text = XACRO.replace("<link", '<xacro:include filename="./*/*/*/*/*/*.zz"/><link')
     (place.project / "r.xacro").write_text(text)
@@ -145,8 +137,7 @@ def test_wildcards_over_links_end_soon(zygote, tmp_path):
     assert not place.find_problems(outcome)
 
 
-def test_the_search_of_packages_over_links_ends_soon(zygote, tmp_path):
-    place = Place(tmp_path)
+def test_the_search_of_packages_over_links_ends_soon(zygote, place):
     write_link_farm(place.project, 200)
     (place.project / "pkg").mkdir()
     (place.project / "pkg" / "package.xml").write_text(PACKAGE)
