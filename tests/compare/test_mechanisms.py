@@ -6,6 +6,7 @@ from tests.build import arm
 from urdftool.compare.differences import compare
 from urdftool.model.elements import Dynamics, Origin
 from urdftool.model.mechanism import Closure, Configuration, ContactExclusion, Frame, JointActuator
+from urdftool.model.settings import Value
 
 LOOP = Closure(name="loop", type="weld", parent="link0", child="link2", origin=Origin(None))
 MOTOR = JointActuator(name="motor", joint="j1", gain=2.0, control_range=(-1.0, 1.0))
@@ -51,5 +52,7 @@ def test_added_and_removed_parts():
 
 def test_armature_and_springs():
     a, b = arm(1), arm(1)
-    a.joints[0].dynamics, b.joints[0].dynamics = Dynamics(), Dynamics(armature=0.1, stiffness=2.0)
-    assert [c.what for c in compare(a, b)] == ["dynamics armature", "dynamics stiffness"]
+    a.joints[0].dynamics, b.joints[0].dynamics = Dynamics(), Dynamics(armature=0.1)
+    b.joints[0].settings = {"spring_stiffness": Value(None, 2.0)}
+    b.links[0].settings = {"gravity": Value(None, True), "wind": Value(None, True)}
+    assert [c.what for c in compare(a, b)] == ["dynamics armature", "wind", "spring stiffness"]

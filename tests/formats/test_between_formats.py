@@ -34,7 +34,7 @@ def test_every_part_that_is_left_out_is_reported():
     robot = api.load(READERS / "mechanism.xml")
     written = api.export_sdf(robot)
     codes = {loss.code for loss in written.losses}
-    assert {"lossy-closure", "lossy-joint-actuator", "lossy-joint-spring"} <= codes
+    assert {"lossy-closure", "lossy-joint-actuator", "lossy-joint-armature"} <= codes
     assert {loss.code for loss in robot.unread} <= codes
     assert all(loss.location.path for loss in written.losses)
 

@@ -10,6 +10,7 @@ from .change import Change
 from .extensions import compare_extensions
 from .links import describe_pose, link_changes
 from .mechanisms import compare_mechanisms
+from .settings import compare_settings
 from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 
 
@@ -48,6 +49,7 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
         if new is not None:
             yield from compare_joints(joint, new, tolerance, renamed)
     yield from compare_extensions(a, b, tolerance, renamed)
+    yield from compare_settings(a, b, tolerance, renamed)
     yield from compare_mechanisms(a, b, tolerance, renamed)
 
 
@@ -203,8 +205,6 @@ def _compare_numbers(
             "damping": "N·s/m" if slides else "N·m·s/rad",
             "friction": force,
             "armature": "kg" if slides else "kg·m²",
-            "stiffness": "N/m" if slides else "N·m/rad",
-            "spring_reference": here,
         },
         "mimic": {"joint": "", "multiplier": "", "offset": here},
         "safety_controller": {

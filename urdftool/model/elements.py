@@ -30,6 +30,7 @@ from .part import ZERO as ZERO
 from .part import Origin as Origin
 from .part import Part as Part
 from .part import Vector as Vector
+from .settings import Rejected, Settings, get_number, is_set
 from .shapes import Box as Box
 from .shapes import Capsule as Capsule
 from .shapes import Cone as Cone
@@ -104,11 +105,12 @@ class Visual(Part):
 
 @dataclass(slots=True)
 class Collision(Part):
-    """Collision geometry of a link."""
+    """Collision geometry of a link; ``surface`` has the settings of ``settings.SURFACE``."""
 
     name: str | None = None
     origin: Origin | None = None
     geometry: Geometry | None = None
+    surface: Settings = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -118,6 +120,8 @@ class Link(Part):
     Attributes:
         is_virtual: Whether a reader inserted it between two joints that the source writes between
             the same two bodies; it has no mass and no geometry.
+        settings: Settings of ``settings.OF_LINKS``.
+        surface: Settings that a URDF gives all its collisions.
     """
 
     name: str = ""
@@ -125,11 +129,18 @@ class Link(Part):
     visuals: list[Visual] = field(default_factory=list)
     collisions: list[Collision] = field(default_factory=list)
     is_virtual: bool = False
+    settings: Settings = field(default_factory=dict)
+    surface: Settings = field(default_factory=dict)
 
     @property
     def mass(self) -> float:
         """Return the mass [kg]; 0 if not written."""
         return (self.inertial.mass or 0.0) if self.inertial else 0.0
+
+    @property
+    def is_weightless(self) -> bool:
+        """Tell whether gravity does not act on the link."""
+        return not is_set(self.settings, "gravity", True)
 
     @property
     def is_frame(self) -> bool:
@@ -158,15 +169,11 @@ class Dynamics(Part):
         damping: Damping [N·m·s/rad or N·s/m].
         friction: Static friction [N·m or N].
         armature: Inertia of the rotor at the joint [kg·m² or kg] (MJCF).
-        stiffness: Stiffness of a spring [N·m/rad or N/m] (SDF, MJCF).
-        spring_reference: Position at which the spring exerts no force [rad or m].
     """
 
     damping: float | None = None
     friction: float | None = None
     armature: float | None = None
-    stiffness: float | None = None
-    spring_reference: float | None = None
 
 
 @dataclass(slots=True)
@@ -224,6 +231,7 @@ class Joint(Part):
         child_element: The ``<child>`` element of URDF, if any.
         axis: Axis; None if not written, which means x.
         thread_pitch: Translation along the axis [m] for each right-handed turn of a ``screw``.
+        settings: Settings of ``settings.OF_JOINTS``.
     """
 
     name: str = ""
@@ -240,6 +248,19 @@ class Joint(Part):
     safety_controller: SafetyController | None = None
     calibration: Calibration | None = None
     thread_pitch: float | None = None
+    settings: Settings = field(default_factory=dict)
+
+    @property
+    def spring(self) -> tuple[float, float] | None:
+        """Return stiffness [N·m/rad, N/m] and rest position [rad, m]; None without a spring."""
+        stiffness = get_number(self.settings, "spring_stiffness")
+        rest = get_number(self.settings, "spring_reference")
+        return (stiffness, rest or 0.0) if stiffness else None
+
+    @property
+    def is_preserved(self) -> bool:
+        """Tell whether Gazebo keeps the joint if it is fixed."""
+        return is_set(self.settings, "preserved") or is_set(self.settings, "not_lumped")
 
     @property
     def is_fixed(self) -> bool:
@@ -372,6 +393,8 @@ class Robot(RobotConversions, Part):
         configurations: Named joint positions.
         cameras: Cameras on links.
         mounted_sensors: Sensors of links and joints.
+        settings: Settings of ``settings.OF_ROBOT``.
+        rejected_settings: Elements of settings whose text is not a value.
         unread: What the robot does not hold of its source, once for each kind.
         source: Description from which it was read; None if it was read from a bare element.
         memo: Values shared by several rules, computed once.
@@ -393,6 +416,8 @@ class Robot(RobotConversions, Part):
     configurations: list[Configuration] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     mounted_sensors: list[MountedSensor] = field(default_factory=list)
+    settings: Settings = field(default_factory=dict)
+    rejected_settings: list[Rejected] = field(default_factory=list)
     format: str = "urdf"
     unread: Sequence[Finding] = field(default=(), repr=False)
     source: Description | None = field(default=None, repr=False)

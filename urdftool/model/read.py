@@ -5,7 +5,6 @@ It never fails: values that cannot be parsed are omitted or get their default.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -44,33 +43,11 @@ from .elements import (
     Vector,
     Visual,
 )
+from .numbers import number as number
+from .numbers import parse_numbers as parse_numbers
+from .settings import add_settings
 
 _T = TypeVar("_T")
-
-
-def number(text: str | None) -> float | None:
-    """Return a finite number in URDF syntax, or None."""
-    if text is None:
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) and "_" not in text else None
-
-
-def parse_numbers(text: str | None, count: int) -> tuple[float, ...] | None:
-    """Return exactly ``count`` finite numbers separated by whitespace, or None."""
-    if text is None:
-        return None
-    words = text.split()
-    if len(words) != count:
-        return None
-    try:
-        values = tuple(map(float, words))
-    except ValueError:
-        return None
-    return values if all(map(math.isfinite, values)) and "_" not in text else None
 
 
 def _parse_vector(text: str | None, default: Vector = (0.0, 0.0, 0.0)) -> Vector:
@@ -102,6 +79,7 @@ def read_robot(root: Element) -> Robot:
         reader = readers.get(child.tag)
         if reader is not None:
             reader(child)
+    add_settings(robot)
     return robot
 
 

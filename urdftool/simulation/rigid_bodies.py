@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..formats.mjcf.gazebo import get_joint_spring, link_is_weightless
 from ..inertia.requirements import combine
 from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
 from ..model.actuation import find_actuated_joints
@@ -21,7 +20,7 @@ from .recording import Array
 from .settings import Settings
 from .shapes import Shape, make_shapes
 from .spawn import spawn_pose
-from .surface import Surface, read_surface
+from .surface import Surface, choose_surface
 
 TENSOR_ROUNDING = 0.01
 """Relative violation of the triangle inequality by rounding [1]; engines get a valid tensor."""
@@ -237,10 +236,10 @@ def _collect_lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody
                 None if joint is None else make_joint(joint, robot),
                 parent,
                 origin,
-                read_surface(robot, links),
+                choose_surface(robot, links),
                 _make_properties(
                     robot,
-                    {n: at for n, at in places.items() if link_is_weightless(robot, n)},
+                    {n: at for n, at in places.items() if robot.link[n].is_weightless},
                     settings.payloads,
                 ),
             )
@@ -282,7 +281,7 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
     effort = joint.limit.effort if joint.limit is not None else None
     dynamics = joint.dynamics
     mimic = joint.mimic
-    stiffness, spring_rest = get_joint_spring(robot, joint.name) or (0.0, 0.0)
+    stiffness, spring_rest = joint.spring or (0.0, 0.0)
     return RigidBodyJoint(
         joint.name,
         joint.type,

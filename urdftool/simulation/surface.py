@@ -1,13 +1,12 @@
-"""Friction and contact parameters of links: Gazebo's tags, and ``<contact>`` of Bullet."""
+"""Friction and contact parameters of rigid bodies."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..model.elements import Robot
-from ..model.read import number
+from ..model.settings import get_number
 
 
 @dataclass(frozen=True)
@@ -15,55 +14,26 @@ class Surface:
     """Contact parameters of a body; None for values that the file does not set.
 
     Attributes:
-        friction: Coulomb friction coefficient [–]; the smaller one of two.
+        friction: Coulomb friction coefficient [–] in the first direction.
         stiffness: Contact stiffness [N/m].
         damping: Contact damping [N·s/m].
-        where: Tags of the file with these values.
     """
 
     friction: float | None = None
     stiffness: float | None = None
     damping: float | None = None
-    where: tuple[str, ...] = ()
 
 
-# attribute of Surface -> tags of Gazebo, tag of Bullet's <contact>
-_WORDS = {
-    "friction": (("mu1", "mu", "mu2"), "lateral_friction"),
-    "stiffness": (("kp",), "stiffness"),
-    "damping": (("kd",), "damping"),
-}
+def choose_surface(robot: Robot, links: Iterable[str]) -> Surface:
+    """Return the contact parameters of a rigid body of several links.
 
-
-def read_surface(robot: Robot, links: Iterable[str]) -> Surface:
-    """Read the contact parameters of a rigid body of several links.
-
-    If links differ, the smaller friction and the softer contact are used.
+    Engines have one set for a body: if its collisions differ, the smallest of each is used.
     """
-    values: dict[str, float] = {}
-    where: dict[str, None] = {}
-    for name in links:
-        for what, (tags, tag) in _WORDS.items():
-            for word, text in _list_texts(robot, name, tags, tag):
-                value = number(text)
-                if value is not None and math.isfinite(value) and value >= 0:
-                    values[what] = min(value, values.get(what, math.inf))
-                    where[word] = None
-    if values.get("stiffness") == 0:  # zero means the default
-        del values["stiffness"]
-    return Surface(**values, where=tuple(where))
+    surfaces = [shape.surface for name in links for shape in robot.link[name].collisions]
 
+    def least(name: str) -> float | None:
+        values = (get_number(surface, name) for surface in surfaces)
+        return min((v for v in values if v is not None and v >= 0), default=None)
 
-def _list_texts(
-    robot: Robot, link: str, tags: Iterable[str], tag: str
-) -> Iterable[tuple[str, str]]:
-    for block in robot.extensions.get(link, ()):
-        for word in tags:
-            text = block.get_value(word)
-            if text is not None:
-                yield f"<{word}>", text
-    element = robot.link[link].xml
-    contact = None if element is None else element.find_child("contact")
-    inner = None if contact is None else contact.find_child(tag)
-    if inner is not None:
-        yield f"<{tag}>", inner.get("value") or inner.text
+    stiffness = least("contact_stiffness")
+    return Surface(least("friction"), stiffness or None, least("contact_damping"))

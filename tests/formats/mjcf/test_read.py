@@ -106,7 +106,7 @@ def test_values_of_joints(robot):
     assert left.limit.effort == 6.0  # control of 2, gear 3
     assert (left.dynamics.damping, left.dynamics.armature) == (0.1, 0.01)
     assert left.axis.xyz == (0.0, 1.0, 0.0)
-    assert robot.joint["pitch"].dynamics.spring_reference == pytest.approx(math.radians(15))
+    assert robot.joint["pitch"].spring[1] == pytest.approx(math.radians(15))
     assert robot.joint["ball"].limit.upper == pytest.approx(math.radians(40))
     assert robot.joint["plate_body1_joint"].limit is None  # an empty range is no limit
     mimic = robot.joint["right"].mimic

@@ -2,8 +2,7 @@
 
 import pytest
 
-from urdftool.formats.sdf.keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS
-from urdftool.rules.gazebo.block_values import get_kind
+from urdftool.model.settings import JOINT_TAGS, SURFACE_TAGS, list_rows
 
 from .robots import BOX, CUBE, TWO, export, gazebo, inertial, joint, link, named, names, rules, tree
 
@@ -11,21 +10,21 @@ NAMED = f'{inertial()}<collision name="foot">{BOX}</collision><collision>{BOX}</
 VALUES = {"number": "0.25", "count": "7", "vector": "0 1 0", "flag": "true"}
 
 
-@pytest.mark.parametrize("tag", COLLISION_KEYWORDS)
+@pytest.mark.parametrize("tag", sorted(SURFACE_TAGS))
 @pytest.mark.parametrize("form", ["<{0}>{1}</{0}>", '<{0} value="{1}"/>'])
 def test_contact_values_reach_every_collision_whatever_its_name(tag, form):
-    keyword = COLLISION_KEYWORDS[tag]
-    value = VALUES[get_kind(tag)]
+    (row,) = list_rows(tag)
+    value = VALUES[row.kind]
     model = tree(export(link("a", NAMED), gazebo("a", form.format(tag, value))))
-    assert [e.findtext(keyword.path) for e in model.iter("collision")] == [value, value]
+    assert [e.findtext(row.path) for e in model.iter("collision")] == [value, value]
 
 
-@pytest.mark.parametrize("tag", JOINT_KEYWORDS)
+@pytest.mark.parametrize("tag", sorted(JOINT_TAGS))
 def test_joint_values(tag):
-    keyword = JOINT_KEYWORDS[tag]
-    value = VALUES[get_kind(tag)]
+    (row,) = list_rows(tag)
+    value = VALUES[row.kind]
     written = export(*TWO, gazebo("j", f"<{tag}>{value}</{tag}>"))
-    assert named(tree(written), "joint", "j").findtext(keyword.path) == value
+    assert named(tree(written), "joint", "j").findtext(row.path) == value
     assert rules(written) == []
 
 
@@ -68,7 +67,7 @@ def test_a_link_and_a_joint_of_one_name_each_get_their_own():
     parts = (link("a"), joint("b", "a", "b"), link("b", NAMED))
     said = gazebo("b", "<mu1>1</mu1><springStiffness>2</springStiffness><gravity>0</gravity>")
     model = tree(export(*parts, said))
-    assert named(model, "link", "b_link").findtext("gravity") == "0"
+    assert named(model, "link", "b_link").findtext("gravity") == "false"
     assert next(model.iter("mu")).text == "1"
     assert named(model, "joint", "b").findtext("axis/dynamics/spring_stiffness") == "2"
 

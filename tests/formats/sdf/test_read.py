@@ -80,7 +80,7 @@ def test_joints(robot):
     first, second = robot.joint["swing"], robot.joint["swing~2"]
     assert (first.child, second.parent, second.child) == ("arm~1", "arm~1", "arm")
     assert robot.link["arm~1"].is_virtual
-    assert (second.dynamics.stiffness, second.dynamics.spring_reference) == (5.0, 0.2)
+    assert second.spring == (5.0, 0.2)
     assert robot.joint["thread"].thread_pitch == pytest.approx(0.01)
     bend = robot.joint["left::bend"].limit
     assert (bend.lower, bend.upper, bend.effort, bend.velocity) == (-1.0, 1.5, 4.0, None)
@@ -142,7 +142,6 @@ def test_what_the_model_lacks_is_reported_once_each(mechanism):
     assert found == {
         "unread-plugin": ("info", 1),
         "unread-shape-heightmap": ("warning", 1),
-        "unread-surface": ("warning", 1),
     }
 
 
@@ -351,15 +350,27 @@ def test_an_element_with_an_undeclared_prefix_is_passed_over(tmp_path):
     assert read(sdf(tmp_path, body)).robot.link["a"].mass == 1.0
 
 
-def test_contacts_within_a_model_and_damping_of_links_are_reported(write):
-    link = '<link name="{}">{}</link>'
-    decay = "<velocity_decay><linear>0.1</linear></velocity_decay>"
-    inner = link.format("a", "<self_collide>true</self_collide>") + link.format("b", decay)
-    text = f'<sdf version="1.9"><model name="m">{{}}{inner}</model></sdf>'
-    found = {f.code: f.data["names"] for f in read(write("m.sdf", text.format(""))).losses}
-    assert found == {"unread-self-collide": ["a"], "unread-velocity-decay": ["b"]}
-    on = text.format("<self_collide>1</self_collide>")
-    found = {f.code: f.data["names"] for f in read(write("m.sdf", on)).losses}
-    assert found["unread-self-collide"] == ["m", "a"]
-    off = on.replace(">1<", ">0<").replace(">true<", ">false<")
-    assert {f.code for f in read(write("m.sdf", off)).losses} == {"unread-velocity-decay"}
+def test_settings_of_model_links_joints_and_collisions(write):
+    solid = (
+        '<collision name="c"><geometry><box/></geometry><surface><friction><ode><mu>0.3</mu></ode>'
+        "</friction></surface></collision>"
+    )
+    text = f"""<sdf version="1.9"><model name="m"><self_collide>1</self_collide>
+    <link name="a"><gravity>0</gravity>
+    <velocity_decay><linear>0.1</linear></velocity_decay>{solid}</link><link name="b"/>
+    <joint name="j" type="revolute"><parent>a</parent><child>b</child>
+    <axis><xyz>0 0 1</xyz></axis><physics><ode><limit><erp>0.4</erp></limit></ode></physics></joint>
+    </model></sdf>"""
+    reading = read(write("m.sdf", text))
+    robot = reading.robot
+    parts = (robot, robot.link["a"], robot.joint["j"])
+    found = [{name: v.content for name, v in part.settings.items()} for part in parts]
+    assert found == [
+        {"self_collide": True},
+        {"gravity": False, "linear_decay": 0.1},
+        {"stop_erp": 0.4},
+    ]
+    (collision,) = robot.link["a"].collisions
+    assert {name: v.content for name, v in collision.surface.items()} == {"friction": 0.3}
+    assert collision.surface["friction"].place.line == 3
+    assert [f.code for f in reading.losses] == []

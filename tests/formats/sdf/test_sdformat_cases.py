@@ -163,8 +163,8 @@ def test_extensions_of_joints(extended):
 
 def test_extensions_of_links(extended):
     one, two = (named(extended, "link", name) for name in ("link1", "link2"))
-    assert [e.findtext("gravity") for e in (one, two)] == ["0", "false"]
-    assert [e.findtext("enable_wind") for e in (one, two)] == ["1", "0"]
+    assert [e.findtext("gravity") for e in (one, two)] == ["false", "false"]
+    assert [e.findtext("enable_wind") for e in (one, two)] == ["true", "false"]
     assert [e.findtext("velocity_decay/linear") for e in (one, two)] == ["0.1", "0.1"]
     assert [e.findtext("velocity_decay/angular") for e in (one, two)] == ["0.2", "0.1"]
     for link in extended.findall("link"):

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 from ...diagnostic import Severity
+from ...model.settings import is_set
 from ...model.world import WORLD
-from ...rules.gazebo.keywords import is_true
 from ..written import Written
 from .drives import drive_plugins
 from .rigid_tree import RigidTree
@@ -63,7 +63,7 @@ def _find_defined(tree: RigidTree, base: Base, virtual_joint: str | None) -> tup
         return base == "free", f"--base {base}"
     if robot.base is not None:
         return robot.base.is_free, "the base of the source"
-    if any(is_true(block.get_value("static")) for block in robot.extensions.get(None, ())):
+    if is_set(robot.settings, "static"):
         return False, "<gazebo> says static"
     if virtual_joint is not None:
         return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Callable, Container, Iterator
 from typing import NamedTuple
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
+from ...model.settings import OF_LINKS, Setting, list_settings
 from ..written import Written
 
 
@@ -46,6 +47,33 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
             written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)
 
 
+def report_unwritten_settings(
+    robot: Robot, written: Written, has_counterpart: Callable[[Setting], object]
+) -> None:
+    """Report the settings that a format does not have, unless they are those of SDF without them.
+
+    Args:
+        robot: The source.
+        written: The export, which receives the losses.
+        has_counterpart: Tells whether the format has a setting.
+    """
+    for kind, name, rows, settings in list_settings(robot):
+        for row in rows:
+            value = settings.get(row.name)
+            if value is None or value.content == row.default:
+                continue
+            if not row.path or has_counterpart(row):
+                continue
+            written.report_loss(
+                "setting",
+                f"{row.name.replace('_', ' ')} of {kind} '{name}' is not written",
+                value.place,
+                kind=kind,
+                name=name,
+                severity=Severity.WARNING if rows is OF_LINKS else Severity.INFO,
+            )
+
+
 def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("closure", "closed loop", [(part, part.name) for part in robot.closures])
     yield _Kind("joint-actuator", "actuator", [(p, p.name) for p in robot.joint_actuators])
@@ -61,10 +89,7 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("camera", "camera", [(part, part.name) for part in robot.cameras], info)
     yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
     yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
-    sprung = [
-        (joint.dynamics, joint.name)
-        for joint in robot.joints
-        if joint.dynamics is not None
-        and (joint.dynamics.armature or joint.dynamics.stiffness or joint.dynamics.spring_reference)
-    ]
-    yield _Kind("joint-spring", "spring or armature of joint", [*sprung])
+    rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
+    yield _Kind("joint-armature", "armature of joint", [*rotors])
+    springs = [(j.settings["spring_stiffness"], j.name) for j in robot.joints if j.spring]
+    yield _Kind("joint-spring", "spring of joint", [*springs])

@@ -9,7 +9,6 @@ from ..common.naming import UniqueNames
 from ..written import Written
 from .digits import format_numbers_text
 from .frame import set_origin, set_pose
-from .gazebo import link_friction, link_is_weightless
 from .geom import list_collision_geoms, list_visual_geoms
 from .home import Home, get_robot_origin
 from .inertials import get_massless_leaves
@@ -86,10 +85,9 @@ def fill_bodies(
                 parts.append(build_inertial_element(masses[name]))
         parts.extend(_build_joints(structure, name, leaves, written))
         parts.extend(list_visual_geoms(link, assets, materials, names, written))
-        friction = link_friction(structure.robot, name)
-        parts.extend(list_collision_geoms(link, assets, names, written, friction))
+        parts.extend(list_collision_geoms(link, assets, names, written))
         body[0:0] = parts
-        if link_is_weightless(structure.robot, name) and body.tag == "body":
+        if link.is_weightless and body.tag == "body":
             body.set("gravcomp", "1")
     for name, body in bodies.items():
         for geom in body.iterchildren("geom"):

@@ -1,13 +1,11 @@
-"""Settings of links, joints and the robot in ``<gazebo>`` that MuJoCo supports."""
+"""Contact settings that MuJoCo has, and what is lost of ``<gazebo>``."""
 
 from __future__ import annotations
 
 from ...diagnostic import Severity
-from ...model.elements import GazeboExtension, Robot
-from ...model.read import number
-from ...rules.gazebo.block_values import is_false
-from ...rules.gazebo.keywords import is_true
-from ..common.contact_friction import get_gazebo_friction
+from ...model.elements import Collision, GazeboExtension, Link, Robot
+from ...model.settings import Setting, get_number
+from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
 from .digits import number_text
 
@@ -50,13 +48,13 @@ KNOWN = frozenset(
 """Keywords that are exported or need no export."""
 
 
-def link_friction(robot: Robot, link: str) -> dict[str, str]:
-    """Return the friction attributes of a link's collision geoms, from Gazebo's ``mu1``.
+def get_friction_attributes(collision: Collision) -> dict[str, str]:
+    """Return the friction attributes of the geoms of a collision.
 
     MuJoCo uses the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
     default gets a ``priority``, so that it is used unchanged; a caster with friction 0 slides.
     """
-    sliding = get_gazebo_friction(robot, link)
+    sliding = get_number(collision.surface, "friction")
     if sliding is None:
         return {}
     usual = DEFAULT_FRICTION.split()
@@ -64,33 +62,33 @@ def link_friction(robot: Robot, link: str) -> dict[str, str]:
     return attributes | ({"priority": "1"} if sliding < float(usual[0]) else {})
 
 
-def link_is_weightless(robot: Robot, link: str) -> bool:
-    """Tell whether gravity is disabled for a link."""
-    weightless = False
-    for block in robot.extensions.get(link, ()):
-        off, gravity = block.get_value("turnGravityOff"), block.get_value("gravity")
-        if off:
-            weightless = is_true(off)
-        if gravity:
-            weightless = is_false(gravity)
-    return weightless
+def report_surface_losses(link: Link, written: Written) -> None:
+    """Report friction by direction and restitution, which geoms do not have."""
+    for collision in link.collisions:
+        one, two = (get_number(collision.surface, name) for name in ("friction", "second_friction"))
+        bounce = collision.surface.get("restitution")
+        if one is not None and two is not None and one != two:
+            text = f"friction of '{link.name}' is {one:g} and {two:g} by direction; MuJoCo's geoms "
+            at = collision.surface["second_friction"].place
+            text += f"have one, {one:g}"
+            written.report_loss("friction", text, at, kind="link", name=link.name)
+        if bounce is not None and bounce.content:
+            text = f"restitution {bounce.content:g} of '{link.name}' is not exported: MuJoCo's "
+            text += "contacts are damped springs (solref)"
+            written.report_loss("restitution", text, bounce.place, kind="link", name=link.name)
+        if collision.surface is link.surface:
+            return
 
 
-def get_joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
-    """Return stiffness [N·m/rad, N/m] and reference [rad, m] of a joint's spring.
-
-    Return None if Gazebo defines no spring, or one with zero stiffness.
-    """
-    found = None
-    for block in robot.extensions.get(joint, ()):
-        stiffness = number(block.get_value("springStiffness"))
-        if stiffness:
-            found = stiffness, number(block.get_value("springReference")) or 0.0
-    return found
+def _is_written(row: Setting) -> bool:
+    """Tell whether an export writes a setting, or reports it itself."""
+    return bool(row.mjcf) or row.name in ("second_friction", "restitution", "self_collide")
 
 
 def report_gazebo_losses(robot: Robot, written: Written) -> None:
-    """Report the extensions that are not exported."""
+    """Report the settings and extensions that are not exported."""
+    if robot.xml is None:
+        report_unwritten_settings(robot, written, _is_written)
     for block in robot.gazebo:
         reference = block.reference
         if reference is not None and reference not in robot.link and reference not in robot.joint:
@@ -107,7 +105,6 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
             )
             continue
         _report_keyword_losses(block, written)
-        _add_unequal_friction(block, written)
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",
@@ -133,17 +130,4 @@ def _report_keyword_losses(block: GazeboExtension, written: Written) -> None:
             kind="gazebo",
             name=block.reference or "",
             severity=severity,
-        )
-
-
-def _add_unequal_friction(block: GazeboExtension, written: Written) -> None:
-    one, two = number(block.get_value("mu1")), number(block.get_value("mu2"))
-    if one is not None and two is not None and one != two:
-        written.report_loss(
-            "friction",
-            f"friction of '{block.reference}' is {one:g} and {two:g} by direction; MuJoCo's geoms "
-            f"have one, {one:g}",
-            block.place,
-            kind="link",
-            name=block.reference or "",
         )

@@ -18,6 +18,7 @@ from ..common.shape_box import get_shape_size
 from ..written import Written
 from .digits import format_numbers_text
 from .frame import set_origin
+from .gazebo import get_friction_attributes, report_surface_losses
 from .material import Materials
 from .meshes import Assets, MeshPiece
 
@@ -37,14 +38,15 @@ def list_visual_geoms(
 
 
 def list_collision_geoms(
-    link: Link, assets: Assets, names: UniqueNames, written: Written, friction: dict[str, str]
+    link: Link, assets: Assets, names: UniqueNames, written: Written
 ) -> Iterator[etree._Element]:
-    """Yield the geoms of a link's collisions, with the given friction attributes."""
+    """Yield the geoms of a link's collisions."""
+    report_surface_losses(link, written)
     for collision in link.collisions:
         for index, (geom, _) in enumerate(_list_geoms(link, collision, assets, written)):
             _set_name(geom, link, collision, names, index)
             geom.set("class", "collision")
-            for name, value in friction.items():
+            for name, value in get_friction_attributes(collision).items():
                 geom.set(name, value)
             yield geom
 

@@ -12,7 +12,6 @@ from ...model.elements import Joint, Limit, Vector
 from ...model.pose import compute_cross, compute_norm
 from ..written import Written
 from .digits import format_numbers_text, number_text
-from .gazebo import get_joint_spring
 from .inertials import LEAF_ARMATURE
 from .structure import Structure, get_bounds
 
@@ -49,7 +48,7 @@ def build_joint_elements(
         _set_dynamics(element, joint)
         if leaf:
             element.set("armature", number_text(LEAF_ARMATURE))
-        _set_spring(element, get_joint_spring(structure.robot, joint.name))
+        _set_spring(element, joint.spring)
     return elements
 
 
@@ -198,10 +197,12 @@ def _set_dynamics(element: etree._Element, joint: Joint) -> None:
         element.set("damping", number_text(dynamics.damping))
     if dynamics.friction:
         element.set("frictionloss", number_text(dynamics.friction))
+    if dynamics.armature:
+        element.set("armature", number_text(dynamics.armature))
 
 
 def _set_spring(element: etree._Element, spring: tuple[float, float] | None) -> None:
-    """Set the spring from Gazebo: stiffness [N·m/rad or N/m] and reference position [rad or m]."""
+    """Set the spring: stiffness [N·m/rad or N/m] and reference position [rad or m]."""
     if spring is None:
         return
     stiffness, reference = spring

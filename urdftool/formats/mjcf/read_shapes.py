@@ -22,6 +22,7 @@ from ...model.elements import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate, rotation_from_quaternion
 from ...model.provenance import Written
+from ...model.settings import Settings, Value
 from .read_compile import Row
 from .read_context import Context, read_pose
 
@@ -52,7 +53,8 @@ def add_shapes(context: Context, robot: Robot) -> None:
         if visible:
             link.visuals.append(Visual(written, name, origin, geometry, material))
         if collides:
-            link.collisions.append(Collision(written, name, origin, replace(geometry)))
+            surface = _read_surface(context, row, written)
+            link.collisions.append(Collision(written, name, origin, replace(geometry), surface))
             _report_contact(context, row, written)
         if not visible and not collides:
             text = "geoms that are neither seen nor touched count in the mass only"
@@ -66,9 +68,15 @@ def _report_contact(context: Context, row: Row, written: Written) -> None:
     if row["paired"]:
         text = "pairs of geoms that touch are not read"
         context.losses.add("contact-pair", text, row["name"], written.place)
-    if any(abs(a - b) > 1e-9 for a, b in zip(row["friction"], _FRICTION, strict=True)):
-        text = "friction of geoms is not read"
-        context.losses.add("friction", text, row["name"], written.place)
+
+
+def _read_surface(context: Context, row: Row, written: Written) -> Settings:
+    """Return the friction of a geom, unless it is MuJoCo's default."""
+    sliding, *turning = row["friction"]
+    if any(abs(a - b) > 1e-9 for a, b in zip(turning, _FRICTION[1:], strict=True)):
+        text = "torsional and rolling friction of geoms is not read"
+        context.losses.add("friction", text, row["name"], written.place, Severity.INFO)
+    return {"friction": Value(written, sliding)} if abs(sliding - _FRICTION[0]) > 1e-9 else {}
 
 
 def _read_geometry(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:

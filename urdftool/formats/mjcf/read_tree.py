@@ -28,6 +28,7 @@ from ...model.mechanism import Base, Frame
 from ...model.part import ZERO
 from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
+from ...model.settings import Settings, Value
 from ...model.world import WORLD
 from .read_compile import Row
 from .read_context import Context, make_unique, name_bodies, name_joints, read_pose
@@ -82,8 +83,10 @@ def add_tree(context: Context, robot: Robot) -> None:
             text = "bodies that the program moves are fixed"
             context.losses.add("mocap", text, row["name"], link.place, Severity.INFO)
         if row["gravcomp"]:
-            text = "gravity compensation is not read"
-            context.losses.add("gravcomp", text, row["name"], link.place)
+            link.settings["gravity"] = Value(link.provenance, row["gravcomp"] != 1.0)
+            if row["gravcomp"] != 1.0:
+                text = "gravity compensation other than 0 and 1 is not read"
+                context.losses.add("gravcomp", text, row["name"], link.place)
 
 
 def _needs_world(context: Context, joints: dict[int, list[int]]) -> bool:
@@ -161,6 +164,7 @@ def _read_joint(context: Context, row: Row, number: int, parent: str, child: str
         joint.axis = Axis(written, (x, y, z))
         joint.type = "continuous" if kind == "revolute" and not limited else kind
     joint.dynamics = _read_dynamics(context, row, written)
+    joint.settings = _read_spring(row, written)
     effort = _compute_effort(context, row, number)
     if limited:
         joint.limit = Limit(written, lower, upper, effort)
@@ -183,14 +187,17 @@ def _read_dynamics(context: Context, row: Row, written: Written) -> Dynamics | N
     if row["poly"]:
         text = "damping that is not proportional to velocity is not read"
         context.losses.add("damping", text, row["name"], written.place)
-    names = ("damping", "frictionloss", "armature", "stiffness")
-    damping, friction, armature, stiffness = (row[name] or None for name in names)
-    if not any((damping, friction, armature, stiffness)):
-        return None
-    reference = (
-        row["springref"] or None if stiffness and row["type"] in ("hinge", "slide") else None
-    )
-    return Dynamics(written, damping, friction, armature, stiffness, reference)
+    values = [row[name] or None for name in ("damping", "frictionloss", "armature")]
+    return Dynamics(written, *values) if any(values) else None
+
+
+def _read_spring(row: Row, written: Written) -> Settings:
+    if not row["stiffness"]:
+        return {}
+    found = {"spring_stiffness": Value(written, row["stiffness"])}
+    if row["type"] in ("hinge", "slide") and row["springref"]:
+        found["spring_reference"] = Value(written, row["springref"])
+    return found
 
 
 def _compute_effort(context: Context, row: Row, number: int) -> float | None:

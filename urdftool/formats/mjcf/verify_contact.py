@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from ...model.elements import Link
+from ...model.settings import get_number
 from ..check import Check
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
@@ -150,12 +151,13 @@ def check_surface(source: Source, compiled: Compiled, declared: DeclaredLosses) 
     model = compiled.model
     for link in source.robot.links:
         body = compiled.get_body(link.name)
-        sliding = source.number(link.name, "mu1", "mu")
-        grip = GRIP if sliding is None or sliding < 0 else (sliding, *GRIP[1:])
+        values = [get_number(shape.surface, "friction") for shape in link.collisions]
+        grips = {GRIP if one is None else (one, *GRIP[1:]) for one in values} or {GRIP}
         for geom in compiled.get_geoms(body):
             if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
                 continue
-            off = float(abs(model.geom_friction[geom] - grip).max())
+            found = model.geom_friction[geom]
+            off, grip = min((float(abs(found - one).max()), one) for one in grips)
             check.compare(off / max(1.0, grip[0]), f"friction of link '{link.name}'")
             for field in SOFTNESS:
                 array = getattr(model, f"geom_{field}", None)

@@ -27,11 +27,7 @@ def check_gravity_flag(source: Source, compiled: Compiled) -> Check:
     check = Check("gravity flags", "on which links gravity acts", EXACT)
     for link in source.robot.links:
         body = compiled.get_body(link.name)
-        off = 0.0
-        for tag, means_off in (("turnGravityOff", True), ("gravity", False)):
-            said = (source.get_value(link.name, tag) or "").lower()
-            if said:
-                off = float((said in ("true", "1", "yes")) == means_off)
+        off = float(link.is_weightless)
         if body > 0:
             found = float(compiled.model.body_gravcomp[body])
             check.compare(abs(found - off), f"gravity of link '{link.name}'")
@@ -47,8 +43,8 @@ def check_joint_physics(source: Source, compiled: Compiled, declared: DeclaredLo
         for number in _get_numbers(joint, compiled):
             name = f"joint '{joint.name}'"
             single = joint.type in ("revolute", "continuous", "prismatic", "planar")
-            stiffness = 0.0 if joint.type == "floating" else _compute_stiffness(source, joint.name)
-            reference = source.number(joint.name, "springReference") or 0.0
+            stiffness, reference = joint.spring or (0.0, 0.0)
+            stiffness = 0.0 if joint.type == "floating" else stiffness
             found = float(np.ravel(model.jnt_stiffness[number])[0])
             check.compare(_compute_apart(found, stiffness), f"spring of {name}")
             if single:
@@ -77,10 +73,6 @@ def _get_numbers(joint: Joint, compiled: Compiled) -> list[int]:
     return [number for name in names if (number := compiled.get_id("JOINT", name)) >= 0]
 
 
-def _compute_stiffness(source: Source, name: str) -> float:
-    return source.number(name, "springStiffness") or 0.0
-
-
 def _compare_dofs(
     source: Source, joint: Joint, number: int, light: bool, compiled: Compiled, check: Check
 ) -> None:
@@ -90,10 +82,12 @@ def _compare_dofs(
     count = {0: 6, 1: 3}.get(int(model.jnt_type[number]), 1)
     dynamics = joint.dynamics if joint.type != "floating" else None
     wanted = {
-        "armature": LEAF_ARMATURE if light and joint.type != "floating" else 0.0,
+        "armature": (dynamics.armature if dynamics else None) or 0.0,
         "damping": (dynamics.damping if dynamics else None) or 0.0,
         "frictionloss": (dynamics.friction if dynamics else None) or 0.0,
     }
+    if light and joint.type != "floating":
+        wanted["armature"] = LEAF_ARMATURE
     settings = source.settings.get(joint.name)
     if settings is not None:
         rotor = source.options.armature if settings.armature is None else settings.armature

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from ...model.elements import Joint, Robot
-from ...model.read import number, parse_numbers
+from ...model.read import parse_numbers
 from ...source.description import read_description
 from ...source.document import Element
 from ..common.actuator_config import JointSettings, read_actuator_config
@@ -58,10 +58,6 @@ class Source:
                     if element.tag in tags:
                         found = (element.get("value") or element.text).strip()
         return found
-
-    def number(self, name: str, *tags: str) -> float | None:
-        """Return the last ``<gazebo>`` number for a link or joint; None if it is not a number."""
-        return number(self.get_value(name, *tags))
 
     def list_whole(self, tag: str) -> Iterator[Element]:
         """Yield the elements of a tag in ``<gazebo>`` blocks without reference."""

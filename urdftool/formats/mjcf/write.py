@@ -56,7 +56,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     robot, world = report_taken_world(robot)
     model = get_model_name(robot)
     written = Written(options.file or f"{model}.xml")
-    report_unexpressed(robot, written, expressed=("base",))
+    report_unexpressed(robot, written, expressed=("base", "joint-spring", "joint-armature"))
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),

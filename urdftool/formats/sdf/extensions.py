@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from ...model.elements import Joint, Link, Robot
-from ...model.read import number, parse_numbers
-from ...rules.gazebo.block_values import (
-    describe_required_keyword_value,
-    get_kind,
-    get_value,
-    is_value_of_kind,
+from ...model.settings import (
+    JOINT_TAGS,
+    LINK_TAGS,
+    LUMPING_TAGS,
+    OF_JOINTS,
+    OF_LINKS,
+    Content,
+    Setting,
+    Value,
 )
-from ...rules.gazebo.keywords import is_true
 from ...source.document import Element
 from ..common.numbers import format_numbers_text, number_text
 from .body_sensors import is_body_sensor
-from .keywords import (
-    COLLISION_KEYWORDS,
-    IGNORED,
-    JOINT_KEYWORDS,
-    LINK_ELEMENTS,
-    LINK_KEYWORDS,
-    LUMPING_KEYWORDS,
-    Keyword,
-)
 from .plugins import add_plugin
 from .raw_sdf import copy_raw_element, remove_invalid
 from .translation import Translation
-from .xml import Node, add, append_copy, get_or_create, merge
+from .xml import Node, append_copy, get_or_create, merge
 
 ELSEWHERE = frozenset(("sensor", "visual", "collision", "material"))
 """Elements of a link's block that other modules handle."""
+
+IGNORED = frozenset(("canonicalBody",))
+"""Tags that Gazebo ignores, too."""
 
 
 def block_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
@@ -50,18 +46,23 @@ def block_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
 def _is_of_joint(element: Element) -> bool:
     if element.tag == "sensor":
         return (element.get("type") or "").strip() == "force_torque"
-    return element.tag in JOINT_KEYWORDS or element.tag in LUMPING_KEYWORDS
+    return element.tag in JOINT_TAGS | LUMPING_TAGS
 
 
-def list_values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dict[str, str]:
-    """Return the values of a table's tags for a link or joint; the last of each tag counts."""
-    found: dict[str, str] = {}
-    for element in block_elements(t.robot, part):
-        if element.tag in table:
-            text = read_value(get_kind(element.tag), get_value(element))
-            if text is not None:
-                found[element.tag] = text
-    return found
+def write_settings(node: Node, settings: Mapping[str, Value], rows: Iterable[Setting]) -> None:
+    """Write settings at their paths below a node."""
+    for row in rows:
+        if row.name in settings:
+            text = format_content(settings[row.name].content)
+            for path in filter(None, (row.path, row.also)):
+                get_or_create(node, path).text = text
+
+
+def format_content(content: Content) -> str:
+    """Return the text of a value."""
+    if isinstance(content, bool):
+        return "true" if content else "false"
+    return format_numbers_text(content) if isinstance(content, tuple) else number_text(content)
 
 
 def merge_elements(node: Node, t: Translation, link: Link, tag: str) -> None:
@@ -76,73 +77,50 @@ def merge_elements(node: Node, t: Translation, link: Link, tag: str) -> None:
 
 def link_extensions(node: Node, t: Translation, link: Link) -> None:
     """Convert the settings of a link, except shapes, materials and sensors."""
-    _report_repeated(t, link, {**COLLISION_KEYWORDS, **LINK_KEYWORDS})
+    _report_settings(t, link, {**link.surface, **link.settings})
     _report_untouchable(t, link)
-    own = t.plan.stays(link.name)
-    flags = list_values(t, link, LINK_KEYWORDS)
-    if own:
-        for tag, text in flags.items():
-            _set_flag(node, tag, text)
+    if t.plan.stays(link.name):
+        write_settings(node, link.settings, OF_LINKS)
+    else:
+        _report_merged_flags(t, link)
     for element in block_elements(t.robot, link):
         tag = element.tag
-        if tag in LINK_ELEMENTS and own:
-            existing = node.find(tag)
-            if copy_raw_element(node, t, element, link) is not None and existing is not None:
-                node.remove(existing)
-        elif tag in LINK_ELEMENTS or tag in LINK_KEYWORDS:
-            if not own:
-                t.report_loss(
-                    "link-flag",
-                    f"<{tag}> is set for link '{link.name}', which was merged into "
-                    f"'{t.plan.owner[link.name]}'; it would apply to the whole link and is not "
-                    "exported",
-                    element,
-                    link,
-                    hint="keep the fixed joint with <preserveFixedJoint>true</preserveFixedJoint>",
-                )
-        elif tag == "plugin":
+        if tag == "plugin":
             if not is_body_sensor(t, element):
                 add_plugin(node, t, element)
-        elif tag in JOINT_KEYWORDS or tag in LUMPING_KEYWORDS:
+        elif tag in JOINT_TAGS | LUMPING_TAGS:
             if link.name not in t.robot.joint:
                 text = f"<{tag}> is set for link '{link.name}', but applies to joints only"
                 t.report_loss("extension", f"{text}; it is not exported", element, link)
-        elif tag not in ELSEWHERE and tag not in COLLISION_KEYWORDS and tag not in IGNORED:
+        elif tag not in ELSEWHERE | LINK_TAGS | IGNORED:
             copy_raw_element(node, t, element, link)
 
 
-def _set_flag(node: Node, tag: str, text: str) -> None:
-    if tag == "turnGravityOff":
-        text = "false" if text == "true" else "true"
-    if tag == "dampingFactor":
-        decay = add(node, "velocity_decay")
-        add(decay, "linear", text)
-        add(decay, "angular", text)
-    else:
-        add(node, LINK_KEYWORDS[tag].path, text)
+def _report_merged_flags(t: Translation, link: Link) -> None:
+    """Report the settings of a link that was merged into another."""
+    for value in {id(value.provenance): value for value in link.settings.values()}.values():
+        t.report_loss(
+            "link-flag",
+            f"<{value.tag}> is set for link '{link.name}', which was merged into "
+            f"'{t.plan.owner[link.name]}'; it would apply to the whole link and is not exported",
+            value,
+            link,
+            hint="keep the fixed joint with <preserveFixedJoint>true</preserveFixedJoint>",
+        )
 
 
 def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     """Convert the settings of a joint, except sensors."""
-    _report_repeated(t, joint, JOINT_KEYWORDS)
-    for tag, text in list_values(t, joint, JOINT_KEYWORDS).items():
-        path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
-        if path.startswith("axis/") and node.find("axis") is None:
-            text = f"<{tag}> is set for joint '{joint.name}', which has no axis; it is not exported"
-            t.report_loss("extension", text, t.robot.extensions[joint.name][0], joint)
-            continue
-        get_or_create(node, path).text = text
-        if also:
-            get_or_create(node, also).text = text
+    _report_settings(t, joint, joint.settings)
     for element in block_elements(t.robot, joint):
         tag = element.tag
         if tag == "plugin":
             if not is_body_sensor(t, element):
                 add_plugin(node, t, element)
-        elif tag not in JOINT_KEYWORDS and tag not in (*LUMPING_KEYWORDS, *IGNORED, "sensor"):
+        elif tag not in JOINT_TAGS | LUMPING_TAGS | IGNORED | {"sensor"}:
             if joint.name in t.robot.link:
                 continue  # it belongs to the link of the same name
-            if tag in COLLISION_KEYWORDS or tag in LINK_KEYWORDS or tag in ELSEWHERE:
+            if tag in LINK_TAGS or tag in ELSEWHERE:
                 text = (
                     f"<{tag}> is set for joint '{joint.name}', but applies to links only; it "
                     "is not exported"
@@ -150,11 +128,21 @@ def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
                 t.report_loss("extension", text, element, joint)
             else:
                 copy_raw_element(node, t, element, joint)
+    rows = [row for row in OF_JOINTS if row.name in joint.settings]
+    turning = node.find("axis") is not None
+    write_settings(node, joint.settings, [r for r in rows if turning or not _is_of_axis(r)])
+    for value in [joint.settings[row.name] for row in rows if not turning and _is_of_axis(row)]:
+        text = f"<{value.tag}> is set for joint '{joint.name}', which has no axis"
+        t.report_loss("extension", f"{text}; it is not exported", value, joint)
+
+
+def _is_of_axis(row: Setting) -> bool:
+    return row.path.startswith("axis/")
 
 
 def report_dissolved_joint(t: Translation, joint: Joint) -> None:
     """Report the settings that are lost with a dissolved joint."""
-    lost = [e for e in block_elements(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
+    lost = [e for e in block_elements(t.robot, joint) if e.tag not in LUMPING_TAGS | IGNORED]
     if lost and joint.name not in t.robot.link:
         tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
         t.report_loss(
@@ -166,52 +154,25 @@ def report_dissolved_joint(t: Translation, joint: Joint) -> None:
         )
 
 
-def _report_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> None:
-    seen: dict[str, str] = {}
-    for element in block_elements(t.robot, part):
-        if element.tag not in table:
-            continue
-        text = read_value(get_kind(element.tag), get_value(element))
-        if text is None:
-            t.report_loss(
-                "extension",
-                f"<{element.tag}> of '{part.name}' is '{get_value(element)}', not "
-                f"{describe_required_keyword_value(element)}; it is not exported",
-                element,
-                part,
-            )
-            continue
-        if seen.get(element.tag, text) != text:
-            t.report_loss(
-                "repeated",
-                f"<{element.tag}> of '{part.name}' is set twice; the last, {text}, is used",
-                element,
-                part,
-            )
-        seen[element.tag] = text
+def _report_settings(t: Translation, part: Link | Joint, settings: Mapping[str, Value]) -> None:
+    """Report rejected values, and tags that are set to several."""
+    for one in t.robot.rejected_settings:
+        if (one.name, one.of_joint) == (part.name, isinstance(part, Joint)):
+            text = f"<{one.tag}> of '{one.name}' is '{one.text}', not {one.required}"
+            t.report_loss("extension", f"{text}; it is not exported", one, part)
+    for value in {id(value.provenance): value for value in settings.values()}.values():
+        if value.earlier:
+            text = f"<{value.tag}> of '{part.name}' is set several times; "
+            used = f"{format_content(value.content)}, which Gazebo takes, is used"
+            t.report_loss("repeated", text + used, value, part)
 
 
 def _report_untouchable(t: Translation, link: Link) -> None:
     """Report contact values of a link without collisions, which have no effect."""
-    given = list_values(t, link, COLLISION_KEYWORDS)
-    given.pop("laserRetro", None)
-    if given and not link.collisions:
-        first = next(e for e in block_elements(t.robot, link) if e.tag in given)
-        text = f"link '{link.name}' has no collision, so its {', '.join(given)} have no effect"
-        t.report_note("contact", text, first, link)
-
-
-def read_value(kind: str, text: str) -> str | None:
-    """Return the text of a value, or None if it is not of the kind.
-
-    Args:
-        kind: The kind: ``number``, ``count``, ``vector`` (3 numbers) or ``flag``.
-        text: The text of the source.
-    """
-    if not is_value_of_kind(kind, text):
-        return None
-    if kind == "flag":
-        return "true" if is_true(text) else "false"
-    if kind == "vector":
-        return format_numbers_text(parse_numbers(text, 3) or ())
-    return number_text(number(text) or 0.0)
+    if link.collisions:
+        return
+    for name, value in link.surface.items():
+        if name != "laser_retro":
+            text = f"link '{link.name}' has no collision, so its <{value.tag}> has no effect"
+            t.report_note("contact", text, value, link)
+            return

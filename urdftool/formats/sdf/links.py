@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere, Visual
 from ...model.pose import Pose, make_pose, rpy_from_rotation
-from .extensions import link_extensions, list_values, merge_elements
+from ...model.settings import SURFACE
+from .extensions import format_content, link_extensions, merge_elements, write_settings
 from .frames import place
 from .gltf import undo_axis_conversion
 from .inertials import add_inertial
-from .keywords import COLLISION_KEYWORDS
 from .materials import add_material
 from .sensors import add_sensors
 from .shape_names import choose_shape_names
 from .shapes import add_geometry, is_writable, set_place
 from .translation import Translation
-from .xml import Node, add, get_or_create
+from .xml import Node, add
 
 
 def link(model: Node, t: Translation, part: Link) -> None:
@@ -59,9 +61,8 @@ def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str)
     set_place(made, t, link, part.origin)
     assert part.geometry is not None
     add_geometry(made, t, part.geometry)
-    for tag, text in list_values(t, link, COLLISION_KEYWORDS).items():
-        get_or_create(made, COLLISION_KEYWORDS[tag].path).text = text
     merge_elements(made, t, link, "collision")
+    write_settings(made, part.surface, SURFACE)
 
 
 def _collect_pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
@@ -76,9 +77,9 @@ def _collect_pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collis
     ball = Sphere(capsule.provenance, capsule.radius)
     half = capsule.length / 2
     return [
-        ("", Collision(element, None, part.origin, tube)),
-        ("_top", Collision(element, None, placed(half), ball)),
-        ("_bottom", Collision(element, None, placed(-half), ball)),
+        ("", replace(part, name=None, geometry=tube)),
+        ("_top", replace(part, name=None, origin=placed(half), geometry=ball)),
+        ("_bottom", replace(part, name=None, origin=placed(-half), geometry=ball)),
     ]
 
 
@@ -104,7 +105,7 @@ def add_visual(node: Node, t: Translation, link: Link, part: Visual, name: str) 
     assert shape is not None
     add_geometry(made, t, shape)
     add_material(made, t, link, part)
-    retro = list_values(t, link, COLLISION_KEYWORDS).get("laserRetro")
+    retro = link.surface.get("laser_retro")
     if retro is not None and not t.options.classic:
-        add(made, "laser_retro", retro)
+        add(made, "laser_retro", format_content(retro.content))
     merge_elements(made, t, link, "visual")

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...model.gazebo_plugins import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
-from ...rules.gazebo.block_values import get_kind
+from ...model.settings import LUMPING_TAGS, OF_JOINTS, OF_LINKS, SURFACE, Setting
 from .body_sensors import BODY_SENSORS
 from .colors import COLORS
 from .joints import SDF_TYPES
-from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS, LUMPING_KEYWORDS, Keyword
 from .options import DEFAULT_VERSION, RELEASES, VERSIONS
 from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
 
@@ -81,13 +80,13 @@ def _list_sections() -> Iterator[str]:
         ),
     )
     yield '### `<gazebo reference="LINK">`\n\n' + _format_keywords(
-        {**_collect_below("collision", COLLISION_KEYWORDS), **_collect_below("link", LINK_KEYWORDS)}
+        (*_list_tags("collision", SURFACE), *_list_tags("link", OF_LINKS))
     )
     yield (
         '### `<gazebo reference="JOINT">`\n\n'
-        + _format_keywords(_collect_below("joint", JOINT_KEYWORDS))
-        + f"\n\n{' and '.join(f'`{tag}`' for tag in LUMPING_KEYWORDS)} keep a fixed joint when "
-        "lumping; so does a force_torque sensor on it."
+        + _format_keywords(_list_tags("joint", OF_JOINTS))
+        + f"\n\n{' and '.join(f'`{tag}`' for tag in sorted(LUMPING_TAGS)[::-1])} keep a fixed "
+        "joint when lumping; so does a force_torque sensor on it."
     )
     yield "### Sensors\n\n" + _format_table(
         ("for", "type", "becomes", ""),
@@ -115,18 +114,16 @@ def _format_table(head: tuple[str, ...], rows: Iterable[Iterable[str]]) -> str:
     return "\n".join(f"| {' | '.join(row)} |".replace("|  |", "| |") for row in lines)
 
 
-def _collect_below(where: str, keywords: dict[str, Keyword]) -> dict[str, Keyword]:
-    return {tag: word._replace(path=f"{where}/{word.path}") for tag, word in keywords.items()}
+def _list_tags(where: str, rows: Iterable[Setting]) -> Iterator[tuple[str, str, str, str]]:
+    """Yield tag, kind, SDF element and note of each tag of a table."""
+    for row in rows:
+        for tag in filter(None, (*row.tags, row.opposite)):
+            note = "negated" if tag == row.opposite else row.note
+            yield f"`{tag}`", row.kind, f"`{where}/{row.path}`", note
 
 
-def _format_keywords(keywords: dict[str, Keyword]) -> str:
-    return _format_table(
-        ("tag", "holds", "SDF", ""),
-        (
-            (f"`{tag}`", get_kind(tag), f"`{word.path}`", word.note)
-            for tag, word in keywords.items()
-        ),
-    )
+def _format_keywords(rows: Iterable[tuple[str, str, str, str]]) -> str:
+    return _format_table(("tag", "holds", "SDF", ""), rows)
 
 
 def _list_types(target: str, types: dict[str, SensorType]) -> Iterator[tuple[str, str, str, str]]:

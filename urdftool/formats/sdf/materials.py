@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import Decimal
 
 from ...model.elements import Link, Material, Robot, Visual
-from ...rules.gazebo.block_values import get_value
+from ...model.settings import get_text
 from ...source.document import Element
 from ..common.numbers import format_numbers_text, number_text
 from .colors import COLORS, PICTURED, Color
@@ -79,7 +79,7 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
         for child in said.children:
             copy_raw_element(made, t, child, link)
         return True
-    name = get_value(said)
+    name = get_text(said)
     if not name:
         return False
     if t.options.classic:

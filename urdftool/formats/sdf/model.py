@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import parse_numbers
-from ...rules.gazebo.block_values import get_value, is_flag
-from ...rules.gazebo.keywords import is_true
+from ...model.settings import get_text, is_true
+from ...rules.gazebo.block_values import is_flag
 from ...source.document import Element
 from ..common.naming import get_first_free, list_numbered_names
 from .body_sensors import add_body_sensors, is_body_sensor
@@ -64,7 +64,7 @@ def _set_whole(node: Node, t: Translation) -> None:
     """Set whether the model is static, and its pose."""
     for block in _collect_blocks(t):
         for element in block.element.list_children("static"):
-            text = get_value(element)
+            text = get_text(element)
             if is_flag(text):
                 for old in node.findall("static"):
                     node.remove(old)

@@ -15,7 +15,6 @@ from ...mechanics.tensor import get_noise, measure_consistency
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
-from ...rules.gazebo.keywords import is_true
 from ..common.lumping import LumpingPlan, plan_lumping
 
 EXACT = 1e-9
@@ -92,7 +91,7 @@ def _get_loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
     for joint in robot.joints:
         if not joint.is_fixed or (plan.anchored and joint.parent == WORLD):
             continue
-        if _senses_force(robot, joint) or _is_preserved(robot, joint):
+        if _senses_force(robot, joint) or joint.is_preserved:
             plan.kept.add(joint.name)
         else:
             loose[joint.child] = joint
@@ -104,14 +103,6 @@ def _senses_force(robot: Robot, joint: Joint) -> bool:
         sensor.type == "force_torque"
         for block in robot.extensions.get(joint.name, [])
         for sensor in block.sensors
-    )
-
-
-def _is_preserved(robot: Robot, joint: Joint) -> bool:
-    return any(
-        is_true(block.get_value(tag))
-        for block in robot.extensions.get(joint.name, [])
-        for tag in ("preserveFixedJoint", "disableFixedJointLumping")
     )
 
 

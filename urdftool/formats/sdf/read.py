@@ -10,6 +10,7 @@ from ...model.elements import Link, Robot
 from ...model.mechanism import Base
 from ...model.pose import IDENTITY, get_origin_at
 from ...model.provenance import Written
+from ...model.settings import OF_ROBOT, read_sdf_settings
 from ...model.world import WORLD
 from ...source.description import Description
 from ...source.document import Document
@@ -60,6 +61,7 @@ def read(
     if top is None:
         raise ModelError("the file has no model with a link", at=root.place)
     robot = Robot(Written(top.element.place), top.name, format="sdf")
+    robot.settings = read_sdf_settings(top.element, OF_ROBOT)
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
     _fill(Context(robot, losses, file.path), top)
     found = losses.make_findings()

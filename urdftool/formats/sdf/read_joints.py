@@ -14,6 +14,7 @@ from ...model.elements import Axis, Dynamics, Joint, Limit, Link, Mimic, Robot, 
 from ...model.mechanism import Closure, Frame, MountedSensor
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
+from ...model.settings import OF_JOINTS, read_sdf_settings
 from ...model.world import WORLD
 from ...source.document import Element
 from .read_links import Context, normalize_direction
@@ -137,6 +138,7 @@ def add_joint(context: Context, found: Found) -> None:
         found.child,
         origin=get_origin_at(at, written),
     )
+    joint.settings = read_sdf_settings(found.element, OF_JOINTS)
     turn = Pose(context.poses[found.child].invert().rotation)
     if found.type in ("universal", "revolute2"):
         middle = f"{found.child}~1"
@@ -194,6 +196,7 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
         if (joint.limit.effort, joint.limit.velocity) == (None, None):
             joint.limit = None
     joint.dynamics = _read_dynamics(element)
+    joint.settings = read_sdf_settings(found.element, OF_JOINTS, axis=tag)
     if found.type == "screw":
         joint.thread_pitch = _read_pitch(found)
     mimic = None if element is None else element.find_child("mimic")
@@ -256,14 +259,10 @@ def _read_dynamics(element: Element | None) -> Dynamics | None:
     holder = None if element is None else element.find_child("dynamics")
     if holder is None:
         return None
-    stiffness = number(holder, "spring_stiffness", 0.0) or None
     return Dynamics(
         Written(holder.place),
         None if holder.find_child("damping") is None else number(holder, "damping", 0.0),
         None if holder.find_child("friction") is None else number(holder, "friction", 0.0),
-        None,
-        stiffness,
-        number(holder, "spring_reference", 0.0) if stiffness else None,
     )
 
 

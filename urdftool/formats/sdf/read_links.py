@@ -31,10 +31,11 @@ from ...model.elements import (
 from ...model.mechanism import Camera, MountedSensor
 from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
+from ...model.settings import OF_LINKS, SURFACE, read_sdf_settings
 from ...source.document import Element
 from ..reading import Losses
-from .read_scope import SELF_COLLIDE, Scope
-from .read_values import number, read_flag, read_numbers, read_pose, read_text, read_vector
+from .read_scope import Scope
+from .read_values import number, read_numbers, read_pose, read_text, read_vector
 
 _TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
 _CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "thermal_camera", "wideanglecamera")
@@ -81,14 +82,7 @@ def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> 
             context.record_loss(
                 child.tag, f"elements <{child.tag}> are not read", child, Severity.INFO
             )
-    if not read_flag(element, "gravity", True):
-        context.record_loss("gravity", "links without gravity are read as others", element)
-    if read_flag(element, "kinematic"):
-        context.record_loss("kinematic", "kinematic links are read as others", element)
-    if read_flag(element, "self_collide"):
-        context.record_loss("self-collide", SELF_COLLIDE, element)
-    if element.find_child("velocity_decay") is not None:
-        context.record_loss("velocity-decay", "damping of links in space is not read", element)
+    link.settings = read_sdf_settings(element, OF_LINKS)
     return link
 
 
@@ -141,12 +135,10 @@ def _read_collision(
     geometry, turn = _read_geometry(context, element)
     if geometry is None:
         return []
-    surface = element.find_child("surface")
-    if surface is not None and surface.children:
-        context.record_loss("surface", "friction and contact of collisions are not read", element)
     written = Written(element.place)
     origin = get_origin_at(_compute_pose(context, scope, prefix, link, element) @ turn, written)
-    return [Collision(written, element.get("name"), origin, geometry)]
+    surface = read_sdf_settings(element, SURFACE)
+    return [Collision(written, element.get("name"), origin, geometry, surface)]
 
 
 def _read_geometry(context: Context, holder: Element) -> tuple[Geometry | None, Pose]:

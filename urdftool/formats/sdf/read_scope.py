@@ -14,7 +14,7 @@ from ...model.pose import IDENTITY, Pose
 from ...source.document import Element
 from .read_values import Version, read_pose, read_text
 
-SELF_COLLIDE = "contacts between the links of a model (self_collide) are not read"
+SELF_COLLIDE = "contacts between the links of a nested model (self_collide) are not read"
 """Text of the loss for a link or model."""
 
 MODEL = "__model__"

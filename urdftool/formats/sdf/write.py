@@ -68,7 +68,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
-    report_unexpressed(robot, written, expressed=("base",))
+    report_unexpressed(robot, written, expressed=("base", "joint-spring"))
     settings = choose_joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)
     root = _build_root(options)

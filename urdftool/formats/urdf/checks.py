@@ -17,9 +17,7 @@ from .options import Options
 from .read import read
 from .verify_extensions import check_extensions
 
-NOT_COMPARED = (
-    "contact settings", "friction", "textures", "plugins", "closed loops", "transmissions"
-)  # fmt: skip
+NOT_COMPARED = ("contact bits", "textures", "plugins", "closed loops", "transmissions")
 """Parts of a description that no check compares."""
 
 _CODES = {

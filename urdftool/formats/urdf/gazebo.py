@@ -34,40 +34,18 @@ def copy_extensions(t: Translation) -> None:
     source = t.robot.xml
     for element in () if source is None else source.children:
         if element.tag in _COPIED:
-            _copy(t.root, element)
+            copy_element(t.root, element)
 
 
-def _copy(parent: etree._Element, element: Element) -> etree._Element:
+def copy_element(parent: etree._Element, element: Element) -> etree._Element:
+    """Append a copy of an element, without namespaces."""
     tag = element.tag.replace(":", "_")
     attributes = {n: v for n, v in element.attributes.items() if ":" not in n and n != "xmlns"}
     node = etree.SubElement(parent, tag, attributes)
     node.text = element.text.strip() or None
     for child in element.children:
-        _copy(node, child)
+        copy_element(node, child)
     return node
-
-
-def add_springs(t: Translation) -> None:
-    """Add the springs of joints."""
-    for joint in t.robot.joints:
-        dynamics = joint.dynamics
-        if dynamics is None or not dynamics.stiffness:
-            continue
-        if joint.type not in ("revolute", "continuous", "prismatic"):
-            text = f"the spring of joint '{joint.name}' is dropped: the joint has type {joint.type}"
-            t.written.report_loss("spring", text, joint.place, kind="joint", name=joint.name)
-            continue
-        node = add(t.root, "gazebo", reference=t.names.joints[joint.name])
-        add(node, "springStiffness", format_number(dynamics.stiffness))
-        add(node, "springReference", format_number(dynamics.spring_reference or 0.0))
-        t.written.report_loss(
-            "gazebo-spring",
-            "springs are in <gazebo>, which only Gazebo reads",
-            joint.place,
-            kind="joint",
-            name=joint.name,
-            severity=Severity.INFO,
-        )
 
 
 def add_cameras(t: Translation) -> None:
@@ -198,7 +176,7 @@ def _copy_sensor(
     node: etree._Element, element: Element, origin: Origin | None, name: str
 ) -> etree._Element:
     """Copy a sensor of SDF, with another name and pose."""
-    sensor = _copy(node, element)
+    sensor = copy_element(node, element)
     sensor.set("name", name)
     for pose in sensor.findall("pose") if origin is not None else ():
         sensor.remove(pose)

@@ -21,11 +21,12 @@ from ..common.naming import replace_file_name
 from ..defects import refuse
 from ..written import Written
 from .control import add_control
-from .gazebo import add_cameras, add_sensors, add_springs, copy_extensions
+from .gazebo import add_cameras, add_sensors, copy_element, copy_extensions
 from .mesh_files import MeshFiles, report_mesh_defects
 from .names import Names
 from .options import Options
 from .semantics import make_srdf
+from .settings import add_settings
 from .shapes import add_shape
 from .translation import Translation, add, add_origin, format_number, format_numbers
 
@@ -67,7 +68,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     _add_frames(t)
     copy_extensions(t)
     add_control(t)
-    add_springs(t)
+    add_settings(t)
     add_cameras(t)
     add_sensors(t)
     _report_unexpressed(t)
@@ -98,6 +99,9 @@ def _add_link(t: Translation, link: Link) -> None:
         six = (0.0,) * 6 if inertial.inertia is None else inertial.inertia.six
         names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
         add(inner, "inertia", **{n: format_number(v) for n, v in zip(names, six, strict=True)})
+    contact = link.find_child_xml("contact")
+    if contact is not None:
+        copy_element(node, contact)
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     for shape in shapes:
         add_shape(t.robot, t.written, t.meshes, node, link, shape)

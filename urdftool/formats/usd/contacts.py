@@ -8,6 +8,7 @@ from pxr import UsdPhysics
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.settings import is_set
 from ..written import Written
 from .links import LinkWriter
 from .options import Options
@@ -44,13 +45,9 @@ def is_self_colliding(robot: Robot, options: Options) -> bool:
     """Tell whether links of the robot collide with each other in the stage."""
     if options.self_collision is not None:
         return options.self_collision
-    return options.srdf is not None or bool(robot.exclusions) or _is_requested(robot)
-
-
-def _is_requested(robot: Robot) -> bool:
-    """Tell whether a ``<gazebo>`` block enables self-collision."""
-    values = (block.get_value("self_collide") for block in robot.gazebo)
-    return any(value in ("true", "True", "1") for value in values)
+    asked = (robot.settings, *(link.settings for link in robot.links))
+    wanted = any(is_set(settings, "self_collide") for settings in asked)
+    return options.srdf is not None or bool(robot.exclusions) or wanted
 
 
 def write_pairs(links: LinkWriter, pairs: Iterable[tuple[str, str]]) -> int:

@@ -223,11 +223,11 @@ class JointWriter:
 
 def report_unwritten_spring(joint: Joint, written: Written) -> None:
     """Report a spring, for which the schemas have no attribute."""
-    if joint.dynamics is not None and joint.dynamics.stiffness:
+    if joint.spring is not None:
         written.report_loss(
             "joint-spring",
             f"spring of joint '{joint.name}' is dropped",
-            joint.dynamics.place,
+            joint.settings["spring_stiffness"].place,
             kind="joint",
             name=joint.name,
             severity=Severity.WARNING,

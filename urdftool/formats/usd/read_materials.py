@@ -5,13 +5,14 @@ from __future__ import annotations
 from hashlib import sha256
 from pathlib import PurePosixPath
 
-from pxr import Ar, Gf, Sdf, Usd, UsdGeom, UsdShade
+from pxr import Ar, Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from ...diagnostic import Severity
 from ...geometry.color import convert_to_srgb
 from ...model.elements import Material
+from ...model.settings import Settings, Value
 from .read_mesh import MeshFolder
-from .read_stage import Context
+from .read_stage import Context, convert_float
 
 _COLORS = ("diffuseColor", "diffuse_color_constant", "base_color")
 """Inputs of UsdPreviewSurface, of OmniPBR (MDL) and of MaterialX surfaces."""
@@ -53,6 +54,25 @@ def read_material(
     alpha = _read_number(surface, _OPACITIES)
     red, green, blue = (encode_color(float(part)) for part in color)
     return Material(written, name, (red, green, blue, 1.0 if alpha is None else alpha))
+
+
+def read_surface(context: Context, prim: Usd.Prim) -> Settings:
+    """Return friction and restitution of the physics material of a collider."""
+    bound, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+    own = bound.GetPrim() if bound else None
+    if own is None or not own.HasAPI(UsdPhysics.MaterialAPI):
+        return {}
+    found: Settings = {}
+    for name, attribute in (("friction", "dynamicFriction"), ("restitution", "restitution")):
+        value = context.get_value(own, f"physics:{attribute}")
+        if value is not None:
+            content = convert_float(value)
+            found[name] = Value(context.get_written(own, f"physics:{attribute}"), content)
+    still = context.get_value(own, "physics:staticFriction")
+    if still is not None and still != context.get_value(own, "physics:dynamicFriction"):
+        text = "friction at rest (staticFriction) other than in motion is not read"
+        context.report_loss("friction", text, own, Severity.INFO)
+    return found
 
 
 def _find_surface(material: UsdShade.Material) -> UsdShade.Shader | None:

@@ -25,7 +25,7 @@ from ...model.elements import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
-from .read_materials import read_material
+from .read_materials import read_material, read_surface
 from .read_mesh import MeshFolder, Triangles, read_triangles
 from .read_stage import Context, compute_pose
 
@@ -110,7 +110,9 @@ def _add_shape(
         material = read_material(context, prim, folder, has_coordinates=False)
         link.visuals.append(Visual(written, name, origin, geometry, material))
     if collides:
-        link.collisions.append(Collision(written, name, origin, geometry))
+        link.collisions.append(
+            Collision(written, name, origin, geometry, read_surface(context, prim))
+        )
 
 
 def _add_mesh(
@@ -141,7 +143,7 @@ def _add_mesh(
     if collides:
         _report_approximation(context, prim)
         mesh = Mesh(written, folder.store(triangles, start, textured=False))
-        link.collisions.append(Collision(written, name, origin, mesh))
+        link.collisions.append(Collision(written, name, origin, mesh, read_surface(context, prim)))
 
 
 def _split_subsets(prim: Usd.Prim, triangles: Triangles) -> list[tuple[Usd.Prim, Triangles]]:

@@ -19,6 +19,7 @@ _READ = re.compile(
     r"|physxJointAxis:\w+:(maxJointVelocity|viscousFrictionCoefficient|armature|"
     r"(static|dynamic)FrictionEffort)"
     r"|physxJoint:(maxJointVelocity|armature)|physxMimicJoint:\w+:(gearing|offset)"
+    r"|physics:((static|dynamic)Friction|restitution)"
     r"|mjc:(damping|frictionloss|armature|coef[01]|actuatorfrc(range:(min|max)|limited))"
 )
 """Names of the attributes that the reader uses."""

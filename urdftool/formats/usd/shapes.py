@@ -57,7 +57,6 @@ class ShapeWriter:
 
     def write(self, link: Link) -> None:
         """Write the visuals and collisions of a link."""
-        surface = self.surfaces.find_material(link)
         for scope, shapes in (("visuals", link.visuals), ("collisions", link.collisions)):
             names = UniqueNames()
             for shape in shapes:
@@ -66,9 +65,12 @@ class ShapeWriter:
                 stem = shape.name or get_shape_name(shape.geometry)
                 path = self.links.get_path(link.name).AppendChild(scope)
                 name = names.take(make_identifier(stem, "shape"))
-                is_bound = surface is not None and scope == "collisions"
-                self._write_shape(link, shape, shape.geometry, path, name, is_shared=not is_bound)
-                if is_bound and surface is not None:
+                surface = None
+                if isinstance(shape, Collision):
+                    surface = self.surfaces.find_material(link, shape)
+                shared = surface is None
+                self._write_shape(link, shape, shape.geometry, path, name, is_shared=shared)
+                if surface is not None:
                     self._bind_surface(path.AppendChild(name), surface)
 
     def _bind_surface(self, path: Sdf.Path, surface: UsdShade.Material) -> None:

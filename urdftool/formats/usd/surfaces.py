@@ -1,4 +1,4 @@
-"""Friction of contact, as physics materials of the collision geometry of links."""
+"""Friction and restitution of contact, as physics materials of the collision geometry of links."""
 
 from __future__ import annotations
 
@@ -7,12 +7,8 @@ from dataclasses import dataclass, field
 from pxr import Sdf, Usd, UsdPhysics, UsdShade
 
 from ...diagnostic import Severity
-from ...model.elements import Link
-from ..common.contact_friction import (
-    get_bullet_friction,
-    get_gazebo_friction,
-    get_second_gazebo_friction,
-)
+from ...model.elements import Collision, Link
+from ...model.settings import get_number
 from ..written import Written
 from .links import LinkWriter
 from .stage import PHYSICS
@@ -29,18 +25,18 @@ class SurfaceWriter:
 
     links: LinkWriter
     written: Written
-    _paths: dict[float, Sdf.Path] = field(default_factory=dict)
+    _paths: dict[tuple[float, float], Sdf.Path] = field(default_factory=dict)
 
-    def find_material(self, link: Link) -> UsdShade.Material | None:
-        """Return the material of the collisions of a link; None if it has no friction."""
-        robot = self.links.bodies.robot
-        sliding = get_gazebo_friction(robot, link.name)
-        if sliding is None:
-            sliding = get_bullet_friction(robot, link.name)
-        if sliding is None or not link.collisions:
+    def find_material(self, link: Link, collision: Collision) -> UsdShade.Material | None:
+        """Return the material of a collision of a link; None without friction and restitution."""
+        surface = collision.surface
+        sliding, other = (get_number(surface, name) for name in ("friction", "second_friction"))
+        bounce = get_number(surface, "restitution") or 0.0
+        if sliding is None and not bounce:
             return None
-        other = get_second_gazebo_friction(robot, link.name)
-        if other is not None and other != sliding:
+        if sliding is None:  # the schema's default is 0; Gazebo and MuJoCo have 1
+            sliding = 1.0
+        if sliding is not None and other is not None and other != sliding:
             self.written.report_loss(
                 "friction",
                 f"friction of link '{link.name}' is {sliding:g} and {other:g} by direction; a "
@@ -50,7 +46,7 @@ class SurfaceWriter:
                 name=link.name,
                 severity=Severity.INFO,
             )
-        return UsdShade.Material.Get(self.links.builder.stage, self._get_path(sliding))
+        return UsdShade.Material.Get(self.links.builder.stage, self._get_path(sliding, bounce))
 
     def bind(self, collider: Usd.Prim, material: UsdShade.Material) -> None:
         """Bind a material to collision geometry: readers do not inherit it from prims above."""
@@ -58,9 +54,10 @@ class SurfaceWriter:
             strength = UsdShade.Tokens.weakerThanDescendants
             UsdShade.MaterialBindingAPI.Apply(collider).Bind(material, strength, "physics")
 
-    def _get_path(self, sliding: float) -> Sdf.Path:
-        """Return the path of the material of a coefficient, which is created if it is new."""
-        if sliding not in self._paths:
+    def _get_path(self, sliding: float, bounce: float) -> Sdf.Path:
+        """Return the path of the material of coefficients, which is created if it is new."""
+        key = sliding, bounce
+        if key not in self._paths:
             stage = self.links.builder.stage
             scope = self.links.builder.root.AppendChild("surfaces")
             path = scope.AppendChild(f"friction_{len(self._paths) + 1}")
@@ -70,5 +67,7 @@ class SurfaceWriter:
                 surface = UsdPhysics.MaterialAPI.Apply(prim)
                 surface.CreateStaticFrictionAttr(sliding)
                 surface.CreateDynamicFrictionAttr(sliding)
-            self._paths[sliding] = path
-        return self._paths[sliding]
+                if bounce:
+                    surface.CreateRestitutionAttr(bounce)
+            self._paths[key] = path
+        return self._paths[key]

@@ -7,16 +7,26 @@ from collections.abc import Iterator
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
-from ..common.unexpressed import report_unexpressed
+from ...model.settings import Setting
+from ..common.unexpressed import report_unexpressed, report_unwritten_settings
 from ..written import Written
 
-EXPRESSED = ("closure", "joint-actuator", "exclusion", "frame", "base", "joint-spring")
+EXPRESSED = (
+    "closure",
+    "joint-actuator",
+    "exclusion",
+    "frame",
+    "base",
+    "joint-spring",
+    "joint-armature",
+)
 """Codes of parts of SDF and MJCF that an export to USD writes, or reports itself."""
 
 
 def report_losses(robot: Robot, written: Written) -> None:
     """Report each part that is not written."""
     report_unexpressed(robot, written, expressed=EXPRESSED)
+    report_unwritten_settings(robot, written, _is_written)
     for code, what, part, name in _list_parts(robot):
         written.report_loss(
             code,
@@ -26,6 +36,12 @@ def report_losses(robot: Robot, written: Written) -> None:
             name=name,
             severity=Severity.INFO,
         )
+
+
+def _is_written(row: Setting) -> bool:
+    """Tell whether an export writes a setting, or reports it itself."""
+    reported = ("second_friction", "spring_stiffness", "spring_reference", "self_collide")
+    return bool(row.usd) or row.name in reported
 
 
 def _list_parts(robot: Robot) -> Iterator[tuple[str, str, Part, str]]:

@@ -22,7 +22,7 @@ from ...model.elements import (
     Robot,
     Sphere,
 )
-from ...model.read import number
+from ...model.settings import get_number
 from ..check import Check
 from ..mechanics import Mechanics, get_origin_matrix
 from .verify_pair import FLOAT, Pair
@@ -71,7 +71,10 @@ def compare_colliders(
         count.compare(float(len(own) != len(theirs)), name, known=lost)
         if len(own) != len(theirs) or not own:
             continue
-        ours = sorted(_get_friction(pair.source, link) for link, _ in own)
+        ours = sorted(
+            _DEFAULT_FRICTION if (value := get_number(shape.surface, "friction")) is None else value
+            for _, shape in own
+        )
         read_friction = sorted(shape["friction"] for shape in theirs)
         for one, two in zip(ours, read_friction, strict=True):
             friction.compare(abs(one - two), name, known=lost)
@@ -85,20 +88,6 @@ def compare_colliders(
             allowed = HULL if has_mesh else FLOAT
             extent.compare(difference * FLOAT / allowed, name, known=lost)
     return [count, extent, friction]
-
-
-def _get_friction(robot: Robot, link: Link) -> float:
-    """Return the coefficient of friction of a link: of Gazebo or Bullet, or Newton's default."""
-    found: float | None = None
-    for block in robot.extensions.get(link.name, ()):
-        for tag in ("mu1", "mu"):
-            value = number(block.get_value(tag))
-            found = value if value is not None and value >= 0 else found
-    contact = None if link.xml is None else link.xml.find_child("contact")
-    lateral = None if contact is None else contact.find_child("lateral_friction")
-    if found is None and lateral is not None:
-        found = number(lateral.get("value") or lateral.text)
-    return _DEFAULT_FRICTION if found is None or found < 0 else found
 
 
 def _group_by_body(pair: Pair) -> dict[str, list[Link]]:

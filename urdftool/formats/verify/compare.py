@@ -28,6 +28,7 @@ from .origins import (
 )
 from .pair import Match, Pair, add_presence, locate, make_pair
 from .rows import ROWS, Row
+from .settings import compare_flags, compare_joint_settings, compare_robot_flags
 from .shapes import compare_shapes
 
 _MANY = 3
@@ -95,6 +96,7 @@ def compare_robots(
     for name, other in pair.joints.items():
         joints = pair.a.joints[name], pair.b.joints[other]
         compare_mimic(pair, *joints, walk.signs, comparison)
+    compare_robot_flags(pair, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)
     return comparison
@@ -217,6 +219,7 @@ def _compare_content(pair: Pair, match: Match, comparison: Comparison) -> None:
             chosen = local
     compare_inertia(pair, chosen, comparison)
     compare_shapes(pair, chosen, comparison)
+    compare_flags(pair, chosen, comparison)
 
 
 def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> None:
@@ -387,7 +390,9 @@ def _compare_child(
         difference = describe_origin(pair, x, y, invert(child) @ offset, frame)
         comparison.add(difference)
     match = Match(one, two, child)
-    walk.signs[x.name] = compare_joint(pair, JointMatch(x, y, child[:3, :3]), comparison)
+    joint = JointMatch(x, y, child[:3, :3])
+    walk.signs[x.name] = compare_joint(pair, joint, comparison)
+    compare_joint_settings(pair, joint, walk.signs[x.name], comparison)
     if walk_on:
         _compare_tree(walk, match)
         return []

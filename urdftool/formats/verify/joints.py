@@ -54,7 +54,7 @@ def compare_joint(pair: Pair, match: JointMatch, comparison: Comparison) -> floa
     if one.has_axis:
         sign = _compare_axis(match, comparison)
         _compare_limits(pair, match, sign, comparison)
-    _compare_dynamics(pair, match, sign, comparison)
+    _compare_dynamics(pair, match, comparison)
     return sign
 
 
@@ -157,31 +157,25 @@ _FORMATS_OF = {
     "damping": ("urdf", "sdf", "mjcf", "usd"),
     "friction": ("urdf", "sdf", "mjcf"),
     "armature": ("mjcf", "usd"),
-    "stiffness": ("sdf", "mjcf", "usd"),
-    "spring_reference": ("sdf", "mjcf", "usd"),
 }
 """Formats that have each property of the dynamics."""
 
 
-def _compare_dynamics(pair: Pair, match: JointMatch, sign: float, comparison: Comparison) -> None:
+def _compare_dynamics(pair: Pair, match: JointMatch, comparison: Comparison) -> None:
     parts = match.one.dynamics, match.two.dynamics
     slides = match.one.type == "prismatic"
     units = {
         "damping": "N·s/m" if slides else "N·m·s/rad",
         "friction": "N" if slides else "N·m",
         "armature": "kg" if slides else "kg·m²",
-        "stiffness": "N/m" if slides else "N·m/rad",
-        "spring_reference": "m" if slides else "rad",
     }
     for name, unit in units.items():
         x, y = (0.0 if part is None else getattr(part, name) or 0.0 for part in parts)
-        y = y * sign if name == "spring_reference" else y
-        what = name.replace("_", " ")
         if not all(format_ in _FORMATS_OF[name] for format_ in pair.formats):
             if x or y:
-                comparison.record_not_comparable(f"{what}: not in every format")
+                comparison.record_not_comparable(f"{name}: not in every format")
             continue
-        _add(comparison, match, "joint physics", what, (x, y), unit, measure(x, y), "", parts)
+        _add(comparison, match, "joint physics", name, (x, y), unit, measure(x, y), "", parts)
 
 
 def compare_mimic(

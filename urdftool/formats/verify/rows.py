@@ -28,7 +28,9 @@ ROWS = (
     Row("frames", "origins of joints, poses of links [m, rad]", 1e-5),
     Row("axes", "directions and positions of joint axes [rad, m]", 1e-5),
     Row("limits", "position, effort and velocity, relative above 1", 1e-5),
-    Row("joint physics", "damping, friction, armature, springs, relative above 1", 1e-6),
+    Row("joint physics", "damping, friction, armature, springs, stops, relative above 1", 1e-6),
+    Row("surface", "friction and contact of equal collisions, relative above 1", 1e-6),
+    Row("link flags", "gravity, self-collision, damping of motion, wind", 1e-6),
     Row("mass", "mass, relative", 1e-4),
     Row("center of mass", "position in the link [m]", 1e-5),
     Row("inertia", "tensor, relative to its trace", 1e-3),
@@ -44,7 +46,7 @@ GLOBAL_ROWS = ("mass matrix", "gravity")
 """Properties of the whole robot, which follow from those of its parts."""
 
 NOT_COMPARED = (
-    *("contact settings", "friction", "textures", "actuators", "sensors", "cameras", "plugins"),
+    *("contact bits", "textures", "actuators", "sensors", "cameras", "plugins"),
     *("closed loops", "transmissions"),
 )
 """Parts of a description that are not compared."""

@@ -30,6 +30,7 @@ from .difference import Comparison, Difference
 from .frames import describe_pose, format_vector, invert, measure_largest
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
+from .settings import compare_surfaces
 
 
 class Placed(NamedTuple):
@@ -67,9 +68,8 @@ class _Comparing:
 def compare_shapes(pair: Pair, match: Match, comparison: Comparison) -> None:
     """Compare collisions and visuals of two bodies, as sets."""
     for row, kind in (("collisions", "collision"), ("visuals", "visual")):
-        if row not in comparison.tolerances and not (
-            row == "visuals" and "colors" in comparison.tolerances
-        ):
+        depending = {"visuals": "colors", "collisions": "surface"}[row]
+        if comparison.tolerances.keys().isdisjoint((row, depending)):
             continue
         one = _list_shapes(pair.a, match.one, kind, np.eye(4))
         two = _list_shapes(pair.b, match.two, kind, match.frame)
@@ -109,6 +109,7 @@ def _match_equal(state: _Comparing) -> None:
             right.remove(j)
             _add(state, state.one[i], state.two[j], min(distance, state.tolerance), "")
             _compare_colors(state, state.one[i], state.two[j])
+            _compare_surfaces(state, state.one[i], state.two[j])
     state.one = [state.one[i] for i in sorted(left)]
     state.two = [state.two[j] for j in sorted(right)]
 
@@ -212,6 +213,7 @@ def _match_union(state: _Comparing, one: list[Placed], two: list[Placed]) -> Non
     if measures is None or _round_off(measures) > state.tolerance:
         return
     _add(state, one[0], two[0], _round_off(measures), "")
+    _compare_surfaces(state, one[0], two[0])
     state.one = [p for p in state.one if not _contains(one, p)]
     state.two = [p for p in state.two if not _contains(two, p)]
 
@@ -227,6 +229,7 @@ def _match_capsules(state: _Comparing) -> None:
             pair = (capsule, parts[0]) if side is state.one else (parts[0], capsule)
             _add(state, *pair, 0.0, "")
             _compare_colors(state, *pair)
+            _compare_surfaces(state, *pair)
             side[:] = [p for p in side if p is not capsule]
             other[:] = [p for p in other if not _contains(parts, p)]
 
@@ -336,6 +339,14 @@ def _describe(placed: Placed) -> str:
         "" if size is None or isinstance(geometry, Plane) else f" {format_vector(np.array(size))}"
     )
     return f"{name}{text} at {at}"
+
+
+def _compare_surfaces(state: _Comparing, x: Placed, y: Placed) -> None:
+    """Compare friction and contact of two collisions."""
+    if isinstance(x.shape, Collision) and isinstance(y.shape, Collision):
+        surfaces = x.shape.surface, y.shape.surface
+        names, parts = (x.link.name, y.link.name), (x.shape, y.shape)
+        compare_surfaces(state.pair, state.comparison, names, surfaces, parts)
 
 
 def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:

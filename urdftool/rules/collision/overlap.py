@@ -10,6 +10,7 @@ from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.kinematics import MOVABLE, compute_motion, get_limits
 from ...model.pose import IDENTITY, Pose, compute_dot, make_pose, rotate, transpose
 from ...model.read import parse_numbers
+from ...model.settings import is_set
 from ..mujoco import reads_collisions
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import join_some
@@ -140,18 +141,12 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
     Two links that overlap at spawn are pushed apart, and the robot moves or diverges. More than
     ``together`` pairs are one finding.
     """
-    whole = any(
-        _is_true(block.get_value("self_collide")) for block in robot.extensions.get(None, ())
-    )
-    enabled = {
-        name
-        for name, blocks in robot.extensions.items()
-        if any(_is_true(block.get_value("selfCollide")) for block in blocks)
-    }
+    whole = is_set(robot.settings, "self_collide")
+    enabled = {link.name for link in robot.links if is_set(link.settings, "self_collide", whole)}
     found = [
         (one, other, depth)
         for one, other, depth in find_resting_overlaps(robot)
-        if whole or (one.name in enabled and other.name in enabled)
+        if one.name in enabled and other.name in enabled
     ]
     many = len(found) > together
     more = f"; so do {_format_pairs(found[1:])}" if many else ""
@@ -162,10 +157,6 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
             f"have self_collide enabled, so Gazebo creates contacts{more}",
             at=other.collisions[0],
         )
-
-
-def _is_true(value: str | None) -> bool:
-    return (value or "").strip().lower() in ("1", "true", "yes")
 
 
 @rule(

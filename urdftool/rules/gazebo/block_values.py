@@ -3,33 +3,9 @@
 from __future__ import annotations
 
 from ...model.read import number, parse_numbers
+from ...model.settings import describe_kind, get_text, list_rows, parse
 from ...source.document import Element
 from ..words import split_words
-from .keywords import FLAGS, NUMBERS, is_true
-
-_FALSE = frozenset(("false", "no", "0"))
-
-COUNTS = frozenset(("maxContacts",))
-"""Keywords that hold a whole number."""
-
-VECTORS = frozenset(("fdir1",))
-"""Keywords that hold three numbers."""
-
-OF_JOINT = split_words(
-    "stopCfm stopErp fudgeFactor implicitSpringDamper cfmDamping provideFeedback springStiffness "
-    "springReference"
-)
-"""Keywords of a joint that hold a value; the others are of a link."""
-
-_NOT_OF_PARTS = split_words("static preserveFixedJoint disableFixedJointLumping")
-"""Flags of the model, or of its conversion."""
-
-_KIND_IN_WORDS = {
-    "number": "a finite number",
-    "count": "a whole number",
-    "vector": "three finite numbers",
-    "flag": "true or false",
-}
 
 SENSOR_NUMBERS = split_words(
     "update_rate horizontal_fov near far width height samples resolution min_angle max_angle min "
@@ -62,19 +38,9 @@ WORDS = {
 _NUMBERS_IN = {"sensor": SENSOR_NUMBERS, "collision": SHAPE_NUMBERS, "visual": SHAPE_NUMBERS}
 
 
-def is_false(text: str | None) -> bool:
-    """Tell whether a flag is cleared."""
-    return text is not None and text.lower() in _FALSE
-
-
 def is_flag(text: str) -> bool:
     """Tell whether a text is a flag."""
-    return is_true(text) or is_false(text)
-
-
-def get_value(element: Element) -> str:
-    """Return the value of an element: its attribute ``value``, or its text."""
-    return (element.get("value") or element.text).strip()
+    return parse("flag", text) is not None
 
 
 def get_kind(keyword: str) -> str:
@@ -82,29 +48,13 @@ def get_kind(keyword: str) -> str:
 
     Empty for a keyword without a value, and for what is not a keyword of a link or joint.
     """
-    if keyword in COUNTS:
-        return "count"
-    if keyword in VECTORS:
-        return "vector"
-    if keyword in NUMBERS:
-        return "number"
-    return "flag" if keyword in FLAGS and keyword not in _NOT_OF_PARTS else ""
-
-
-def is_value_of_kind(kind: str, text: str) -> bool:
-    """Tell whether a text is a value of a kind that :func:`get_kind` returns."""
-    if kind == "flag":
-        return is_flag(text)
-    if kind == "vector":
-        return parse_numbers(text, 3) is not None
-    one = number(text)
-    return one is not None and (kind != "count" or (one >= 0 and one.is_integer()))
+    return next((row.kind for row in list_rows(keyword)), "")
 
 
 def describe_required_keyword_value(element: Element) -> str:
     """Describe the value that a keyword requires; return "" if it has one or takes none."""
     kind = get_kind(element.tag)
-    return "" if not kind or is_value_of_kind(kind, get_value(element)) else _KIND_IN_WORDS[kind]
+    return "" if not kind or parse(kind, get_text(element)) is not None else describe_kind(kind)
 
 
 def describe_required_value(element: Element) -> str:
@@ -125,7 +75,7 @@ def describe_required_value(element: Element) -> str:
         right = any(parse_numbers(text, count) for count in (3, 4))
         return "" if right else "3 or 4 finite numbers"
     if element.tag in SDF_FLAGS:
-        return "" if is_flag(get_value(element)) else "true or false"
+        return "" if is_flag(get_text(element)) else "true or false"
     known = _NUMBERS_IN.get(_get_enclosing_part(element), frozenset())
     if element.tag in known and number(text) is None:
         return "a finite number"

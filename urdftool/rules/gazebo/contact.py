@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ...model.attached import find_attached_links
-from ...model.elements import Collision, Cylinder, GazeboExtension, Joint, Link, Robot, Sphere
+from ...model.elements import Collision, Cylinder, Joint, Link, Robot, Sphere
 from ...model.pose import (
     IDENTITY,
     Pose,
@@ -25,6 +25,10 @@ _GRIPPER_JOINT = re.compile(_GRIPS.pattern + "|grip", re.IGNORECASE)
 _NOT_WHEEL = re.compile(
     r"lidar|laser|scan|radar|rotor|prop|fan|thrust|impeller|camera|head|yaw|steer", re.IGNORECASE
 )
+
+
+_FRICTIONS = ("friction", "second_friction", "friction_direction", "slip")
+"""Settings of which each shows that the friction of a collision was thought of."""
 
 
 def get_contact_role(robot: Robot, link: Link) -> str:
@@ -136,12 +140,7 @@ def _is_moving(robot: Robot, link: Link) -> bool:
     return any(joint is not None and not joint.is_fixed for joint in joints)
 
 
-def has_friction(blocks: list[GazeboExtension]) -> bool:
-    """Tell whether the blocks of a link set its friction."""
-    for block in blocks:
-        if block.get_value("mu1") is not None or block.get_value("mu2") is not None:
-            return True
-        for collision in block.element.list_children("collision"):
-            if any(element.tag in ("friction", "mu", "slip1") for element in collision.walk()):
-                return True
-    return False
+def has_friction(link: Link) -> bool:
+    """Tell whether the friction of a link is set."""
+    surfaces = [link.surface, *(shape.surface for shape in link.collisions)]
+    return any(name in surface for surface in surfaces for name in _FRICTIONS)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import GazeboExtension, Joint, Robot
+from ...model.elements import GazeboExtension, Robot
+from ...model.settings import LUMPING_TAGS, SURFACE_TAGS, get_text, is_set, is_true
 from ...source.document import Element
 from ..fix import (
     FixContext,
@@ -19,22 +20,14 @@ from ..fix import (
 )
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import quote
-from .keywords import JOINT_KEYWORDS, SURFACE, is_true
+from .keywords import JOINT_KEYWORDS
 
 APPLIES_TO = ("gazebo",)
-
-_KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
-
-
-def is_kept(robot: Robot, joint: Joint) -> bool:
-    """Tell whether a fixed joint remains a joint in Gazebo."""
-    blocks = robot.extensions.get(joint.name, [])
-    return any(is_true(block.get_value(word)) for block in blocks for word in _KEEPERS)
 
 
 def is_preserving(element: Element) -> bool:
     """Tell whether an element in a block of a joint preserves a fixed joint."""
-    return element.tag in _KEEPERS and is_true(element.get("value") or element.text)
+    return element.tag in LUMPING_TAGS and is_true(get_text(element))
 
 
 def is_lumped(robot: Robot, link: str) -> bool:
@@ -45,7 +38,7 @@ def is_lumped(robot: Robot, link: str) -> bool:
         and joint.is_fixed
         and joint.parent in robot.link
         and joint.parent != "world"
-        and not is_kept(robot, joint)
+        and not joint.is_preserved
     )
 
 
@@ -96,9 +89,9 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         joint = robot.joint.get(block.reference or "")
         if joint is None or not joint.is_fixed or block.reference in robot.link:
             continue
-        if joint.parent == "world" or is_kept(robot, joint):
+        if joint.parent == "world" or joint.is_preserved:
             continue
-        lost = [child for child in block.element.children if child.tag not in _KEEPERS]
+        lost = [child for child in block.element.children if child.tag not in LUMPING_TAGS]
         if not lost or all(
             child.tag not in JOINT_KEYWORDS and not child.children for child in lost
         ):
@@ -153,9 +146,14 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
         for word, what in (("turnGravityOff", "gravity is off"), ("selfCollide", "it collides")):
             child = block.element.find_child(word)
             body = get_lumped_body(robot, name)
-            if child is None or not is_true(block.get_value(word)):
+            if child is None or not is_true(get_text(child)):
                 continue
-            if any(is_true(other.get_value(word)) for other in robot.extensions.get(body, [])):
+            whole = robot.link[body]
+            if (
+                whole.is_weightless
+                if word == "turnGravityOff"
+                else is_set(whole.settings, "self_collide")
+            ):
                 continue
             links = (robot.link[other] for other in robot.link if other != name)
             others = [other for other in links if get_lumped_body(robot, other.name) == body]
@@ -196,7 +194,7 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
     the link. Add a small inertial.
     """
     for joint in robot.joints:
-        if not joint.is_fixed or not is_kept(robot, joint) or joint.child not in robot.link:
+        if not joint.is_fixed or not joint.is_preserved or joint.child not in robot.link:
             continue
         for side in (joint.child, joint.parent):
             if side not in robot.link or side == "world":
@@ -249,7 +247,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
             for child in block.element.children
         }
         for what, shapes, tags in (
-            ("collision", link.collisions, words & (SURFACE | {"collision"})),
+            ("collision", link.collisions, words & (SURFACE_TAGS | {"collision"})),
             ("visual", link.visuals, words & {"material", "visual"}),
         ):
             for shape in shapes:
@@ -343,7 +341,7 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
     for name, block in _iterate_link_blocks(robot):
         if robot.link[name].collisions:
             continue
-        children = [child for child in block.element.children if child.tag in SURFACE]
+        children = [child for child in block.element.children if child.tag in SURFACE_TAGS]
         if children:
             words = quote(dict.fromkeys(c.tag for c in children)).replace("'", "")
             have = "has" if len(children) == 1 else "have"
@@ -362,4 +360,4 @@ def remove_surface(problem: Problem, context: FixContext) -> Proposal | None:
     link = context.robot.link.get(problem.element.get("reference") or "")
     if link is None or link.visuals:
         return None  # rather the collision is missing
-    return remove_words(problem.element, SURFACE)
+    return remove_words(problem.element, SURFACE_TAGS)

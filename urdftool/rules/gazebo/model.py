@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
+from ...model.settings import is_set
 from ...source.description import Description
 from ...source.document import parse
 from ..cross_file_references import check_not_included
@@ -22,7 +23,6 @@ from ..joint.range import is_locked
 from ..renaming import get_part, rename_part
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import quote
-from .keywords import is_true
 from .wheel_pair import find_wheel_pair
 
 
@@ -39,16 +39,13 @@ def robot_level_static(robot: Robot) -> Iterator[Problem]:
     ``<gazebo><static>true`` makes the whole model static: nothing falls, and no joint moves, even
     with a controller. To fix only the base, add a fixed joint to a link named ``world``.
     """
-    for block in robot.gazebo:
-        child = block.element.find_child("static")
-        if not block.reference and child is not None and is_true(block.get_value("static")):
-            if robot.moving_joints:
-                yield Problem(
-                    block.element,
-                    "the model is static, so no joint moves; "
-                    "fix the base to a link 'world' instead",
-                    at=child,
-                )
+    static = robot.settings.get("static")
+    if static is not None and static.content and robot.moving_joints:
+        yield Problem(
+            static.xml.parent if static.xml is not None and static.xml.parent else robot,
+            "the model is static, so no joint moves; fix the base to a link 'world' instead",
+            at=static,
+        )
 
 
 @rule(
@@ -65,19 +62,12 @@ def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
     test. The simulated controllers then carry no weight.
     """
     heavy = [link.name for link in robot.links if link.mass > 0]
-    off = [
-        name
-        for name in heavy
-        if any(
-            is_true(block.get_value("turnGravityOff")) for block in robot.extensions.get(name, [])
-        )
-    ]
+    off = [name for name in heavy if robot.link[name].is_weightless]
     if heavy and len(heavy) == len(off):
-        block = robot.extensions[off[0]][0]
         yield Problem(
             robot,
             f"gravity is off for all {len(heavy)} links with mass, so the robot floats",
-            at=block.element.find_child("turnGravityOff") or block,
+            at=robot.link[off[0]].settings["gravity"],
         )
 
 
@@ -268,7 +258,7 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
         return
     if root.name == "base_footprint" or any(map(_is_wheel, (*robot.link, *robot.joint))):
         return
-    if any(is_true(block.get_value("static")) for block in robot.gazebo if not block.reference):
+    if is_set(robot.settings, "static"):
         return
     arms = [joint for joint in robot.joints if joint.type in ("revolute", "continuous")]
     roots = {name for name, body in robot.tree.bodies.items() if body == root.name}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from ...model.bounds import compute_size
-from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
+from ...model.elements import Link, Material, Mesh, Robot
 from ..fix import (
     Change,
     FixContext,
@@ -18,7 +18,7 @@ from ..fix import (
     safe,
     unsafe,
 )
-from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule, select_holding
+from ..rule import GAZEBO, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest
 from .contact import get_contact_role, has_friction
@@ -66,7 +66,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = None if _has_from_body(robot, link, has_friction) else get_contact_role(robot, link)
+        role = None if _has_from_body(robot, link, _has_friction) else get_contact_role(robot, link)
         needs = [_FRICTION[role]] if role else []
         cases = ["without friction"] if role else []
         if "gazebo-classic" in targets and _is_shown_gray(robot, link, colors):
@@ -140,7 +140,7 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
     colors = _collect_materials(robot)
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not _has_material(blocks) and _is_shown_gray(robot, link, colors):
+        if blocks and not _has_material(robot, link) and _is_shown_gray(robot, link, colors):
             yield Problem(
                 link,
                 f"link '{link.name}' has a color that Gazebo Classic ignores; write "
@@ -189,20 +189,14 @@ def format_material(link: Link, robot: Robot) -> tuple[str, ...] | None:
     )
 
 
-def _has_from_body(
-    robot: Robot, link: Link, is_there: Callable[[list[GazeboExtension]], bool]
-) -> bool:
+def _has_from_body(robot: Robot, link: Link, is_there: Callable[[Robot, Link], bool]) -> bool:
     """Tell whether sdformat gives a lumped link the settings of the link that it is lumped into.
 
     It applies the blocks of that link to each part whose name begins with its name (run: sdformat
     12.3, friction and material).
     """
     body = get_lumped_body(robot, link.name)
-    return (
-        body != link.name
-        and link.name.startswith(body)
-        and is_there(robot.extensions.get(body, []))
-    )
+    return body != link.name and link.name.startswith(body) and is_there(robot, robot.link[body])
 
 
 @rule(
@@ -212,32 +206,39 @@ def _has_from_body(
         "gz, gazebo-classic": "take a friction of 1, the default of SDF, in both directions",
     },
     group="robot",
+    formats=URDF_AND_SDF,
 )
 def missing_friction(robot: Robot) -> Iterator[Problem]:
     """A wheel, caster, foot or finger has a ``<gazebo>`` block without friction.
 
     Without ``mu1`` and ``mu2`` both coefficients are 1: enough for a rubber wheel, too much for a
     caster that should slide, too little for a finger that should grip. Fingers of a gripper without
-    moving joints are not reported. ``missing-gazebo-tags`` reports links without a block.
+    moving joints are not reported. ``missing-gazebo-tags`` reports links without a block. In SDF
+    the friction is in ``<surface>`` of the collision.
     """
     if _is_unclear(robot):
         return
     for link in robot.links:
-        blocks = robot.extensions.get(link.name, [])
-        if blocks and not has_friction(blocks) and not _has_from_body(robot, link, has_friction):
-            role = get_contact_role(robot, link)
-            if role:
-                yield Problem(
-                    link,
-                    f"{role} '{link.name}' has a <gazebo> block without friction; write "
-                    f"{_FRICTION[role]}",
-                    at=blocks[0],
-                    data={"role": role},
-                    alike=role,
-                    group=f"{{count}} {_PLURAL[role]} have <gazebo> blocks without friction: "
-                    f"{{names}}; "
-                    f"write {_FRICTION[role].replace(' its ', ' their ')}",
-                )
+        holders = robot.extensions.get(link.name) or (link.collisions if robot.xml is None else [])
+        if not holders or has_friction(link) or _has_from_body(robot, link, _has_friction):
+            continue
+        role = get_contact_role(robot, link)
+        if not role:
+            continue
+        friction = _FRICTION[role]
+        where, places = "a <gazebo> block", "<gazebo> blocks"
+        if robot.xml is None:
+            where, places = "a collision", "collisions"
+            friction = friction.replace("mu1", "mu")
+        yield Problem(
+            link,
+            f"{role} '{link.name}' has {where} without friction; write {friction}",
+            at=holders[0],
+            data={"role": role},
+            alike=role,
+            group=f"{{count}} {_PLURAL[role]} have {places} without friction: {{names}}; "
+            f"write {friction.replace(' its ', ' their ')}",
+        )
 
 
 @missing_friction.fix(UNSAFE)
@@ -271,6 +272,10 @@ def _collect_materials(robot: Robot) -> dict[str, Material]:
     return found
 
 
+def _has_friction(robot: Robot, link: Link) -> bool:
+    return has_friction(link)
+
+
 def _is_shown_gray(robot: Robot, link: Link, colors: dict[str, Material]) -> bool:
     """Tell whether Gazebo Classic shows a link without its color."""
     return _has_visible_color(link, colors) and not _has_from_body(robot, link, _has_material)
@@ -294,8 +299,8 @@ def _has_visible_color(link: Link, colors: dict[str, Material]) -> bool:
     return False
 
 
-def _has_material(blocks: list[GazeboExtension]) -> bool:
-    for block in blocks:
+def _has_material(robot: Robot, link: Link) -> bool:
+    for block in robot.extensions.get(link.name, ()):
         for child in block.element.children:
             if child.tag == "material" or (
                 child.tag == "visual" and child.find_child("material") is not None

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Joint, Robot
 from ...model.read import number
+from ...model.settings import JOINT_TAGS, get_text
 from ...source.document import Element
 from ..fix import (
     FixContext,
@@ -22,13 +23,7 @@ from ..fix import (
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..simulation.mujoco_values import describe_required_setting, find_setting_elements
 from ..unexpanded import is_unexpanded
-from .block_values import (
-    OF_JOINT,
-    describe_required_keyword_value,
-    describe_required_value,
-    get_kind,
-    get_value,
-)
+from .block_values import describe_required_keyword_value, describe_required_value, get_kind
 from .contact import get_contact_role
 from .keywords import NUMBERS
 
@@ -92,11 +87,11 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
         name = block.reference or ""
         parts = [part for part in (robot.link.get(name), robot.joint.get(name)) if part is not None]
         for element in block.element.children:
-            of_joint = element.tag in OF_JOINT
+            of_joint = element.tag in JOINT_TAGS
             required = describe_required_keyword_value(element)
             for part in parts if required else ():
                 if isinstance(part, Joint) == of_joint:
-                    text = f"<{element.tag}> of '{name}' is '{get_value(element)}', not {required}"
+                    text = f"<{element.tag}> of '{name}' is '{get_text(element)}', not {required}"
                     kind = get_kind(element.tag)
                     yield Problem(part, text, at=element, data={"holder": "keyword", "kind": kind})
         for element in _iterate_sdf_elements(block.element):
@@ -198,6 +193,8 @@ def write_other_friction(problem: Problem, context: FixContext) -> Proposal | No
 
 
 _MU = ("mu1", "mu2")
+_ANY = "gz, gazebo-classic"
+_NEGATIVE = "gz, gazebo-classic (a negative friction)"
 _HOLDS = re.compile(
     r"finger|grip|jaw|(^|_)pad(_|\d|$)|thumb|hand|wheel|foot|feet|sole|track|tire", re.I
 )
@@ -218,7 +215,8 @@ def _is_gripping(robot: Robot, name: str | None) -> bool:
 @rule(
     INFO,
     effects={
-        "gz, gazebo-classic": "take it as written",
+        _ANY: "take it as written",
+        _NEGATIVE: "reject the model (sdformat 12.3: Error 9)",
     },
     group="robot",
 )
@@ -265,5 +263,6 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
                 f"{' and '.join(wrongs)}; {why}",
                 at=children[0],
                 severity=ERROR if is_negative else None,
+                effects=(_NEGATIVE if is_negative and children[0].tag != "kp" else _ANY,),
                 alike=tuple(child.tag for child in children),
             )

@@ -15,9 +15,6 @@ LIGHT = 1e-3
 _SMALL_RADIUS = 0.01
 """Radius of gyration [m] of a body below which the inertia of its parts does not matter."""
 
-_KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
-_TRUE = ("true", "1", "yes")
-
 
 def find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     """Group the links by rigid body; the key is the name of the body's topmost link.
@@ -25,16 +22,11 @@ def find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     Gazebo lumps a link into its parent over a fixed joint, unless the joint's ``<gazebo>`` says to
     keep it; nothing is lumped into ``world``.
     """
-    kept = {
-        block.reference
-        for block in robot.gazebo
-        if block.reference and any((block.get_value(k) or "").lower() in _TRUE for k in _KEEPERS)
-    }
     owner: dict[str, str] = {}
     found: dict[str, list[Link]] = {}
     for name in robot.tree.order:
         joint = robot.tree.get_parent_joint(name)
-        lumped = joint is not None and joint.is_fixed and joint.name not in kept
+        lumped = joint is not None and joint.is_fixed and not joint.is_preserved
         if joint is not None and lumped and joint.parent != "world":
             owner[name] = owner.get(joint.parent, name)
         else:

@@ -7,18 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....model.read import parse_numbers
+from ....model.settings import OF_LINKS, get_text
 from ...check import Check
+from .blocks import get_expected_joint_physics, get_settings_facts, list_elements_of_whole
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .mechanism import Array, make_pose, rotate_by_angles
 from .reader import read_pose
-from .said import (
-    OF_LINKS,
-    get_expected_flags,
-    get_expected_joint_physics,
-    get_text,
-    list_elements_of_whole,
-)
 from .source import get_pose
 from .surfaces import list_own_links
 
@@ -54,7 +49,7 @@ def compare_base(pair: Pair) -> Check:
     off = float(np.abs(read_pose(model) - _place(pair)).max())
     check.compare(off, "the model is at another pose", known=known)
     for link, node in list_own_links(pair):
-        flags = {k: v for k, v in get_expected_flags(pair.robot, link).items() if k == "kinematic"}
+        flags = get_settings_facts(link.settings, [r for r in OF_LINKS if r.name == "kinematic"])
         said = {k: v for k, v in get_facts(node).items() if k == "kinematic"}
         excused = pair.excuses.declared.has_for(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", said, flags, known=excused)
@@ -117,10 +112,11 @@ def _compare_held(pair: Pair, check: Check) -> None:
 def compare_flags(pair: Pair) -> Check:
     """Compare gravity, damping and wind of links."""
     check = Check("link flags", "gravity, damping of motion, wind", EXACT)
-    tags = {path for paths in OF_LINKS.values() for path in paths} - {"self_collide", "kinematic"}
+    rows = [row for row in OF_LINKS if row.name not in ("self_collide", "kinematic")]
+    paths = {row.path for row in rows}
     for link, element in list_own_links(pair):
-        expected = {k: v for k, v in get_expected_flags(pair.robot, link).items() if k in tags}
-        found = {k: v for k, v in get_facts(element).items() if k in tags}
+        expected = get_settings_facts(link.settings, rows)
+        found = {k: v for k, v in get_facts(element).items() if k in paths}
         known = pair.excuses.declared.has_for(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, expected, known=known)
     return check

@@ -8,20 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....model.elements import Joint, Link
+from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS
 from ....source.document import Element
 from ...check import Check
+from .blocks import NOWHERE, list_elements, list_elements_of_whole
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts
 from .mechanism import invert_pose
-from .said import (
-    LUMPING,
-    NOWHERE,
-    OF_COLLISIONS,
-    OF_JOINTS,
-    OF_LINKS,
-    list_elements,
-    list_elements_of_whole,
-)
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -29,8 +22,8 @@ if TYPE_CHECKING:
 OTHER_ROWS = frozenset(
     ("sensor", "plugin", "visual", "collision", "material", "velocity_decay", "inertial", "pose",
      "parent", "child", "axis", "axis2", "physics", "static", "link", "joint", "frame",
-     "allow_auto_disable", "placement_frame", *OF_COLLISIONS, *OF_JOINTS, *OF_LINKS, *LUMPING,
-     *NOWHERE)
+     "allow_auto_disable", "placement_frame", *JOINT_TAGS, *LINK_TAGS,
+     *LUMPING_TAGS, *NOWHERE)
 )  # fmt: skip
 """Tags that other rows compare, or that SDF does not have."""
 

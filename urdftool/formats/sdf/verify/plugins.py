@@ -21,9 +21,9 @@ from ....model.gazebo_plugins import (
 from ....model.read import number
 from ....source.document import Element
 from ...check import Check
+from .blocks import list_elements, list_elements_of_whole
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .mechanism import Array, make_pose, rotate_by_angles
-from .said import list_elements, list_elements_of_whole
 from .sensing import get_sensed_part
 
 if TYPE_CHECKING:

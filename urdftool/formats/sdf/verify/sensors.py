@@ -13,12 +13,12 @@ from ....model.gazebo_plugins import SENSOR_PLUGINS, get_library
 from ....model.read import number, parse_numbers
 from ....source.document import Element
 from ...check import Check
+from .blocks import list_elements
 from .dynamics import compute_poses
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .mechanism import Array, invert_pose, make_pose, rotate_by_angles
 from .reader import read_pose
-from .said import list_elements
 from .sensing import SENSING, get_noise, list_sensing_plugins, offset_of
 from .source import get_base
 

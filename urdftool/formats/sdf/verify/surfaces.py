@@ -8,14 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ....errors import UrdftoolError
-from ....model.elements import Link, Material, Visual
+from ....model.elements import Collision, Link, Material, Visual
+from ....model.settings import OF_LINKS, get_text
 from ....source.document import Element
 from ...check import Check
 from ..colors import COLORS
+from .blocks import get_expected_surface, get_settings_facts, list_elements
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .mechanism import Shape
-from .said import get_expected_flags, get_expected_surface, get_text, list_elements
 from .shapes import get_matched
 
 if TYPE_CHECKING:
@@ -36,14 +37,14 @@ def compare_contact(pair: Pair) -> Check:
     check = Check("contact", "masks of collisions, self_collide of links and model", 0.0)
     for source, made in get_matched(pair, "collisions"):
         link = pair.robot.link[source.link]
-        expected, found = get_expected_surface(pair.robot, link), _make_collision_facts(made)
+        expected, found = _get_expected(pair, link, source), _make_collision_facts(made)
         about = f"collision '{made.part.get('name')}' of '{source.link}'"
         known = pair.excuses.declared.has_for(BLOCKS, source.link)
         compare_facts(
             check, about, _make_only(found, MASKS), _make_only(expected, MASKS), known=known
         )
     for link, element in list_own_links(pair):
-        flags = _make_only(get_expected_flags(pair.robot, link), ("self_collide",))
+        flags = get_settings_facts(link.settings, [r for r in OF_LINKS if r.name == "self_collide"])
         found = _make_only(get_facts(element), ("self_collide",))
         known = pair.excuses.declared.has_for(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, flags, known=known)
@@ -56,7 +57,7 @@ def compare_surface(pair: Pair) -> Check:
     check = Check("surface", what, EXACT)
     for source, made in get_matched(pair, "collisions"):
         link = pair.robot.link[source.link]
-        expected = get_expected_surface(pair.robot, link)
+        expected = _get_expected(pair, link, source)
         about = f"collision '{made.part.get('name')}' of '{source.link}'"
         known = pair.excuses.declared.has_for(BLOCKS, source.link)
         found = _make_without(_make_collision_facts(made), MASKS)
@@ -88,6 +89,11 @@ def list_own_links(pair: Pair) -> Iterator[tuple[Link, ET.Element]]:
         element = elements.get(pair.link(link.name))
         if element is not None:
             yield link, element
+
+
+def _get_expected(pair: Pair, link: Link, shape: Shape) -> Facts:
+    assert isinstance(shape.part, Collision)
+    return get_expected_surface(pair.robot, link, shape.part)
 
 
 def _make_collision_facts(made: Shape) -> Facts:

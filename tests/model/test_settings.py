@@ -1,0 +1,151 @@
+"""Settings of ``<gazebo>`` are read once, and are the same in every format."""
+
+import pytest
+
+import urdftool as api
+from urdftool.formats.verify.compare import compare_robots
+from urdftool.model.load import load
+from urdftool.model.settings import SURFACE, TABLES, get_number
+from urdftool.simulation.surface import choose_surface
+
+TENSOR = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+INERTIAL = f'<inertial><mass value="1"/>{TENSOR}</inertial>'
+BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+ROBOT = f"""<robot name="r"><link name="world"/>
+<link name="a">{INERTIAL}{{contact}}{BOX}</link>
+<link name="b">{INERTIAL}</link>
+<joint name="f" type="fixed"><parent link="world"/><child link="a"/></joint>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0 0 2"/>
+<axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+{{blocks}}</robot>"""
+COLLISION = "<collision><surface><friction><ode><mu>0.9</mu></ode></friction></surface></collision>"
+CONTACT = '<contact><lateral_friction value="0.2"/><restitution value="0.1"/></contact>'
+
+
+def of(part, inside):
+    return f'<gazebo reference="{part}">{inside}</gazebo>'
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write(blocks, contact=""):
+        path = tmp_path / "r.urdf"
+        path.write_text(ROBOT.format(blocks=blocks, contact=contact))
+        return path
+
+    return write
+
+
+# what libsdformat 12.3 takes of each, as recorded in fixtures/effects
+FRICTIONS = [
+    (of("a", "<mu1>0.4</mu1><mu1>0.5</mu1>"), "", 0.5),
+    (of("a", "<mu>0.3</mu><mu1>0.7</mu1>"), "", 0.7),
+    (of("a", f"<mu1>0.1</mu1>{COLLISION}"), "", 0.1),
+    (of("a", COLLISION), "", 0.9),
+    (of("a", "<mu1>0.5</mu1>") + of("a", "<mu1>-1</mu1>"), "", 0.5),  # it rejects the file
+    ("", CONTACT, 0.2),
+    (of("a", "<mu1>0.5</mu1>"), CONTACT, 0.5),
+]
+
+
+@pytest.mark.parametrize(("blocks", "contact", "friction"), FRICTIONS)
+@pytest.mark.library("mujoco")
+@pytest.mark.library("pxr")
+def test_every_format_has_the_friction_that_is_simulated(
+    write, tmp_path, blocks, contact, friction
+):
+    robot = load(write(blocks, contact))
+    assert choose_surface(robot, ["a"]).friction == friction
+    for name, export in (
+        ("sdf", api.export_sdf), ("mjcf", api.export_mjcf), ("usd", api.export_usd),
+        ("urdf", api.export_urdf),
+    ):  # fmt: skip
+        written = export(robot, tmp_path / name, verify=True)
+        assert [c.name for c in written.checks if c.verdict == "differs"] == []
+        made = api.load(tmp_path / name / written.main)
+        (collision,) = made.link["a"].collisions
+        assert get_number(collision.surface, "friction") == pytest.approx(friction)
+        assert compare_robots(robot, made).is_equal
+
+
+def test_a_later_spring_of_zero_removes_the_spring(write):
+    stiff, slack = ("<springStiffness>5</springStiffness>", "<springStiffness>0</springStiffness>")
+    assert load(write(of("j", stiff))).joint["j"].spring == (5.0, 0.0)
+    assert load(write(of("j", stiff) + of("j", slack))).joint["j"].spring is None
+
+
+def test_gravity_is_that_of_the_tag_then_of_the_first_element(write):
+    off = "<turnGravityOff>true</turnGravityOff>"
+    for blocks, weightless in (
+        (of("a", off + "<gravity>true</gravity>"), True),
+        (of("a", "<gravity>false</gravity>") + of("a", "<gravity>true</gravity>"), True),
+        (of("a", "<gravity>false</gravity>" + off.replace("true", "false")), False),
+    ):
+        assert load(write(blocks)).link["a"].is_weightless is weightless
+
+
+def test_a_value_has_its_place_and_what_it_replaces(write):
+    robot = load(write(of("a", "<mu1>0.4</mu1>\n<mu1>0.5</mu1>")))
+    value = robot.link["a"].collisions[0].surface["friction"]
+    assert [one.content for one in value.earlier] == [0.4]
+    assert value.place.line == value.earlier[0].place.line + 1
+
+
+def test_what_is_not_a_value_is_kept_with_its_place(write):
+    robot = load(write(of("a", "<mu1>-1</mu1><kp>stiff</kp>") + of("j", "<stopErp/>")))
+    found = [(one.name, one.tag, one.text, one.required) for one in robot.rejected_settings]
+    assert found == [
+        ("a", "mu1", "-1", "a finite number of at least 0"),
+        ("a", "kp", "stiff", "a finite number"),
+        ("j", "stopErp", "", "a finite number"),
+    ]
+
+
+def test_rows_have_names_and_paths_of_their_own():
+    for rows in TABLES:
+        assert len({row.name for row in rows}) == len(rows)
+        paths = [row.path for row in rows if row.path]
+        assert len(set(paths)) == len(paths)
+    assert all(row.path for row in SURFACE)
+
+
+@pytest.mark.library("pxr")
+def test_restitution_reaches_the_formats_that_have_it(write, tmp_path):
+    bounce = "<bounce><restitution_coefficient>0.3</restitution_coefficient></bounce>"
+    robot = load(write(of("a", f"<collision><surface>{bounce}</surface></collision>")))
+    for name, export in (("sdf", api.export_sdf), ("usd", api.export_usd)):
+        written = export(robot, tmp_path / name)
+        made = api.load(tmp_path / name / written.main)
+        (collision,) = made.link["a"].collisions
+        assert get_number(collision.surface, "restitution") == pytest.approx(0.3)
+    losses = {loss.code for loss in api.export_mjcf(robot).losses}
+    assert "lossy-restitution" in losses
+
+
+def test_another_friction_is_named_in_verify_and_diff(write, tmp_path, urdftool):
+    robot = load(write(of("a", "<mu1>0.4</mu1>")))
+    api.export_sdf(robot, tmp_path / "sdf")
+    path = tmp_path / "sdf" / "model.sdf"
+    path.write_text(path.read_text().replace("<mu>0.4</mu>", "<mu>0.8</mu>"))
+    for command in ("verify", "diff"):
+        result = urdftool(command, tmp_path / "r.urdf", path)
+        assert result.code == 1
+        assert "friction" in result.out
+        assert "0.8" in result.out
+
+
+def test_a_wheel_of_an_sdf_without_friction_is_found(tmp_path):
+    ball = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
+    shape = f"<collision name='c'>{ball}{{}}</collision>"
+    grip = "<surface><friction><ode><mu>0.9</mu><mu2>0.9</mu2></ode></friction></surface>"
+    text = (
+        "<sdf version='1.9'><model name='m'><link name='base'/><link name='{0}_wheel'>{1}</link>"
+        "<joint name='j' type='revolute'><parent>base</parent><child>{0}_wheel</child>"
+        "<axis><xyz>0 1 0</xyz></axis></joint></model></sdf>"
+    )
+    path = tmp_path / "m.sdf"
+    path.write_text(text.format("left", shape.format("")))
+    (finding,) = api.check(path, select=["missing-friction"])
+    assert finding.location.line == 1
+    path.write_text(text.format("left", shape.format(grip)))
+    assert api.check(path, select=["missing-friction"]) == []

@@ -1,0 +1,104 @@
+"""Settings of links, collisions and joints as tags in ``<gazebo>``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from lxml import etree
+
+from ...diagnostic import Severity
+from ...model.elements import Joint, Link, Robot
+from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
+from .translation import Translation, add, format_number, format_numbers
+
+_WITH_SPRING = ("revolute", "continuous", "prismatic")
+
+
+def add_settings(t: Translation) -> None:
+    """Add a block for each link and joint with settings; those of a URDF were copied with it."""
+    if t.robot.xml is not None:
+        return
+    _add_block(t, t.robot, None, t.robot.settings, [r for r in OF_ROBOT if r.name != "static"])
+    for link in t.robot.links:
+        _add_block(t, link, t.names.links[link.name], link.settings, OF_LINKS)
+        _add_block(t, link, t.names.links[link.name], _find_common(t, link), SURFACE)
+    for joint in t.robot.joints:
+        settings = joint.settings
+        if joint.spring is not None and joint.type not in _WITH_SPRING:
+            text = f"the spring of joint '{joint.name}' is dropped: the joint has type {joint.type}"
+            t.written.report_loss("spring", text, joint.place, kind="joint", name=joint.name)
+            settings = {name: v for name, v in settings.items() if not name.startswith("spring")}
+        _add_block(t, joint, t.names.joints[joint.name], settings, OF_JOINTS)
+
+
+def _find_common(t: Translation, link: Link) -> Settings:
+    """Return what all collisions of a link have; report what only some have."""
+    surfaces = [collision.surface for collision in link.collisions]
+    common: Settings = {}
+    for row in SURFACE:
+        values = [one[row.name] for one in surfaces if row.name in one]
+        contents = {
+            row.default if row.name not in one else one[row.name].content for one in surfaces
+        }
+        if len(contents) == 1 and values:
+            common[row.name] = values[0]
+        elif values:
+            text = f"{row.name.replace('_', ' ')} of link '{link.name}' differs between its "
+            text += "collisions; <gazebo> has one value for all of a link, so it is dropped"
+            t.written.report_loss("surface", text, values[0].place, kind="link", name=link.name)
+    return common
+
+
+def _add_block(
+    t: Translation,
+    part: Link | Joint | Robot,
+    name: str | None,
+    settings: Settings,
+    rows: Iterable[Setting],
+) -> None:
+    """Add the block of a part; a value that SDF has without being written adds nothing."""
+    chosen = {r.name: settings[r.name].content for r in rows if r.name in settings}
+    chosen = {r.name: chosen[r.name] for r in rows if chosen.get(r.name, r.default) != r.default}
+    if not chosen:
+        return
+    node = add(t.root, "gazebo", **({} if name is None else {"reference": name}))
+    decay = {chosen.get("linear_decay"), chosen.get("angular_decay")}
+    for row in rows:
+        if row.name not in chosen:
+            continue
+        content = chosen[row.name]
+        if row.opposite:
+            add(node, row.opposite, _format(not content))
+        elif row.tags and (not row.name.endswith("_decay") or len(decay) == 1):
+            if node.find(row.tags[0]) is None:
+                add(node, row.tags[0], _format(content))
+        else:
+            prefix = "collision/" if rows is SURFACE else ""
+            _get_or_create(node, prefix + row.path).text = _format(content)
+    springs = [key for key in chosen if key.startswith("spring")]
+    code, what = (
+        ("gazebo-spring", "springs") if springs else ("gazebo-settings", "settings of links")
+    )
+    if isinstance(part, Joint) and not springs:
+        what = "settings of joints"
+    t.written.report_loss(
+        code,
+        f"{what} are in <gazebo>, which only Gazebo reads",
+        settings[next(iter(chosen))].place,
+        kind=type(part).__name__.lower(),
+        name=part.name,
+        severity=Severity.INFO,
+    )
+
+
+def _format(content: Content) -> str:
+    if isinstance(content, bool):
+        return "true" if content else "false"
+    return format_numbers(*content) if isinstance(content, tuple) else format_number(content)
+
+
+def _get_or_create(node: etree._Element, path: str) -> etree._Element:
+    for tag in path.split("/"):
+        found = node.find(tag)
+        node = etree.SubElement(node, tag) if found is None else found
+    return node

@@ -1,0 +1,112 @@
+"""Comparison of friction, contact, springs and flags."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from ...model.part import Part
+from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
+from .difference import Comparison, Difference
+from .joints import JointMatch, measure
+from .pair import Match, Pair, locate
+
+
+def compare_surfaces(
+    pair: Pair,
+    comparison: Comparison,
+    names: tuple[str, str],
+    settings: tuple[Settings, Settings],
+    parts: tuple[Part, Part],
+) -> None:
+    """Compare friction and contact of two collisions of links."""
+    _compare(pair, comparison, "surface", "link", names, SURFACE, settings, parts)
+
+
+def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
+    """Compare the settings of whole robots, except ``static``, a row of its own."""
+    robots = pair.a.robot, pair.b.robot
+    settings = robots[0].settings, robots[1].settings
+    rows = [row for row in OF_ROBOT if row.name != "static"]
+    names = robots[0].name, robots[1].name
+    _compare(pair, comparison, "link flags", "robot", names, rows, settings, robots)
+
+
+def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Compare the settings of the links of two bodies."""
+    for x, y in pair.match_members(match.one, match.two):
+        links = pair.a.robot.link[x], pair.b.robot.link[y]
+        settings = links[0].settings, links[1].settings
+        _compare(pair, comparison, "link flags", "link", (x, y), OF_LINKS, settings, links)
+
+
+def compare_joint_settings(
+    pair: Pair, match: JointMatch, sign: float, comparison: Comparison
+) -> None:
+    """Compare the settings of a joint; the rest of a spring counts only where there is one."""
+    one, two, _ = match
+    settings = _turn(one.settings, 1.0), _turn(two.settings, sign)
+    names = one.name, two.name
+    sprung = one.spring is not None or two.spring is not None
+    rows = [row for row in OF_JOINTS if sprung or row.name != "spring_reference"]
+    _compare(pair, comparison, "joint physics", "joint", names, rows, settings, (one, two))
+
+
+def _turn(settings: Settings, sign: float) -> Settings:
+    """Return the settings of a joint with the opposite axis for a negative sign."""
+    rest = settings.get("spring_reference")
+    if sign > 0 or rest is None or isinstance(rest.content, tuple):
+        return settings
+    return settings | {"spring_reference": type(rest)(rest.provenance, -rest.content)}
+
+
+def _compare(
+    pair: Pair,
+    comparison: Comparison,
+    row: str,
+    kind: str,
+    names: tuple[str, str],
+    rows: Iterable[Setting],
+    settings: tuple[Settings, Settings],
+    owners: tuple[Part, Part],
+) -> None:
+    if row not in comparison.tolerances:
+        return
+    for setting in rows:
+        parts = settings[0].get(setting.name), settings[1].get(setting.name)
+        x, y = (setting.default if part is None else part.content for part in parts)
+        if parts == (None, None):
+            continue
+        what = setting.name.replace("_", " ")
+        if not setting.path:
+            continue
+        if not all(_has(form, setting) for form in pair.formats):
+            if x != setting.default or y != setting.default:
+                comparison.record_not_comparable(f"{what}: not in every format")
+            continue
+        places = locate(parts[0], owners[0]), locate(parts[1], owners[1])
+        amount = _measure(x, y)
+        values: tuple[object, object] = _format(x), _format(y)
+        comparison.add(Difference(row, kind, names, what, values, setting.unit, amount, places))
+
+
+def _has(form: str, setting: Setting) -> bool:
+    """Tell whether a format has a setting."""
+    return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, "SDF or a tag"))
+
+
+def _measure(x: Content, y: Content) -> float:
+    if isinstance(x, tuple) and isinstance(y, tuple):
+        return max(abs(a - b) for a, b in zip(x, y, strict=True))
+    if isinstance(x, tuple) or isinstance(y, tuple):
+        return math.inf
+    if isinstance(x, bool) or isinstance(y, bool):
+        return 0.0 if bool(x) == bool(y) else math.inf
+    return measure(x, y)
+
+
+def _format(content: Content) -> object:
+    """Return a number; another value as text."""
+    if isinstance(content, tuple):
+        return " ".join(f"{part:g}" for part in content)
+    return str(content).lower() if isinstance(content, bool) else content
