@@ -56,8 +56,8 @@ BELOW = {
     "rules": ("finding", "mechanics", "model", "source", "geometry", *BASE),
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
     "formats": (
-        *("lint", "rules", "finding", "mechanics", "model", "source", "geometry", "output"),
-        *BASE,
+        *("lint", "rules", "compare", "finding", "mechanics", "model", "source", "geometry"),
+        *("output", *BASE),
     ),
     "bundle": (
         *("collision", "drawing", "formats", "finding", "geometry", "model", "source", "output"),

@@ -111,7 +111,7 @@ def _flatten_elements(elements: list[Element], renamed: Mapping[str, str]) -> Fl
         for child in element.children or [element]:
             _flatten(child, "", found, renamed)
         for name, value in element.attributes.items():
-            if name not in ("name", "reference"):
+            if name not in ("name", "reference") and not name.startswith("xmlns"):
                 found.setdefault(f"@{name}", (value, element))
     return found
 
@@ -125,7 +125,7 @@ def _flatten(element: Element, above: str, found: Flat, renamed: Mapping[str, st
         path = f"{above}{step}({count})"
     found[path] = " ".join(element.text.split()), element
     for name, value in element.attributes.items():
-        if value != named:
+        if value != named and not name.startswith("xmlns"):
             found[f"{path}/@{name}"] = " ".join(value.split()), element
     for child in element.children:
         _flatten(child, f"{path}/", found, renamed)

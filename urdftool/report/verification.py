@@ -126,13 +126,15 @@ def _format_entry(entry: Disagreement) -> str:
 
 def _format_rest(agreement: Agreement) -> str:
     """List what was not compared, and why."""
-    missing: dict[str, None] = {}
+    missing: dict[str, dict[str, None]] = {}
     for comparison in agreement.pairs.values():
-        for what in comparison.not_comparable:
-            missing[what] = None
+        for text in comparison.not_comparable:
+            what, _, why = text.partition(": ")
+            missing.setdefault(why, {})[what] = None
         for row, why in comparison.skipped.items():
-            missing[f"{row}: {why}"] = None
-    lines = [f"not comparable: {'; '.join(missing)}\n"] if missing else []
+            missing.setdefault(why, {})[row] = None
+    texts = [f"{', '.join(sorted(rows))} ({why})" for why, rows in missing.items()]
+    lines = [f"not comparable: {'; '.join(texts)}\n"] if texts else []
     return "\n" + "".join(lines) + f"not compared: {', '.join(NOT_COMPARED)}\n"
 
 
@@ -147,7 +149,13 @@ def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int])
     entries = [entry for entry in agreement.list_disagreements() if not entry.is_convention]
     robots = f"{len(paths)} robots"
     if not entries:
-        return f"{robots}: equal in every compared property"
+        missing = {
+            text.partition(": ")[0]
+            for comparison in agreement.pairs.values()
+            for text in (*comparison.not_comparable, *comparison.skipped)
+        }
+        rest = f"; {len(missing)} could not be compared" if missing else ""
+        return f"{robots}: equal in every compared property{rest}"
     text = f"{robots}: {format_count(len(entries), 'difference')}"
     for (i, j), comparison in agreement.pairs.items():
         most = max(totals[i], totals[j])

@@ -17,13 +17,15 @@ from .options import Options
 from .read import read
 from .verify_extensions import check_extensions
 
-NOT_COMPARED = ("contact bits", "textures", "plugins", "closed loops", "transmissions")
+NOT_COMPARED = ("contact bits", "textures", "world settings", "closed loops")
 """Parts of a description that no check compares."""
 
 _CODES = {
     "tree": ("lossy-ball", "lossy-screw"),
     "collisions": ("lossy-shape",),
     "visuals": ("lossy-shape",),
+    "surface": ("lossy-surface",),
+    "joint physics": ("lossy-spring",),
 }
 """Codes of the losses that explain a difference, by row."""
 

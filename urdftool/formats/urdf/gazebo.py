@@ -37,11 +37,23 @@ def copy_extensions(t: Translation) -> None:
             copy_element(t.root, element)
 
 
+def _find_namespace(element: Element, prefix: str) -> str | None:
+    """Return what the nearest ``xmlns:prefix`` names; None without one."""
+    holder: Element | None = element
+    while holder is not None:
+        if found := holder.get(f"xmlns:{prefix}"):
+            return found
+        holder = holder.parent
+    return None
+
+
 def copy_element(parent: etree._Element, element: Element) -> etree._Element:
-    """Append a copy of an element, without namespaces."""
-    tag = element.tag.replace(":", "_")
+    """Append a copy of an element; a prefix without a namespace becomes a part of the name."""
+    prefix, colon, name = element.tag.partition(":")
+    uri = _find_namespace(element, prefix) if colon else None
+    tag = element.tag.replace(":", "_") if uri is None else f"{{{uri}}}{name}"
     attributes = {n: v for n, v in element.attributes.items() if ":" not in n and n != "xmlns"}
-    node = etree.SubElement(parent, tag, attributes)
+    node = etree.SubElement(parent, tag, attributes, {prefix: uri} if uri else None)
     node.text = element.text.strip() or None
     for child in element.children:
         copy_element(node, child)

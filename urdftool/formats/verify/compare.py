@@ -13,6 +13,7 @@ from ..mechanics import Array
 from .bodies import Body, compute_axis
 from .difference import Comparison, Difference
 from .dynamics import compare_dynamics
+from .equipment import compare_equipment
 from .frames import describe_motion, describe_pose, invert, measure_largest
 from .inertia import compare_inertia
 from .joints import JointMatch, compare_joint, compare_mimic, get_kind
@@ -97,6 +98,7 @@ def compare_robots(
         joints = pair.a.joints[name], pair.b.joints[other]
         compare_mimic(pair, *joints, walk.signs, comparison)
     compare_robot_flags(pair, comparison)
+    compare_equipment(pair, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)
     return comparison

@@ -1,0 +1,44 @@
+"""Sensors, actuators, contact pairs and plugins of two files of one format."""
+
+import pytest
+
+import urdftool as api
+from urdftool.formats.verify.compare import compare_robots
+
+LIMB = '<geom type="sphere" size="0.1"/>'
+MJCF = f"""<mujoco model="m"><worldbody><body name="a">{LIMB}<body name="b"><joint name="j"/>{LIMB}
+<site name="s"/></body></body></worldbody>
+<contact><exclude body1="a" body2="b"/></contact>
+<actuator><position name="servo" joint="j" kp="10"/></actuator>
+<sensor><gyro name="g" site="s"/></sensor>
+<keyframe><key name="home" qpos="0.1"/></keyframe></mujoco>"""
+CHANGES = {
+    "contact pairs": ('<exclude body1="a" body2="b"/>', ""),
+    "actuators": ('kp="10"', 'kp="11"'),
+    "sensors": ("<gyro", "<accelerometer"),
+    "configurations": ('qpos="0.1"', 'qpos="0.2"'),
+}
+URDF = """<robot name="r"><link name="a"/><gazebo><plugin name="p" filename="x.so"><rate>{}</rate>
+</plugin></gazebo></robot>"""
+
+
+def compare(tmp_path, one, two, suffix):
+    paths = []
+    for name, text in (("one", one), ("two", two)):
+        paths.append(tmp_path / f"{name}{suffix}")
+        paths[-1].write_text(text)
+    return compare_robots(*map(api.load, paths))
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize("row", CHANGES)
+def test_a_change_is_named_in_its_row(tmp_path, row):
+    assert compare(tmp_path, MJCF, MJCF, ".xml").is_equal
+    comparison = compare(tmp_path, MJCF, MJCF.replace(*CHANGES[row]), ".xml")
+    assert {difference.row for difference in comparison.differences} == {row}
+
+
+def test_the_parameter_of_a_plugin(tmp_path):
+    comparison = compare(tmp_path, URDF.format(10), URDF.format(20), ".urdf")
+    (difference,) = comparison.differences
+    assert (difference.row, difference.values) == ("simulator data", ("10", "20"))
