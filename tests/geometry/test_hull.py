@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -97,3 +98,25 @@ def test_it_is_the_same_each_time():
     said = {subprocess.run(words, capture_output=True, text=True).stdout for _ in range(4)}
     assert len(said) == 1
     assert said.pop().startswith("30000 ")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="counts the threads of a process in /proc")
+@pytest.mark.parametrize("call", ["compute()", "in_thread(compute)"])
+def test_hulls_start_no_threads_which_a_fork_would_wait_for(call):
+    program = f"""
+import os, threading, numpy as np
+from urdftool.geometry.hull import compute_convex_hull
+before = len(os.listdir("/proc/self/task"))
+def compute():
+    points = np.random.default_rng(0).normal(size=(60000, 3))
+    compute_convex_hull(points / np.linalg.norm(points, axis=1)[:, None])
+def in_thread(function):
+    thread = threading.Thread(target=function)
+    thread.start()
+    thread.join()
+{call}
+assert len(os.sched_getaffinity(0)) == {len(os.sched_getaffinity(0))}
+print(len(os.listdir("/proc/self/task")) - before)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout.strip() == "0", done.stderr

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import os
+import sys
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,17 +17,46 @@ FLAT = 1e-12
 """Smallest volume of a hull, relative to the cube of the extent of its points."""
 
 
+_MANY = 20_000
+"""Number of points from which Manifold starts its threads; 12,000 were enough in Manifold 3.5."""
+
+
+def load_manifold() -> Any:
+    """Import ``Manifold``, without threads on Linux.
+
+    It would start one for each core (TBB). A process forked while one of them falls asleep waits
+    for it without end, and urdftool computes with forked processes. TBB starts as many threads as
+    the process may use cores when it is first used.
+    """
+    if "manifold3d" in sys.modules or sys.platform != "linux":
+        from manifold3d import Manifold
+
+        return Manifold
+    from manifold3d import Manifold
+
+    allowed = {thread: os.sched_getaffinity(thread) for thread in (0, os.getpid())}
+    points = np.zeros((_MANY, 3))
+    points[:4, :] = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    try:
+        for thread, cores in allowed.items():  # this one, and the first, which TBB asks
+            os.sched_setaffinity(thread, {min(cores)})
+        Manifold.hull_points(points)
+    finally:
+        for thread, cores in allowed.items():
+            os.sched_setaffinity(thread, cores)
+    return Manifold
+
+
 def compute_convex_hull(points: Points) -> Manifold | None:
     """Compute the convex hull of points, shape (n, 3); None if they are coplanar or not finite.
 
     Points outside the others' hull by less than about 1e-7 of the extent may be dropped. The same
     points in the same order give the same hull, bit for bit.
     """
-    from manifold3d import Manifold
-
+    manifold = load_manifold()
     if len(points) < 4 or not np.isfinite(points).all():
         return None
-    hull = Manifold.hull_points(np.ascontiguousarray(points, dtype=np.float64))
+    hull = manifold.hull_points(np.ascontiguousarray(points, dtype=np.float64))
     extent = max(float(np.ptp(points[:, axis])) for axis in range(3))
     return hull if hull.volume() > FLAT * extent**3 else None
 

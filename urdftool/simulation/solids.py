@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..geometry.convex_points import select_extreme_points
-from ..geometry.hull import compute_convex_hull
+from ..geometry.hull import compute_convex_hull, load_manifold
 from ..model.pose import Pose
 from .recording import Array
 
@@ -52,11 +52,12 @@ class Solids:
 
     @cached_property
     def _union(self) -> Manifold:
-        from manifold3d import Manifold, OpType
+        manifold = load_manifold()
+        from manifold3d import OpType
 
         if len(self.parts) == 1:
             return self.parts[0]
-        return Manifold.batch_boolean(self.parts, OpType.Add) if self.parts else Manifold()
+        return manifold.batch_boolean(self.parts, OpType.Add) if self.parts else manifold()
 
 
 def find_outermost(clouds: Iterable[Array]) -> list[Array]:
