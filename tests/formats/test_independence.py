@@ -22,7 +22,7 @@ READERS = [path for path in MODULES if path.stem == "read" or path.stem.startswi
 OPEN = (
     *("check", "mechanics", "written", "common.losses", "common.directory", "verify", "detect"),
     *("common.actuator_config", "common.force_fallbacks"),
-    *("sdf.options", "sdf.write", "sdf.colors", "sdf.verify"),
+    *("sdf.options", "sdf.write", "sdf.verify"),
     *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),
     *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
 )
@@ -66,8 +66,7 @@ def test_the_proofs_are_found():
 @pytest.mark.parametrize("path", MODULES, ids=shown)
 def test_a_format_imports_no_other(path):
     own = path.relative_to(FORMATS).parts[0]
-    allowed = ("sdf.colors",) if path in PROOFS else ()
     for name in imports(path):
         room = name.partition(".")[0]
-        if own in (*FOLDERS, "common") and room in FOLDERS and name not in allowed:
+        if own in (*FOLDERS, "common") and room in FOLDERS:
             assert room == own, f"{shown(path)} imports {name}"

@@ -9,7 +9,7 @@ EXCEPTIONS: tuple[tuple[str, str, str], ...] = (
     (r"docs/formats/sdf\.md", r"^63 materials", "names of materials of Gazebo"),
     (r"docs/(?:verify|formats/sdf)\.md", r"\| colours", "a row that export --verify prints"),
     (r"docs/lint-precision\.md", r"^\|", "findings as they were printed, and reasons of readers"),
-    (r"formats/(?:sdf/colors|mjcf/material)\.py", r"Grey", "names of materials of Gazebo"),
+    (r"model/gazebo_colors\.py", r"Grey", "names of materials of Gazebo"),
     (r"docs/howto/classic-to-gz\.md", r"Gazebo/Grey", "names of materials of Gazebo"),
     (r"docs/rules/renamed-rule\.md", r"-in-millimetres", "an old name of a rule"),
     (r"lint/fix_run\.py", r"Mended", "an old name of a class"),

@@ -149,3 +149,16 @@ def test_a_wheel_of_an_sdf_without_friction_is_found(tmp_path):
     assert finding.location.line == 1
     path.write_text(text.format("left", shape.format(grip)))
     assert api.check(path, select=["missing-friction"]) == []
+
+
+def test_the_color_of_gazebo_is_that_of_an_sdf_and_no_difference(tmp_path, urdftool):
+    red = '<material name="red"><color rgba="1 0 0 1"/></material>'
+    visual = f'<visual><geometry><box size="1 1 1"/></geometry>{red}</visual>'
+    path = tmp_path / "r.urdf"
+    blocks = of("a", "<material>Gazebo/Blue</material>")
+    path.write_text(f'<robot name="r"><link name="a">{INERTIAL}{visual}</link>{blocks}</robot>')
+    api.export_sdf(load(path), tmp_path / "sdf")
+    assert urdftool("verify", path, tmp_path / "sdf" / "model.sdf").code == 0
+    path.write_text(path.read_text().replace("Blue", "Green"))
+    result = urdftool("verify", path, tmp_path / "sdf" / "model.sdf")
+    assert (result.code, "color of" in result.out) == (1, True)

@@ -122,6 +122,7 @@ class Link(Part):
             the same two bodies; it has no mass and no geometry.
         settings: Settings of ``settings.OF_LINKS``.
         surface: Settings that a URDF gives all its collisions.
+        gazebo_material: Material of Gazebo that a ``<gazebo>`` block names; empty for none.
     """
 
     name: str = ""
@@ -131,6 +132,7 @@ class Link(Part):
     is_virtual: bool = False
     settings: Settings = field(default_factory=dict)
     surface: Settings = field(default_factory=dict)
+    gazebo_material: str = ""
 
     @property
     def mass(self) -> float:

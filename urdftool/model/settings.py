@@ -347,6 +347,8 @@ def add_settings(robot: Robot) -> None:
         link.surface = _read_elements(robot, reading, elements, SURFACE)
         for collision in link.collisions:
             collision.surface = link.surface
+        named = [get_text(e) for e in elements if e.tag == "material" and not e.children]
+        link.gazebo_material = named[-1] if named else ""
     for joint in robot.joints:
         elements = blocks.get(joint.name, [])
         if elements:

@@ -3,11 +3,9 @@
 import pytest
 
 from urdftool.formats.check import is_faithful
-from urdftool.formats.mjcf.material import COLORS
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf
-from urdftool.formats.sdf.colors import COLORS as SDF_COLORS
 from urdftool.model.load import load
 
 from .robots import BOX, INERTIAL, joint, link, robot
@@ -71,13 +69,6 @@ def test_what_an_option_asks_for_is_expected(write, made, said, row):
     source = load(write("r.urdf", robot(*CHAIN)))
     checks = verify_copy(source, Options(**said), write_mjcf(source, Options(**made)))
     assert row in [check.name for check in checks if check.verdict == "differs"]
-
-
-def test_the_two_tables_of_colors_agree():
-    for name, color in COLORS.items():
-        other = SDF_COLORS.get(f"Gazebo/{name}")
-        if other is not None:
-            assert color == (*other.diffuse, other.alpha), name
 
 
 @pytest.mark.parametrize("corners", [100, 101, 128])

@@ -15,9 +15,9 @@ from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
 from ...model.elements import Link, Material, Mesh, Robot, Visual
+from ...model.gazebo_colors import get_rgba
 from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..sdf.colors import COLORS
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
 from .verify_meshes import SourceMeshes
@@ -106,9 +106,8 @@ def _get_own(source: Source, link: Link, visual: Visual) -> Look:
     """Return the appearance of a visual by its material, or by Gazebo's if it has none."""
     material = _get_defined(source.robot, visual.material)
     if material is None:
-        said = (source.get_value(link.name, "material") or "").split("/")[-1]
-        color = COLORS.get(f"Gazebo/{said}")
-        return Look((*color.diffuse, color.alpha) if color and visual.material is None else GREY)
+        color = get_rgba(link.gazebo_material) if visual.material is None else None
+        return Look(color or GREY)
     if material.texture and source.robot.source is not None:
         try:
             path = source.robot.source.resolve(material.texture)

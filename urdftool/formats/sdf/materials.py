@@ -5,10 +5,10 @@ from __future__ import annotations
 from decimal import Decimal
 
 from ...model.elements import Link, Material, Robot, Visual
+from ...model.gazebo_colors import COLORS, PICTURED, Color
 from ...model.settings import get_text
 from ...source.document import Element
 from ..common.numbers import format_numbers_text, number_text
-from .colors import COLORS, PICTURED, Color
 from .extensions import block_elements
 from .raw_sdf import copy_raw_element
 from .translation import Translation

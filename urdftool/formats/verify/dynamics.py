@@ -19,6 +19,12 @@ from .rows import GLOBAL_ROWS
 _CONFIGURATIONS = 5
 _MOST_JOINTS = 120
 
+_FLOOR = 1e-6
+"""Largest element [kg·m², kg, N·m or N] below which differences are absolute; chosen, no source.
+
+A robot without mass has elements of 1e-12 of rounding or of the least masses that formats require.
+"""
+
 
 def compare_dynamics(
     pair: Pair, frame: Array, signs: Mapping[str, float], comparison: Comparison
@@ -82,7 +88,7 @@ def _draw(joint: Joint, generator: random.Random) -> float:
 
 def _add_matrix(comparison: Comparison, row: str, one: Array, two: Array) -> None:
     size = max(float(np.abs(one).max()), float(np.abs(two).max()))
-    amount = float(np.abs(one - two).max()) / size if size > 1e-12 else 0.0
+    amount = float(np.abs(one - two).max()) / max(size, _FLOOR)
     known = [difference for difference in comparison.differences if difference.row == row]
     if known and known[0].amount >= amount:
         return

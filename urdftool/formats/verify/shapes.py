@@ -23,6 +23,7 @@ from ...model.elements import (
     Sphere,
     Visual,
 )
+from ...model.gazebo_colors import get_rgba
 from ...model.shapes import get_shape_name
 from ..mechanics import Array, get_origin_matrix
 from .bodies import Bodies, Body
@@ -356,10 +357,11 @@ def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
         for robot, placed in zip(robots, (x, y), strict=True)
     ):
         return
-    colors = (
-        _find_color(state.pair.a.robot, x.shape),
-        _find_color(state.pair.b.robot, y.shape),
-    )
+    colors = [
+        (get_rgba(placed.link.gazebo_material) if "sdf" in state.pair.formats else None)
+        or _find_color(robot, placed.shape)
+        for robot, placed in zip(robots, (x, y), strict=True)
+    ]  # Gazebo shows its own material instead of that of URDF
     if colors[0] is None or colors[1] is None:
         return
     amount = float(np.abs(np.array(colors[0]) - np.array(colors[1])).max())

@@ -79,6 +79,10 @@ COLORS: dict[str, Color] = {
     "Gazebo/BlueTransparentOverlay": _make_transparent_color(_BLUE),
     "Gazebo/BlueLaser": _make_transparent_color(_BLUE, 0.4),
     "Gazebo/OrangeTransparent": _make_transparent_color((1.0, 0.44, 0.0), 0.4),
+    "Gazebo/DarkYellow": _make_plain_color((0.7, 0.7, 0.0)),
+    "Gazebo/DarkMagentaTransparent": _make_transparent_color((0.5, 0.0, 0.5)),
+    "Gazebo/DarkOrangeTransparent": _make_transparent_color((1.0, 0.55, 0.0)),
+    "Gazebo/LightBlueLaser": _make_transparent_color((0.5, 0.5, 1.0), 0.4),
     "Gazebo/PioneerBody": Color((0.5, 0.0, 0.0), _RED, (0.5, 0.0, 0.0)),
     "Gazebo/WoodFloor": Color(_HALF, _WHITE, _BLACK),
     "Gazebo/CeilingTiled": Color(_HALF, _WHITE, _BLACK),
@@ -106,3 +110,9 @@ COLORS: dict[str, Color] = {
 
 PICTURED = frozenset(list(COLORS)[list(COLORS).index("Gazebo/PioneerBody") :])
 """Names of the materials with an image."""
+
+
+def get_rgba(material: str) -> tuple[float, float, float, float] | None:
+    """Return diffuse color and alpha of a material by its name; None for an unknown one."""
+    color = COLORS.get(f"Gazebo/{material.rpartition('/')[2]}") if material else None
+    return None if color is None else (*color.diffuse, color.alpha)
