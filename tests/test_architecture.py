@@ -1,6 +1,7 @@
 """The architecture: who may import whom, one place for each library, no hidden state."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -633,3 +634,35 @@ def test_forms_that_run_code_are_seen():
     assert sorted(forms_with_code(ast.parse(code))) == [
         *("import_module", "marshal", "np.load", "pickle"),
     ]
+
+
+BLOCKS = re.compile(r"robot\.(gazebo|extensions)\b")
+
+OPEN_BLOCKS = {
+    *("bundle/collect.py", "graph/detailed.py", "info/counts.py", "lint/targets.py"),
+    *(f"formats/mjcf/{name}.py" for name in ("gazebo", "light", "loops", "sensor")),
+    *(f"formats/mjcf/verify_{name}.py" for name in ("loops", "sensors", "source")),
+    "formats/usd/unexpressed.py",
+    *(f"formats/sdf/{name}.py" for name in ("body_sensors", "extensions", "model", "plan")),
+    "formats/sdf/raw_sdf.py",
+    *(f"formats/sdf/verify/{name}.py" for name in ("blocks", "compare", "excuses", "sensing")),
+    "formats/sdf/verify/source.py",
+    *("rules/name/frames.py", "rules/xml/reference.py", "rules/renaming.py"),
+    *("rules/joint/mimic.py", "rules/joint/range.py", "simulation/checks/joints.py"),
+    *("rules/control/ros2_control_simulated.py", "rules/control/transmission_joints.py"),
+}
+"""Modules that open ``<gazebo>`` blocks themselves; what a block means belongs into the model.
+
+The list only becomes shorter: friction, contact, springs, flags and names of materials are read by
+``model/settings.py``.
+"""
+
+
+def test_blocks_are_opened_by_the_model_and_its_rules():
+    found = {
+        path.relative_to(PACKAGE).as_posix()
+        for path in MODULES
+        if BLOCKS.search(path.read_text("utf-8"))
+    }
+    allowed = {name for name in found if name.startswith(("model/", "rules/gazebo/"))}
+    assert found - allowed == OPEN_BLOCKS

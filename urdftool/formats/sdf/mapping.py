@@ -101,7 +101,7 @@ def _list_sections() -> Iterator[str]:
     )
     yield (
         f"### Materials\n\n{len(COLORS)} materials of Gazebo Classic are colors for gz: "
-        + ", ".join(name.removeprefix("Gazebo/") for name in COLORS)
+        + ", ".join(f"`{name}`" for name in COLORS)
         + "."
     )
     yield "### Losses\n\n" + _format_table(
