@@ -74,11 +74,12 @@ BELOW = {
         *("collision", "inertia", "mechanics", *BASE),
     ),
     "info": ("model", "geometry", *BASE),
-    "compare": ("mechanics", "model", "source", *BASE),
+    "compare": ("geometry", "mechanics", "model", "source", *BASE),
     "api": (
         *(
             "bundle",
             "geometry",
+            "compare",
             "formats",
             "simulation",
             "collision",
@@ -113,7 +114,7 @@ PLACES = {
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
-        *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "formats/"),
+        *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "compare/", "formats/"),
         *("collision/", "simulation/", "bundle/mesh_formats.py", "bundle/collada_file.py"),
         *("bundle/yourdfpy_reader.py", "bundle/reduce.py", "bundle/surface_distance.py"),
     ),
@@ -345,8 +346,8 @@ OPENERS = {
     "formats/sdf/verify/reader.py": OUTPUTS,
     "formats/sdf/verify/source.py": CHECKED,
     "formats/usd/files.py": OUTPUTS,
-    "formats/verify/mesh_measure.py": CHECKED,
-    "formats/verify/names.py": NAMED,
+    "compare/mesh_measure.py": CHECKED,
+    "compare/names.py": NAMED,
     "formats/written.py": "content of the export",
     "geometry/collada_scene.py": CHECKED,
     "geometry/gltf_file.py": CHECKED,

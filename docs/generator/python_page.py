@@ -10,8 +10,8 @@ from types import FunctionType
 
 import urdftool
 from urdftool.collision import compute, settings
-from urdftool.formats.check import Check
-from urdftool.formats.verify.several import Agreement, Disagreement
+from urdftool.compare.check import Check
+from urdftool.compare.several import Agreement, Disagreement
 from urdftool.formats.written import Written
 from urdftool.lint.fix_run import FixedDescription
 from urdftool.model import elements

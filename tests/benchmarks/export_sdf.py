@@ -22,8 +22,8 @@ from pathlib import Path
 import numpy as np
 from sdf_engines import Source, State, Target
 
+from urdftool.compare.check import is_faithful
 from urdftool.errors import UrdftoolError
-from urdftool.formats.check import is_faithful
 from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import Pair, compare, pair_of

@@ -5,7 +5,7 @@
 It runs where usd-core and Newton are installed. The other converters are in environments of their
 own, named by URDFTOOL_USD_CONVERTER, URDFTOOL_URDF2ANY and URDFTOOL_SKROBOT; one that is not named
 is left out. Each robot is converted to a folder of its own, and Newton imports the stage on the
-processor. The reference is the description itself, by ``urdftool.formats.mechanics``. ``--write``
+processor. The reference is the description itself, by ``urdftool.mechanics.reference``. ``--write``
 replaces a part of docs/fidelity.md.
 """
 
@@ -29,7 +29,7 @@ import numpy as np
 import urdftool
 from urdftool.errors import UrdftoolError
 from urdftool.formats.common.shape_box import ShapeBoxes
-from urdftool.formats.mechanics import Mechanics, get_origin_matrix
+from urdftool.mechanics.reference import Mechanics, get_origin_matrix
 from urdftool.model.elements import Joint, Link, Mesh, Robot
 from urdftool.model.kinematics import (
     add_mimic_positions,

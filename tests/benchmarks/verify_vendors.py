@@ -11,10 +11,10 @@ import argparse
 from pathlib import Path
 from typing import NamedTuple
 
+from urdftool.compare.compare import compare_robots
+from urdftool.compare.difference import Comparison
+from urdftool.compare.rows import ROWS
 from urdftool.formats.detect import format_of
-from urdftool.formats.verify.compare import compare_robots
-from urdftool.formats.verify.difference import Comparison
-from urdftool.formats.verify.rows import ROWS
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
 from urdftool.source.document import read_file

@@ -5,8 +5,8 @@ import json
 import pytest
 
 import urdftool as api
+from tests.compare.test_verify import MJCF, SDF
 from tests.conftest import FIXTURES
-from tests.formats.verify.test_verify import MJCF, SDF
 
 READERS = FIXTURES / "readers"
 mujoco = pytest.mark.library("mujoco")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.formats.check import Check
+from urdftool.compare.check import Check
 from urdftool.formats.registry import get_writable_formats
 from urdftool.report.exports import check_table
 from urdftool.rules import FAMILY_OF

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from urdftool.formats.mechanics import Mechanics
+from urdftool.mechanics.reference import Mechanics
 from urdftool.model.load import load
 
 PENDULUM = """<robot name="p"><link name="base"/>

@@ -3,7 +3,7 @@
 import pytest
 
 import urdftool as api
-from urdftool.formats.verify.compare import compare_robots
+from urdftool.compare.compare import compare_robots
 from urdftool.model.load import load
 from urdftool.model.settings import SURFACE, TABLES, get_number
 from urdftool.simulation.surface import choose_surface

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from urdftool.formats.check import Check
+from urdftool.compare.check import Check
 from urdftool.formats.common.directory import write_directory
 from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.mjcf.verify import verify

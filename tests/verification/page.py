@@ -59,7 +59,7 @@ def _count_equal(records: list[dict[str, Any]]) -> tuple[int, int, int, int]:
 
 def format_trips(trips: list[Any]) -> list[str]:
     """Return the table of round trips, by row."""
-    from urdftool.formats.verify.rows import ROWS
+    from urdftool.compare.rows import ROWS
 
     lines: list[str] = []
     for through in sorted({trip.through for trip in trips}, reverse=True):

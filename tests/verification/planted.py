@@ -9,12 +9,12 @@ from pathlib import Path
 
 from lxml import etree
 
+from urdftool.compare.compare import compare_robots
+from urdftool.compare.difference import Difference
+from urdftool.compare.mesh_measure import MeshMeasures
 from urdftool.errors import UrdftoolError
 from urdftool.formats.detect import format_of
 from urdftool.formats.registry import format_named
-from urdftool.formats.verify.compare import compare_robots
-from urdftool.formats.verify.difference import Difference
-from urdftool.formats.verify.mesh_measure import MeshMeasures
 from urdftool.model.elements import Robot
 
 from .changes import Change

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from urdftool.compare.compare import compare_robots
 from urdftool.errors import UrdftoolError
 from urdftool.formats.common.directory import write_directory
 from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.registry import format_named
 from urdftool.formats.sdf.options import Options as SdfOptions
 from urdftool.formats.urdf.options import Options as UrdfOptions
-from urdftool.formats.verify.compare import compare_robots
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
 from urdftool.model.world import weld_base

@@ -7,8 +7,8 @@ import random
 from pathlib import Path
 from typing import NamedTuple
 
+from urdftool.compare.mesh_measure import MeshMeasures
 from urdftool.formats.detect import format_of
-from urdftool.formats.verify.mesh_measure import MeshMeasures
 from urdftool.model.elements import Mesh, Robot
 from urdftool.model.load import load
 from urdftool.source.document import read_file

@@ -11,7 +11,7 @@ from ..model.elements import Robot
 from .load import load
 
 if TYPE_CHECKING:
-    from ..formats.verify.several import Agreement
+    from ..compare.several import Agreement
 
 
 def verify(
@@ -42,9 +42,9 @@ def verify(
         ConfigError: Fewer than two robots are given, a row is unknown, or ``names`` is malformed.
         MissingDependency: A file is MJCF, and MuJoCo is not installed.
     """
-    from ..formats.verify.names import read_map
-    from ..formats.verify.rows import select_rows
-    from ..formats.verify.several import compare_all
+    from ..compare.names import read_map
+    from ..compare.rows import select_rows
+    from ..compare.several import compare_all
 
     if len(robots) < 2:
         raise ConfigError("verify compares at least two robots")

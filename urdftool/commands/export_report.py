@@ -11,8 +11,8 @@ from ..console import Console
 from ..report.counted import format_count
 
 if TYPE_CHECKING:
+    from ..compare.check import Check
     from ..finding import Finding
-    from ..formats.check import Check
     from ..formats.registry import ExportOptions, Format
     from ..formats.written import Written
     from ..model.elements import Robot
@@ -137,8 +137,8 @@ def report_written(
     Returns:
         The exit code: 1 if a property differs without a reported loss.
     """
+    from ..compare.check import is_faithful
     from ..diagnostic import Severity
-    from ..formats.check import is_faithful
     from ..formats.common.loss_report import format_lines, merge_instances
 
     shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]

@@ -81,9 +81,9 @@ def command(
 
     Exit code 1: the robots differ.
     """  # noqa: D301 -- click reads the escape
-    from ..formats.verify.names import read_map
-    from ..formats.verify.rows import select_rows
-    from ..formats.verify.several import compare_all
+    from ..compare.names import read_map
+    from ..compare.rows import select_rows
+    from ..compare.several import compare_all
     from ..output import write_result
     from ..report import verification as report
     from .load_tolerant import load_tolerant

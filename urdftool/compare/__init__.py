@@ -1,10 +1,22 @@
-"""Semantic differences between two robots.
+"""Comparison of robots that were read from files of any format.
 
-Modules are imported separately (this package imports nothing):
+Modules are imported separately (this package imports nothing). As mechanisms, for ``verify`` and
+for the proof of an export:
 
-- ``differences``: ``compare``, the entry point, with the differences of joints and renames;
-- ``change``: ``Change``, its result;
-- ``links``, ``mechanisms``, ``extensions``: differences of these parts;
+- ``compare``: ``compare_robots``, the comparison of two robots; ``several``: all pairs of several;
+- ``rows``, ``difference``: compared properties, and the differences that were found;
+- ``check``: one row of the table of an export;
+- ``bodies``: rigid bodies that links connected by fixed joints form;
+- ``names``: names of joints in one robot for those in the other;
+- ``matching``: joints without a common name, matched by the structure of the tree;
+- ``frames``, ``origins``: frames and origins of joints of one robot in the other;
+- ``pair``: both robots, with the names of the parts of one in the other;
+- ``joints``, ``inertia``, ``shapes``, ``dynamics``, ``settings``: comparison of each property.
+
+As descriptions, part by part, for ``diff``:
+
+- ``differences``: ``compare``, with the differences of joints and renames; ``change``: its result;
+- ``links``, ``mechanisms``, ``extensions``, ``changed_settings``: differences of these parts;
 - ``tolerance``: equality of numbers, poses and tensors;
 - ``revision``: descriptions at a git revision.
 """

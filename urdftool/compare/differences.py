@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Mapping
 from ..model.elements import Joint, Link, Material, Robot, Vector
 from ..model.pose import compute_norm, make_pose
 from .change import Change
+from .changed_settings import compare_settings
 from .extensions import compare_extensions
 from .links import describe_pose, link_changes
 from .mechanisms import compare_mechanisms
-from .settings import compare_settings
 from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 
 

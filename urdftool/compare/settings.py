@@ -1,77 +1,112 @@
-"""Differences of friction, contact, springs and flags, unless two URDF write them in blocks."""
+"""Comparison of friction, contact, springs and flags."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable
 
-from ..model.elements import Robot
-from ..model.settings import OF_JOINTS, OF_LINKS, SURFACE, Content, Setting, Value
-from .change import Change
-from .tolerance import are_close, close
+from ..model.part import Part
+from ..model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
+from .difference import Comparison, Difference
+from .joints import JointMatch, measure
+from .pair import Match, Pair, locate
 
-_Key = tuple[str, str, str]
+
+def compare_surfaces(
+    pair: Pair,
+    comparison: Comparison,
+    names: tuple[str, str],
+    settings: tuple[Settings, Settings],
+    parts: tuple[Part, Part],
+) -> None:
+    """Compare friction and contact of two collisions of links."""
+    _compare(pair, comparison, "surface", "link", names, SURFACE, settings, parts)
 
 
-def compare_settings(
-    a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
-) -> Iterator[Change]:
-    """Yield the differences of settings of parts that both robots have.
+def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
+    """Compare the settings of whole robots, except ``static``, a row of its own."""
+    robots = pair.a.robot, pair.b.robot
+    settings = robots[0].settings, robots[1].settings
+    rows = [row for row in OF_ROBOT if row.name != "static"]
+    names = robots[0].name, robots[1].name
+    _compare(pair, comparison, "link flags", "robot", names, rows, settings, robots)
 
-    Args:
-        a: The first robot.
-        b: The second robot.
-        tolerance: Relative tolerance.
-        renamed: New names of links and joints by their old names.
-    """
-    if a.xml is not None and b.xml is not None:
-        return  # the elements of their blocks are compared
-    one, two = _collect(a, renamed), _collect(b, {})
-    for key in dict.fromkeys((*one, *two)):
-        kind, name, what = key
-        if name not in (b.link if kind == "link" else b.joint):
+
+def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Compare the settings of the links of two bodies."""
+    for x, y in pair.match_members(match.one, match.two):
+        links = pair.a.robot.link[x], pair.b.robot.link[y]
+        settings = links[0].settings, links[1].settings
+        _compare(pair, comparison, "link flags", "link", (x, y), OF_LINKS, settings, links)
+
+
+def compare_joint_settings(
+    pair: Pair, match: JointMatch, sign: float, comparison: Comparison
+) -> None:
+    """Compare the settings of a joint; the rest of a spring counts only where there is one."""
+    one, two, _ = match
+    settings = _turn(one.settings, 1.0), _turn(two.settings, sign)
+    names = one.name, two.name
+    sprung = one.spring is not None or two.spring is not None
+    rows = [row for row in OF_JOINTS if sprung or row.name != "spring_reference"]
+    _compare(pair, comparison, "joint physics", "joint", names, rows, settings, (one, two))
+
+
+def _turn(settings: Settings, sign: float) -> Settings:
+    """Return the settings of a joint with the opposite axis for a negative sign."""
+    rest = settings.get("spring_reference")
+    if sign > 0 or rest is None or isinstance(rest.content, tuple):
+        return settings
+    return settings | {"spring_reference": type(rest)(rest.provenance, -rest.content)}
+
+
+def _compare(
+    pair: Pair,
+    comparison: Comparison,
+    row: str,
+    kind: str,
+    names: tuple[str, str],
+    rows: Iterable[Setting],
+    settings: tuple[Settings, Settings],
+    owners: tuple[Part, Part],
+) -> None:
+    if row not in comparison.tolerances:
+        return
+    for setting in rows:
+        parts = settings[0].get(setting.name), settings[1].get(setting.name)
+        x, y = (setting.default if part is None else part.content for part in parts)
+        if parts == (None, None):
             continue
-        (x, row), (y, other) = one.get(key, (None, None)), two.get(key, (None, None))
-        setting = row or other
-        assert setting is not None
-        before, after = (_get_content(value, setting) for value in (x, y))
-        if not _is_same(before, after, tolerance):
-            place = (y or x or Value()).place
-            yield Change(kind, name, what, before, after, setting.unit, place=place)
+        what = setting.name.replace("_", " ")
+        if not setting.path:
+            continue
+        if not all(_has(form, setting) for form in pair.formats):
+            if x != setting.default or y != setting.default:
+                comparison.record_not_comparable(f"{what}: not in every format")
+            continue
+        places = locate(parts[0], owners[0]), locate(parts[1], owners[1])
+        amount = _measure(x, y)
+        values: tuple[object, object] = _format(x), _format(y)
+        comparison.add(Difference(row, kind, names, what, values, setting.unit, amount, places))
 
 
-def _collect(robot: Robot, renamed: Mapping[str, str]) -> dict[_Key, tuple[Value, Setting]]:
-    """Return values and rows by kind and name of the part, and name of the setting."""
-    found: dict[_Key, tuple[Value, Setting]] = {}
-    for link in robot.links:
-        name = renamed.get(link.name, link.name)
-        for row in OF_LINKS:
-            if row.name in link.settings:
-                found["link", name, _show(row)] = link.settings[row.name], row
-        for number, shape in enumerate(link.collisions, 1):
-            about = f"collision {shape.name or number}: "
-            for row in SURFACE:
-                if row.name in shape.surface:
-                    found["link", name, about + _show(row)] = shape.surface[row.name], row
-    for joint in robot.joints:
-        name = renamed.get(joint.name, joint.name)
-        for row in OF_JOINTS:
-            if row.name in joint.settings:
-                found["joint", name, _show(row)] = joint.settings[row.name], row
-    return found
+def _has(form: str, setting: Setting) -> bool:
+    """Tell whether a format has a setting."""
+    return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, "SDF or a tag"))
 
 
-def _show(row: Setting) -> str:
-    return row.name.replace("_", " ")
+def _measure(x: Content, y: Content) -> float:
+    if isinstance(x, tuple) and isinstance(y, tuple):
+        return max(abs(a - b) for a, b in zip(x, y, strict=True))
+    if isinstance(x, tuple) or isinstance(y, tuple):
+        return math.inf
+    if isinstance(x, bool) or isinstance(y, bool):
+        return 0.0 if bool(x) == bool(y) else math.inf
+    return measure(x, y)
 
 
-def _get_content(value: Value | None, row: Setting) -> Content:
-    """Return a value; that which SDF has without it if it is not set."""
-    return row.default if value is None else value.content
-
-
-def _is_same(a: Content, b: Content, tolerance: float) -> bool:
-    if isinstance(a, tuple) and isinstance(b, tuple):
-        return are_close(a, b, tolerance)
-    if isinstance(a, tuple) or isinstance(b, tuple):
-        return False
-    return close(float(a), float(b), tolerance)
+def _format(content: Content) -> object:
+    """Return a number; another value as text."""
+    if isinstance(content, tuple):
+        return " ".join(f"{part:g}" for part in content)
+    return str(content).lower() if isinstance(content, bool) else content

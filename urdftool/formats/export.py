@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..compare.check import Check
 from ..model.elements import Robot
 from ..model.files import list_sources
-from .check import Check
 from .common.directory import write_export
 from .registry import ExportOptions, Format
 from .written import Written

@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
+    from ..compare.check import Check
     from ..model.elements import Robot
-    from .check import Check
     from .reading import Reading
     from .written import Written
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..compare.check import Check
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..source.location import Place
-from .check import Check
 
 
 @dataclass

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..compare.check import Check, is_faithful
 from ..control_characters import escape_controls
 from ..finding import Finding
-from ..formats.check import Check, is_faithful
 from ..formats.common.loss_report import merge_instances
 from .findings_json import build_finding_record
 from .json_text import format_json

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..formats.verify.difference import Comparison
-from ..formats.verify.rows import NOT_COMPARED
-from ..formats.verify.several import Agreement, Disagreement
+from ..compare.difference import Comparison
+from ..compare.rows import NOT_COMPARED
+from ..compare.several import Agreement, Disagreement
 from .counted import format_count
 from .json_text import format_json
 from .tables import render_table

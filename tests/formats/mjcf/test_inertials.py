@@ -54,7 +54,7 @@ def test_numbers_stay_as_they_are(write, text, expected):
 def test_a_turned_tensor_is_the_same(write):
     text = inertial(1, (1, 2, 2.5), (0.1, 0.2, 0.3), '<origin rpy="0.3 -0.4 0.5"/>')
     element = written_inertial(tree(export(write("r.urdf", robot(link("a", text))))), "a")
-    from urdftool.formats.mechanics import turn
+    from urdftool.mechanics.reference import turn
 
     rotation = np.eye(3)
     for axis, angle in zip(np.eye(3), (0.3, -0.4, 0.5), strict=True):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from urdftool.formats.check import Check
+from urdftool.compare.check import Check
 from urdftool.formats.common.directory import write_directory
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf

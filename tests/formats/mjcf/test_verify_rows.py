@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf

@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import verify

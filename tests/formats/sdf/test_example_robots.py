@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of
 from urdftool.formats.sdf.write import write

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.sdf.verify.compare import verify
 from urdftool.formats.sdf.write import write
 from urdftool.model.load import load

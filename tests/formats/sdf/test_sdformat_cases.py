@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import CORPUS
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of
 from urdftool.formats.sdf.verify.mechanism import rotate_by_angles

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of, verify
 from urdftool.formats.sdf.verify.dynamics import compute_mass_matrix, compute_poses

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 from urdftool.formats.common.directory import write_directory
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of, verify

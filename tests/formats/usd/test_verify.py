@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.formats.usd.stages import BOX, export, joint, link, robot
-from urdftool.formats.check import is_faithful
+from urdftool.compare.check import is_faithful
 
 pytestmark = pytest.mark.library("pxr")
 

@@ -300,7 +300,7 @@ def test_pairs_of_an_srdf_are_filtered_by_body(stage, write):
 
 def test_the_api_writes_and_compares(write, tmp_path):
     import urdftool
-    from urdftool.formats.check import is_faithful
+    from urdftool.compare.check import is_faithful
 
     tensor = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
     path = write("r.urdf", robot(link("a"), joint("f", "a", "b"), link("b", 0, inertia=tensor)))

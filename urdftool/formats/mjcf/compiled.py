@@ -15,8 +15,8 @@ from ...errors import OutputError
 from ...extras import is_installed, make_missing_error
 from ...isolated import ProcessDied
 from ...limited import Limits, call_with_limits
+from ...mechanics.reference import GRAVITY, Array
 from ..common.directory import write_directory
-from ..mechanics import GRAVITY, Array
 from ..registry import format_named
 from ..written import Written
 

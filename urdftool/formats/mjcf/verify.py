@@ -13,12 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ...compare.check import Check
+from ...mechanics.reference import Mechanics
 from ...model.elements import Joint, Robot
 from ...model.load import read_again
 from ...model.world import add_world
-from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Mechanics
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
 from .declared_losses import EFFORT, FREE, INERTIA, LIMITS, TORN, TREE

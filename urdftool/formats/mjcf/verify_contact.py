@@ -8,9 +8,9 @@ from itertools import combinations
 
 import numpy as np
 
+from ...compare.check import Check
 from ...model.elements import Link
 from ...model.settings import get_number
-from ..check import Check
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .declared_losses import CUT, SHAPES

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...compare.check import Check
 from ...model.elements import Joint
-from ..check import Check
 from ..common.actuator_config import JointSettings
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..check import Check
-from ..mechanics import Array
+from ...compare.check import Check
+from ...mechanics.reference import Array
 from .compiled import Compiled
 
 FRAME = 1e-9

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ...compare.check import Check
+from ...mechanics.reference import Array, get_origin_matrix, turn
 from ...model.elements import Joint
 from ...model.read import number, parse_numbers
 from ...source.document import Element
-from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array, get_origin_matrix, turn
 from .compiled import Compiled
 from .verify_source import Source, is_locked
 

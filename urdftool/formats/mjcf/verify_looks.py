@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from ...compare.check import Check
 from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
 from ...model.elements import Link, Material, Mesh, Robot, Visual
 from ...model.gazebo_colors import get_rgba
-from ..check import Check
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES

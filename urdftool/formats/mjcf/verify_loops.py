@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...compare.check import Check
 from ...model.elements import Robot
 from ...model.read import parse_numbers
 from ...source.document import Element
-from ..check import Check
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .declared_losses import LOOPS

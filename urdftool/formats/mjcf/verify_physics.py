@@ -7,8 +7,8 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from ...compare.check import Check
 from ...model.elements import Joint
-from ..check import Check
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .verify_source import Source

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ..check import Check
+from ...compare.check import Check
+from ...mechanics.reference import Array
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array
 from .compiled import import_mujoco_module
 
 TIMESTEPS = (0.002, 0.005)

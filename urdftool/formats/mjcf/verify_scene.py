@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ...compare.check import Check
 from ...errors import OutputError
-from ..check import Check
 from .compiled import Compiled
 from .verify_fuse import compare_fields
 from .verify_home import get_lowest_point

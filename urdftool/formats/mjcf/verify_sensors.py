@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...compare.check import Check
+from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import Robot
 from ...model.read import number as read_number
 from ...model.read import parse_numbers
 from ...source.document import Element
-from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array, Mechanics, get_origin_matrix
 from .compiled import Compiled
 from .verify_source import Source, read_pose
 

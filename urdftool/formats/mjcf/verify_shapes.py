@@ -7,7 +7,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ...compare.check import Check
 from ...geometry.mesh import Faces
+from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import (
     Box,
     Capsule,
@@ -22,9 +24,7 @@ from ...model.elements import (
     UnknownShape,
     Visual,
 )
-from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..mechanics import Array, Mechanics, get_origin_matrix
 from .compiled import Compiled
 from .declared_losses import CUT, SHAPES, TORN
 from .verify_meshes import SourceMeshes

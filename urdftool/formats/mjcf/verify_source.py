@@ -14,12 +14,12 @@ from functools import cached_property
 
 import numpy as np
 
+from ...mechanics.reference import Array, turn
 from ...model.elements import Joint, Robot
 from ...model.read import parse_numbers
 from ...source.description import read_description
 from ...source.document import Element
 from ..common.actuator_config import JointSettings, read_actuator_config
-from ..mechanics import Array, turn
 from .options import Options
 
 MOVING = ("revolute", "continuous", "prismatic", "planar", "floating", "spherical", "ball")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from ...compare.check import Check
 from ...model.elements import Robot
-from ..check import Check
 from ..common.directory import write_export
 from ..written import Written
 from .options import Options

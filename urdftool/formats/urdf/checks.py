@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from ...compare.check import Check
+from ...compare.compare import compare_robots
+from ...compare.difference import Comparison
+from ...compare.names import NameMap
 from ...model.elements import Robot
-from ..check import Check
 from ..common.directory import write_export
 from ..common.losses import DeclaredLosses
-from ..verify.compare import compare_robots
-from ..verify.difference import Comparison
-from ..verify.names import NameMap
 from ..written import Written
 from .options import Options
 from .read import read

@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
+from ...compare.check import Check
 from ...model.elements import ControlComponent, Interface, Robot, Sensor
 from ...model.mechanism import Camera, JointActuator, MountedSensor
 from ...model.pose import Pose, make_pose, rotation_from_rpy
 from ...source.document import Element
-from ..check import Check
 from ..common.losses import DeclaredLosses
 from ..common.srdf import read_srdf
 from ..written import Written

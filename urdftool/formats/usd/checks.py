@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ...compare.check import Check
 from ...model.elements import Robot
-from ..check import Check
 from ..written import Written
 from .options import Options
 

@@ -1,7 +1,7 @@
 """Comparison of a stage with the robot that it was exported from.
 
 The stage is read by ``read.py``, and by Newton where it is installed. Kinematics and sums are those
-of ``formats/mechanics.py``. Only a loss that the export reported excuses a difference.
+of ``mechanics/reference.py``. Only a loss that the export reported excuses a difference.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Usd, UsdPhysics
 
+from ...compare.check import Check
 from ...extras import is_installed
+from ...mechanics.reference import Mechanics
 from ...model.elements import Joint, Robot
 from ...model.kinematics import get_limits
 from ...model.world import add_world
 from ...source.document import read_file
-from ..check import Check
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.directory import write_export
 from ..common.losses import DeclaredLosses
-from ..mechanics import Mechanics
 from ..written import Written
 from .options import Options
 from .read import read

@@ -11,14 +11,14 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Usd
 
+from ...compare.check import Check
 from ...errors import UrdftoolError
 from ...isolated import IsolatedProcess
+from ...mechanics.reference import Mechanics
 from ...model.elements import Joint
 from ...model.kinematics import add_mimic_positions, get_limits
 from ...model.pose import rotation_from_quaternion
-from ..check import Check
 from ..common.actuator_config import JointSettings
-from ..mechanics import Mechanics
 from .verify_newton_shapes import compare_colliders
 from .verify_pair import (
     CONFIGURATIONS,

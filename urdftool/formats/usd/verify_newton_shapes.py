@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...compare.check import Check
 from ...errors import UrdftoolError
 from ...geometry.load import load_named
+from ...mechanics.reference import Mechanics, get_origin_matrix
 from ...model.elements import (
     Box,
     Capsule,
@@ -23,8 +25,6 @@ from ...model.elements import (
     Sphere,
 )
 from ...model.settings import get_number
-from ..check import Check
-from ..mechanics import Mechanics, get_origin_matrix
 from .verify_pair import FLOAT, Pair
 
 Array = npt.NDArray[np.float64]

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...mechanics.reference import get_origin_matrix
 from ...model.elements import Joint, Link, Robot
 from ..common.actuator_config import JointSettings
 from ..common.losses import DeclaredLosses
-from ..mechanics import get_origin_matrix
 
 Array = npt.NDArray[np.float64]
 

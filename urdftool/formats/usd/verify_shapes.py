@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from ...compare.check import Check
 from ...errors import UrdftoolError
 from ...geometry.load import load_named
+from ...mechanics.reference import get_origin_matrix
 from ...model.elements import Collision, Ellipsoid, Geometry, Link, Mesh, Plane, Robot, Visual
 from ...model.shapes import get_shape_name
-from ..check import Check
-from ..mechanics import get_origin_matrix
 from .verify_pair import Pair
 
 Array = npt.NDArray[np.float64]

@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from ....compare.check import Check
 from ....model.elements import Robot
 from ....model.load import read_again
-from ...check import Check
 from ...common.force_fallbacks import drop_invalid_parts
 from ...written import Written
 from ..options import Options

@@ -7,8 +7,8 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
 
+from ....compare.check import Check
 from ....source.document import Element
-from ...check import Check
 
 Value = str | tuple[float, ...]
 Facts = dict[str, Value]

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....compare.check import Check
 from ....model.read import parse_numbers
 from ....model.settings import OF_LINKS, get_text
-from ...check import Check
 from .blocks import get_expected_joint_physics, get_settings_facts, list_elements_of_whole
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value

@@ -9,8 +9,8 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+from ....compare.check import Check
 from ....model.elements import Robot
-from ...check import Check
 from ..options import VERSIONS, Options
 from ..write import write
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ....compare.check import Check
 from ....model.elements import Joint, Link
 from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS
 from ....source.document import Element
-from ...check import Check
 from .blocks import NOWHERE, list_elements, list_elements_of_whole
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts

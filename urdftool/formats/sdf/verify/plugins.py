@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ....compare.check import Check
 from ....model.elements import Joint, Link
 from ....model.gazebo_plugins import (
     CONTROL_PLUGINS,
@@ -20,7 +21,6 @@ from ....model.gazebo_plugins import (
 )
 from ....model.read import number
 from ....source.document import Element
-from ...check import Check
 from .blocks import list_elements, list_elements_of_whole
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .mechanism import Array, make_pose, rotate_by_angles

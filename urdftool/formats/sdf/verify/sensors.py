@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ....compare.check import Check
 from ....model.elements import Joint, Link
 from ....model.gazebo_plugins import SENSOR_PLUGINS, get_library
 from ....model.read import number, parse_numbers
 from ....source.document import Element
-from ...check import Check
 from .blocks import list_elements
 from .dynamics import compute_poses
 from .excuses import BLOCKS

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...check import Check
+from ....compare.check import Check
 from .dynamics import compute_poses
 from .mechanism import Array, Mechanism, Shape, invert_pose
 from .source import get_base

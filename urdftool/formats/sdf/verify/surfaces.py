@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ....compare.check import Check
 from ....errors import UrdftoolError
 from ....model.elements import Collision, Link, Material, Visual
 from ....model.gazebo_colors import COLORS
 from ....model.settings import OF_LINKS, get_text
 from ....source.document import Element
-from ...check import Check
 from .blocks import get_expected_surface, get_settings_facts, list_elements
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...check import Check
+from ....compare.check import Check
 from .facts import EXACT, compare_facts, get_facts, get_value
 
 if TYPE_CHECKING:

@@ -2,8 +2,8 @@
 
 import pytest
 
+from urdftool.compare.compare import compare_robots
 from urdftool.formats.registry import format_named
-from urdftool.formats.verify.compare import compare_robots
 
 LINK = """<link name="{name}"><inertial><origin xyz="{com}"/><mass value="{mass}"/>
 <inertia ixx="{ixx}" ixy="0" ixz="0" iyy="{iyy}" iyz="0" izz="{izz}"/></inertial>{more}</link>

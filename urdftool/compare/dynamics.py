@@ -8,10 +8,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...model.elements import Joint
-from ...model.kinematics import get_limits
-from ...model.provenance import NOWHERE
-from ..mechanics import SLIDING, TURNING, Array, Mechanics
+from ..mechanics.reference import SLIDING, TURNING, Array, Mechanics
+from ..model.elements import Joint
+from ..model.kinematics import get_limits
+from ..model.provenance import NOWHERE
 from .difference import Comparison, Difference
 from .pair import Pair
 from .rows import GLOBAL_ROWS

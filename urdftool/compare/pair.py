@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...model.elements import Link, Robot
-from ...model.part import Part
-from ...model.provenance import NOWHERE
-from ...source.location import Place
-from ..detect import format_of
-from ..mechanics import Array
+from ..mechanics.reference import Array
+from ..model.elements import Link, Robot
+from ..model.part import Part
+from ..model.provenance import NOWHERE
+from ..source.location import Place
 from .bodies import Bodies, Body, find_locked_joints
 from .difference import Comparison, Difference
 from .mesh_measure import MeshMeasures
@@ -37,7 +36,7 @@ class Pair:
     @property
     def formats(self) -> tuple[str, str]:
         """Return the names of the formats of both robots."""
-        return get_format(self.a), get_format(self.b)
+        return self.a.robot.format, self.b.robot.format
 
     def match_members(self, one: Body, two: Body) -> list[tuple[str, str]]:
         """Return the links of two bodies that have equal or mapped names."""
@@ -110,12 +109,6 @@ class Match:
     one: Body
     two: Body
     frame: Array
-
-
-def get_format(bodies: Bodies) -> str:
-    """Return the name of the format of a robot; ``urdf`` for one without a file."""
-    source = bodies.robot.source
-    return "urdf" if source is None else format_of(source.document.file).name
 
 
 def locate(part: Part | None, owner: Part | None) -> Place:

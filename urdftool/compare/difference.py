@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...source.location import Place
-from ..check import Check
+from ..source.location import Place
+from .check import Check
 from .rows import Row
 
 

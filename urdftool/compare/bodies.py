@@ -9,12 +9,12 @@ from functools import cached_property
 
 import numpy as np
 
-from ...errors import ModelError
-from ...model.elements import Joint, Link, Robot
-from ...model.kinematics import get_limits
-from ...model.mechanism import Frame
-from ...model.world import WORLD
-from ..mechanics import Array, get_origin_matrix, turn
+from ..errors import ModelError
+from ..mechanics.reference import Array, get_origin_matrix, turn
+from ..model.elements import Joint, Link, Robot
+from ..model.kinematics import get_limits
+from ..model.mechanism import Frame
+from ..model.world import WORLD
 
 HINGES = ("revolute", "continuous")
 

@@ -3,7 +3,7 @@
 import pytest
 
 import urdftool as api
-from urdftool.formats.verify.compare import compare_robots
+from urdftool.compare.compare import compare_robots
 
 LIMB = '<geom type="sphere" size="0.1"/>'
 MJCF = f"""<mujoco model="m"><worldbody><body name="a">{LIMB}<body name="b"><joint name="j"/>{LIMB}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...model.elements import Joint
-from ..mechanics import Array
+from ..mechanics.reference import Array
+from ..model.elements import Joint
 from .difference import Difference
 from .frames import describe_motion, describe_pose, invert, measure_largest, measure_pose
 from .pair import Match, Pair, locate

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...errors import ConfigError
-from ...suggestions import suggest_name
+from ..errors import ConfigError
+from ..suggestions import suggest_name
 
 
 class Row(NamedTuple):

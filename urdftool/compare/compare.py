@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...model.elements import Joint, Robot
-from ...model.world import WORLD
-from ..mechanics import Array
+from ..mechanics.reference import Array
+from ..model.elements import Joint, Robot
+from ..model.world import WORLD
 from .bodies import Body, compute_axis
 from .difference import Comparison, Difference
 from .dynamics import compare_dynamics

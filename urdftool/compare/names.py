@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import ConfigError
+from ..errors import ConfigError
 
 
 class NameMap(NamedTuple):

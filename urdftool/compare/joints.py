@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...model.elements import Joint, Limit
-from ...model.kinematics import get_limits
-from ...model.part import Part
-from ..mechanics import Array
+from ..mechanics.reference import Array
+from ..model.elements import Joint, Limit
+from ..model.kinematics import get_limits
+from ..model.part import Part
 from .bodies import HINGES, compute_axis
 from .difference import Comparison, Difference
 from .frames import format_vector

@@ -6,10 +6,10 @@ import jsonschema
 import pytest
 
 from tests.conftest import ROOT
+from urdftool.compare.compare import compare_robots
+from urdftool.compare.names import match_names, read_map
+from urdftool.compare.rows import select_rows
 from urdftool.formats.registry import format_named
-from urdftool.formats.verify.compare import compare_robots
-from urdftool.formats.verify.names import match_names, read_map
-from urdftool.formats.verify.rows import select_rows
 
 URDF = """<robot name="arm">
 <link name="base"><inertial><mass value="4"/>

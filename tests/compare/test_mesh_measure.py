@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from urdftool.formats.mechanics import turn
-from urdftool.formats.verify.mesh_measure import MeshMeasures, measure_distance
+from urdftool.compare.mesh_measure import MeshMeasures, measure_distance
+from urdftool.mechanics.reference import turn
 from urdftool.model.load import load
 
 TETRAHEDRON = """v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nv 9 9 9

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..mechanics import Array
+from ..mechanics.reference import Array
 
 
 def invert(pose: Array) -> Array:

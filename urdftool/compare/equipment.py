@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...compare.change import Change
-from ...compare.extensions import compare_extensions
-from ...compare.mechanisms import compare_mechanisms
-from ...model.provenance import NOWHERE
-from ...model.settings import JOINT_TAGS, LINK_TAGS
+from ..model.provenance import NOWHERE
+from ..model.settings import JOINT_TAGS, LINK_TAGS
+from .change import Change
 from .difference import Comparison, Difference
+from .extensions import compare_extensions
+from .mechanisms import compare_mechanisms
 from .pair import Pair
 
 _BLOCKS = "simulator data"

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...model.elements import (
+from ..mechanics.reference import Array, get_origin_matrix
+from ..model.elements import (
     Box,
     Capsule,
     Collision,
@@ -23,9 +24,8 @@ from ...model.elements import (
     Sphere,
     Visual,
 )
-from ...model.gazebo_colors import get_rgba
-from ...model.shapes import get_shape_name
-from ..mechanics import Array, get_origin_matrix
+from ..model.gazebo_colors import get_rgba
+from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import describe_pose, format_vector, invert, measure_largest

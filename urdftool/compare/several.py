@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 
-from ...model.elements import Robot
-from ...source.location import Place
+from ..model.elements import Robot
+from ..source.location import Place
 from .compare import compare_robots
 from .difference import Comparison, Difference
 from .mesh_measure import MeshMeasures

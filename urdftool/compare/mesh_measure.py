@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ...errors import UrdftoolError
-from ...geometry.load import load_mesh
-from ...model.elements import Mesh, Robot
-from ..mechanics import Array
+from ..errors import UrdftoolError
+from ..geometry.load import load_mesh
+from ..mechanics.reference import Array
+from ..model.elements import Mesh, Robot
 
 _HEAD = 4096
 """Bytes of an OBJ in which its file of materials is named."""

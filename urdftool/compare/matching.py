@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...model.elements import Joint
-from ...model.kinematics import get_limits
-from ..mechanics import Array, compute_mass_properties
+from ..mechanics.reference import Array, compute_mass_properties
+from ..model.elements import Joint
+from ..model.kinematics import get_limits
 from .bodies import Bodies, Body, compute_axis
 from .joints import get_kind
 

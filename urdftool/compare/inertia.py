@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ...mechanics.tensor import get_noise
-from ...model.elements import Link
-from ..mechanics import Array, compute_mass_properties
+from ..mechanics.reference import Array, compute_mass_properties
+from ..mechanics.tensor import get_noise
+from ..model.elements import Link
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import format_vector
