@@ -4,6 +4,7 @@ Modules are imported separately (this package imports nothing). As mechanisms, f
 for the proof of an export:
 
 - ``compare``: ``compare_robots``, the comparison of two robots; ``several``: all pairs of several;
+- ``proof``: ``prove``, the comparison of an export with its source, with its declared losses;
 - ``rows``, ``difference``: compared properties, and the differences that were found;
 - ``check``: one row of the table of an export;
 - ``bodies``: rigid bodies that links connected by fixed joints form;

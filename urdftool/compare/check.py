@@ -17,6 +17,7 @@ class Check:
         worst: The largest difference.
         differing: Descriptions of unreported differences.
         announced: Descriptions of differences that the export reported.
+        skipped: Why the property was not compared; empty if it was.
     """
 
     name: str
@@ -25,12 +26,19 @@ class Check:
     worst: float = 0.0
     differing: list[str] = field(default_factory=list)
     announced: list[str] = field(default_factory=list)
+    skipped: str = ""
 
     @property
     def verdict(self) -> str:
-        """Return ``equal``, ``announced`` (every difference was reported) or ``differs``."""
+        """Return the result of the comparison.
+
+        It is ``equal``, ``announced`` (every difference was reported), ``differs``, or ``not
+        compared``.
+        """
         if self.differing:
             return "differs"
+        if self.skipped:
+            return "not compared"
         return "announced" if self.announced else "equal"
 
     def compare(self, difference: float, item: str, *, known: bool = False) -> None:
@@ -60,6 +68,7 @@ class Check:
             "verdict": self.verdict,
             "differing": self.differing,
             "announced": self.announced,
+            "skipped": self.skipped,
         }
 
 

@@ -51,6 +51,11 @@ ROWS = (
 GLOBAL_ROWS = ("mass matrix", "gravity")
 """Properties of the whole robot, which follow from those of its parts."""
 
+EQUIPMENT_ROWS = (
+    *("sensors", "actuators", "contact pairs", "loops", "configurations", "simulator data"),
+)
+"""Properties that are compared in two files of one format."""
+
 NOT_COMPARED = ("textures", "contact bits", "world settings", "plugins of SDF")
 """Parts of a description that are not compared."""
 

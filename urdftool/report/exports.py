@@ -46,12 +46,15 @@ def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> st
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
     lines: list[str] = []
     for check in checks:
-        worst = "-" if check.tolerance == 0 and check.worst == 0 else f"{check.worst:.1e}"
+        is_exact = check.tolerance == 0 and check.worst == 0
+        worst = "-" if is_exact or check.skipped else f"{check.worst:.1e}"
         bound = "exact" if check.tolerance == 0 else f"{check.tolerance:.0e}"
         rows.append((check.name, check.what, worst, bound, check.verdict))
         lines += [f"{check.name}: differs: {item}" for item in check.differing]
         if check.announced:
             lines.append(f"{check.name}: announced: {_format_some(check.announced)}")
+        if check.skipped:
+            lines.append(f"{check.name}: not compared: {check.skipped}")
     if not_compared:
         lines.append(f"not compared: {', '.join(not_compared)}")
     table = render_table(rows, left=range(5), rule=True)

@@ -6,9 +6,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ...compare.check import Check
-from ...compare.compare import compare_robots
-from ...compare.difference import Comparison
-from ...compare.names import NameMap
+from ...compare.proof import Claims, Excuse, prove
+from ...compare.rows import EQUIPMENT_ROWS, ROWS
 from ...model.elements import Robot
 from ..common.directory import write_export
 from ..common.losses import DeclaredLosses
@@ -20,17 +19,16 @@ from .verify_extensions import check_extensions
 NOT_COMPARED = ("contact bits", "textures", "world settings", "closed loops")
 """Parts of a description that no check compares."""
 
-_CODES = {
-    "tree": ("lossy-ball", "lossy-screw"),
-    "collisions": ("lossy-shape",),
-    "visuals": ("lossy-shape",),
-    "surface": ("lossy-surface",),
-    "joint physics": ("lossy-spring",),
-}
-"""Codes of the losses that explain a difference, by row."""
+_EXCUSES = (
+    Excuse(("tree",), frozenset(("lossy-ball", "lossy-screw")), ends=("_x", "_y", "_z")),
+    Excuse(("collisions", "visuals"), frozenset(("lossy-shape",))),
+    Excuse(("surface",), frozenset(("lossy-surface",))),
+    Excuse(("joint physics",), frozenset(("lossy-spring",))),
+)
+"""Rows whose differences a loss explains."""
 
-_ENDS = ("", "_x", "_y", "_z")
-"""Ends of the names of hinges in place of a ball joint."""
+_EXTENSIONS = {"urdf": ("simulator data",)}
+"""Rows of extensions by the format of the source; ``verify_extensions.py`` compares the others."""
 
 
 def check_unwritten(
@@ -61,30 +59,12 @@ def check_output(
 
 
 def _compare(robot: Robot, written: Written, path: Path) -> list[Check]:
-    renamed = {
-        kind: {old: new for (of, old), new in written.renamed.items() if of == kind}
-        for kind in ("joint", "link")
-    }
-    names = NameMap(renamed["joint"], renamed["link"])
-    result, declared = read(path).robot, DeclaredLosses.from_findings(written.losses)
-    checks = _make_checks(compare_robots(robot, result, names=names), declared)
+    reading = read(path)
+    claims = Claims(written.losses, written.renamed, _EXCUSES, reading.losses)
+    more = _EXTENSIONS.get(robot.format, ())
+    rows = [row for row in ROWS if row.name not in EQUIPMENT_ROWS or row.name in more]
+    checks = prove(robot, reading.robot, claims, rows=rows)
     if robot.xml is None:  # the extensions of a URDF source are copied
-        checks += check_extensions(robot, result, path, written.renamed, declared)
-    return checks
-
-
-def _make_checks(comparison: Comparison, declared: DeclaredLosses) -> list[Check]:
-    """Return the rows, in which declared losses are announced differences."""
-    checks = comparison.make_checks()
-    for check in checks:
-        codes = _CODES.get(check.name, ())
-        for difference in comparison.differences:
-            if difference.row == check.name and difference.title in check.differing:
-                names = [name.removesuffix(end) for name in difference.names for end in _ENDS]
-                known = declared.has_for(codes, *names)
-                if check.name in ("mass matrix", "gravity"):
-                    known = declared.has_any("lossy-ball", "lossy-screw")
-                if known or difference.is_convention:
-                    check.differing.remove(difference.title)
-                    check.announced.append(difference.title)
+        declared = DeclaredLosses.from_findings(written.losses)
+        checks += check_extensions(robot, reading.robot, path, written.renamed, declared)
     return checks

@@ -1,0 +1,245 @@
+"""Proof of an export: the robot that is read back from its file, compared with the source.
+
+An export declares what it loses, each loss with a code and the name of its link or joint. A table
+of :class:`Excuse` of each format says which rows a code explains, and for which parts. A difference
+that no loss explains fails the proof. Messages are not read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple, Protocol
+
+from ..diagnostic import Severity
+from ..errors import ModelError
+from ..model.elements import Joint, Link, Robot
+from ..model.world import WORLD
+from .check import Check
+from .compare import compare_robots
+from .difference import Comparison, Difference
+from .mesh_measure import MeshMeasures
+from .names import NameMap
+from .rows import GLOBAL_ROWS, ROWS, Row
+
+Extent = Literal["part", "body", "below", "robot"]
+"""Parts whose difference a loss explains.
+
+``part`` is the link or joint of the loss, ``body`` every link that fixed joints connect to it,
+``below`` it and all below it in the tree, ``robot`` everything.
+"""
+
+_MOTION = frozenset(
+    ("tree", "frames", "axes", "mass", "center of mass", "inertia", "base", "joint physics")
+)
+"""Rows on which the rows of the whole robot depend."""
+
+_SHOWN = 9
+"""Digits of the numbers in a difference; chosen, above the strictest tolerance of 1e-9."""
+
+
+class Loss(Protocol):
+    """A loss that an export or its reading declares."""
+
+    code: str
+    message: str
+    name: str
+    severity: Severity
+
+
+class Excuse(NamedTuple):
+    """Differences that losses explain.
+
+    Attributes:
+        rows: Names of the rows.
+        codes: Codes of the losses.
+        extent: Parts that are explained.
+        ends: Ends of the names of parts that replace one, such as ``_x``.
+        least: Least severity of the losses.
+    """
+
+    rows: tuple[str, ...]
+    codes: frozenset[str]
+    extent: Extent = "part"
+    ends: tuple[str, ...] = ()
+    least: Severity = Severity.INFO
+
+
+@dataclass
+class Claims:
+    """What an export says about itself.
+
+    Attributes:
+        losses: Declared losses.
+        renamed: New names by ``kind`` and old name.
+        excuses: Differences that codes of losses explain.
+        unread: What the reader does not hold of the exported file.
+    """
+
+    losses: Sequence[Loss] = ()
+    renamed: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    excuses: Sequence[Excuse] = ()
+    unread: Sequence[Loss] = ()
+
+    @property
+    def names(self) -> NameMap:
+        """Return the new names of joints and links."""
+        return NameMap(*(
+            {old: new for (of, old), new in self.renamed.items() if of == kind}
+            for kind in ("joint", "link")
+        ))  # fmt: skip
+
+
+def limit_tolerances(tolerance: float, rows: Iterable[Row] = ROWS) -> tuple[Row, ...]:
+    """Return rows with a tolerance of at most the given one."""
+    return tuple(row._replace(tolerance=min(row.tolerance, tolerance)) for row in rows)
+
+
+def prove(
+    source: Robot,
+    result: Robot,
+    claims: Claims,
+    *,
+    rows: Sequence[Row] = ROWS,
+    meshes: MeshMeasures | None = None,
+) -> list[Check]:
+    """Compare an export, which was read back, with its source.
+
+    Args:
+        source: The robot that was exported, of one or, if that was forced, several trees.
+        result: The robot of the exported file.
+        claims: Declared losses and new names.
+        rows: Properties to compare, with the tolerances of the format.
+        meshes: Meshes that have been measured before.
+
+    Returns:
+        A row for each property, also for those that could not be compared, and one for what the
+        result does not hold.
+    """
+    one, two = join_trees(source), join_trees(result)
+    try:
+        comparison = compare_robots(one, two, rows=rows, names=claims.names, meshes=meshes)
+    except ModelError as error:
+        return [Check("tree", "links and joints", 0.0, differing=[error.message])]
+    return [*make_checks(one, comparison, claims), *_list_unread(comparison, claims)]
+
+
+def join_trees(robot: Robot) -> Robot:
+    """Return a robot of several trees with its roots on a link ``world``, where they move freely.
+
+    A reader of SDF does the same with a model of several trees.
+    """
+    roots = [link.name for link in robot.tree.roots if link.name != WORLD]
+    if len(robot.tree.roots) < 2:
+        return robot
+    links = robot.links if WORLD in robot.link else [Link(robot.provenance, WORLD), *robot.links]
+    joints = [Joint(None, f"{name}_floating", "floating", WORLD, name) for name in roots]
+    return replace(robot, links=links, joints=[*robot.joints, *joints], base=None)
+
+
+def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[Check]:
+    """Return a row for each compared property, in which explained differences are announced.
+
+    Args:
+        source: The first robot of the comparison.
+        comparison: The comparison.
+        claims: Declared losses.
+    """
+    back = {new: old for (_, old), new in claims.renamed.items()}
+    explained = [(excuse, _find_explained(source, excuse, claims)) for excuse in claims.excuses]
+    checks = {row.name: _start_check(row, comparison) for row in comparison.rows}
+    ordered = sorted(comparison.differences, key=lambda d: d.row in GLOBAL_ROWS)
+    for difference in ordered:
+        check = checks[difference.row]
+        names = _list_names(source, difference, back)
+        known = difference.is_convention or any(
+            difference.row in excuse.rows and (parts is None or not parts.isdisjoint(names))
+            for excuse, parts in explained
+        )
+        if difference.row in GLOBAL_ROWS:
+            known = known or any(checks[row].announced for row in _MOTION & checks.keys())
+        place = check.announced if known else check.differing
+        text = describe(difference)
+        if text not in place:
+            place.append(text)
+    return list(checks.values())
+
+
+def describe(difference: Difference) -> str:
+    """Describe a difference with both values."""
+    one, two = difference.values
+    owner = f"{difference.kind} '{difference.name}': " if difference.name else ""
+    title = owner + difference.what
+    if difference.is_convention or difference.row in GLOBAL_ROWS:
+        return f"{title}: {difference.note}" if difference.note else title
+    if two is None:
+        return f"{title} is missing"
+    if one is None:
+        return f"{title} is not in the source"
+    return f"{title} is {_format(two)}, not {_format(one)}"
+
+
+def _format(value: object) -> str:
+    return f"{value:.{_SHOWN}g}" if isinstance(value, float) else str(value)
+
+
+def _start_check(row: Row, comparison: Comparison) -> Check:
+    worst = comparison.worst.get(row.name, 0.0)
+    return Check(
+        row.name, row.what, row.tolerance, worst, skipped=comparison.skipped.get(row.name, "")
+    )
+
+
+def _list_names(source: Robot, difference: Difference, back: Mapping[str, str]) -> set[str]:
+    """Return the parts of the source that a difference concerns."""
+    one, two = difference.names
+    if one:
+        return {one}
+    name = back.get(two, two)
+    return {name, *_list_body(source, name)}
+
+
+def _find_explained(source: Robot, excuse: Excuse, claims: Claims) -> frozenset[str] | None:
+    """Return the names of the parts whose difference is explained; None for all."""
+    names: set[str] = set()
+    for loss in claims.losses:
+        if loss.code in excuse.codes and loss.severity >= excuse.least:
+            if excuse.extent == "robot":
+                return None
+            names |= {loss.name, *(loss.name + end for end in excuse.ends)}
+            names |= set(_list_extent(source, excuse.extent, loss.name))
+    return frozenset(names)
+
+
+def _list_extent(source: Robot, extent: Extent, name: str) -> Iterator[str]:
+    if extent == "body":
+        yield from _list_body(source, name)
+    elif extent == "below":
+        top = source.joint[name].child if name in source.joint else name
+        if top in source.link:
+            links = {top, *source.tree.list_descendants(top)}
+            yield from links
+            yield from (joint.name for joint in source.joints if joint.parent in links)
+
+
+def _list_body(source: Robot, name: str) -> set[str]:
+    """Return the links that fixed joints connect to a link; none for another name."""
+    if name not in source.link:
+        return set()
+    found, todo = {name}, [name]
+    while todo:
+        link = todo.pop()
+        for joint in source.joints:
+            ends = {joint.parent, joint.child}
+            if joint.is_fixed and link in ends and not ends <= found:
+                todo += ends - found
+                found |= ends
+    return found
+
+
+def _list_unread(comparison: Comparison, claims: Claims) -> list[Check]:
+    """Return a row for what a format lacks, or its reader does not hold; none without such."""
+    texts = [f"not read, so not compared: {loss.message}" for loss in claims.unread]
+    texts += comparison.not_comparable
+    what = "what one of the files does not have, or the reader does not read"
+    return [Check("other data", what, 0.0, skipped="; ".join(texts))] if texts else []
