@@ -42,17 +42,19 @@ def verify(
         ConfigError: Fewer than two robots are given, a row is unknown, or ``names`` is malformed.
         MissingDependency: A file is MJCF, and MuJoCo is not installed.
     """
-    from ..compare.names import read_map
-    from ..compare.rows import select_rows
+    from ..compare.correspondence import Correspondence, read_correspondence
+    from ..compare.rows import select_rows, tighten
     from ..compare.several import compare_all
 
     if len(robots) < 2:
         raise ConfigError("verify compares at least two robots")
     rows = select_rows(",".join(only), tolerance)
-    lines = [] if names is None else read_map(Path(names), len(robots))
+    declared = Correspondence() if names is None else read_correspondence(Path(names), len(robots))
+    if declared.is_declared and tolerance is None:
+        rows = tighten(rows)
     paths = tuple(package_paths)
     read = [
         robot if isinstance(robot, Robot) else load(robot, packages=packages, package_paths=paths)
         for robot in robots
     ]
-    return compare_all(read, rows=rows, names=lines)
+    return compare_all(read, rows=rows, names=declared)

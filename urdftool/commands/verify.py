@@ -42,7 +42,10 @@ _GROUPS = {"Comparison": "only tolerance names", "Output": "style output"}
     "names",
     metavar="FILE",
     type=Path,
-    help='Names that belong together: lines "joint NAME_IN_A NAME_IN_B" or "link ...".',
+    help=(
+        'Names that belong together: lines "joint NAME_IN_A NAME_IN_B" or "link ...". Also '
+        'how B was made of A, such as "root OLD NEW".'
+    ),
 )
 @click.option(
     "--format",
@@ -81,8 +84,8 @@ def command(
 
     Exit code 1: the robots differ.
     """  # noqa: D301 -- click reads the escape
-    from ..compare.names import read_map
-    from ..compare.rows import select_rows
+    from ..compare.correspondence import Correspondence, read_correspondence
+    from ..compare.rows import select_rows, tighten
     from ..compare.several import compare_all
     from ..output import write_result
     from ..report import verification as report
@@ -96,11 +99,13 @@ def command(
     if paths.count("-") > 1:
         raise click.UsageError("only one of the robots can be standard input ('-')")
     rows = select_rows(only, tolerance)
-    lines = [] if names is None else read_map(names, len(sides))
+    declared = Correspondence() if names is None else read_correspondence(names, len(sides))
+    if declared.is_declared and tolerance is None:
+        rows = tighten(rows)
     robots = [
         load_tolerant(console, path, arguments, package, package_path) for path, arguments in sides
     ]
-    agreement = compare_all(robots, rows=rows, names=lines)
+    agreement = compare_all(robots, rows=rows, names=declared)
     text = (report.to_json if style == "json" else report.format_text)(paths, agreement)
     inputs = [file.path for robot in robots if robot.source for file in robot.source.files]
     write_result(text, output, inputs=inputs)

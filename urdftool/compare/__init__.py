@@ -9,6 +9,8 @@ for the proof of an export:
 - ``check``: one row of the table of an export;
 - ``bodies``: rigid bodies that links connected by fixed joints form;
 - ``names``: names of joints in one robot for those in the other;
+- ``correspondence``: files that declare how one robot was made of the other; ``conventions``: the
+  first in those of the second; ``declared``: their comparison, in which nothing is a convention;
 - ``matching``: joints without a common name, matched by the structure of the tree;
 - ``frames``, ``origins``: frames and origins of joints of one robot in the other;
 - ``pair``: both robots, with the names of the parts of one in the other;

@@ -22,7 +22,11 @@ EMPTY = NameMap({}, {})
 _KINDS = ("joint", "link")
 
 
-def read_map(path: Path, count: int) -> list[tuple[str, tuple[str, ...]]]:
+Line = tuple[str, tuple[str, ...]]
+"""``joint`` or ``link``, and a name in each robot."""
+
+
+def read_map(path: Path, count: int) -> list[Line]:
     """Read a file of names: on each line ``joint`` or ``link``, and its name in each robot.
 
     Text after ``#`` is a comment.
@@ -34,15 +38,8 @@ def read_map(path: Path, count: int) -> list[tuple[str, tuple[str, ...]]]:
     Raises:
         ConfigError: The file cannot be read, or a line has another form.
     """
-    try:
-        text = path.read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(f"cannot be read: {error}", path=path) from None
     found = []
-    for number, line in enumerate(text.splitlines(), 1):
-        words = line.partition("#")[0].split()
-        if not words:
-            continue
+    for number, words in read_lines(path):
         if words[0] not in _KINDS or len(words) != count + 1:
             names = " ".join("ABCDEFGH"[:count])
             raise ConfigError(
@@ -51,6 +48,29 @@ def read_map(path: Path, count: int) -> list[tuple[str, tuple[str, ...]]]:
             )
         found.append((words[0], tuple(words[1:])))
     return found
+
+
+def read_lines(path: Path) -> list[tuple[int, list[str]]]:
+    """Read number and words of each line that has words; a name with spaces is in double quotes.
+
+    Raises:
+        ConfigError: The file cannot be read.
+    """
+    try:
+        text = path.read_text("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError(f"cannot be read: {error}", path=path) from None
+    lines = [(n, split_words(line)) for n, line in enumerate(text.splitlines(), 1)]
+    return [(number, words) for number, words in lines if words]
+
+
+_WORD = re.compile(r'"([^"]*)"|([^\s#]+)|#.*')
+
+
+def split_words(line: str) -> list[str]:
+    """Split a line at spaces, except in double quotes; text after ``#`` is a comment."""
+    found = (match[1] if match[1] is not None else match[2] for match in _WORD.finditer(line))
+    return [word for word in found if word is not None]
 
 
 def get_pair(lines: Iterable[tuple[str, tuple[str, ...]]], one: int, two: int) -> NameMap:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from ..errors import ConfigError
@@ -58,6 +59,18 @@ EQUIPMENT_ROWS = (
 
 NOT_COMPARED = ("textures", "contact bits", "world settings", "plugins of SDF")
 """Parts of a description that are not compared."""
+
+
+DECLARED_TOLERANCE = 1e-6
+"""Largest tolerance of a robot that was computed from the other; the digits that most tools write.
+
+Chosen for edited descriptions, whose numbers are those of the first robot.
+"""
+
+
+def tighten(rows: Iterable[Row]) -> tuple[Row, ...]:
+    """Return rows with at most ``DECLARED_TOLERANCE``."""
+    return tuple(row._replace(tolerance=min(row.tolerance, DECLARED_TOLERANCE)) for row in rows)
 
 
 def select_rows(names: str, tolerance: float | None) -> tuple[Row, ...]:

@@ -9,9 +9,11 @@ from itertools import combinations
 from ..model.elements import Robot
 from ..source.location import Place
 from .compare import compare_robots
+from .correspondence import Correspondence
+from .declared import compare_declared
 from .difference import Comparison, Difference
 from .mesh_measure import MeshMeasures
-from .names import get_pair
+from .names import Line, get_pair
 from .rows import ROWS, Row
 
 Key = tuple[str, str, str, str]
@@ -135,19 +137,26 @@ def compare_all(
     robots: Sequence[Robot],
     *,
     rows: Sequence[Row] = ROWS,
-    names: Sequence[tuple[str, tuple[str, ...]]] = (),
+    names: Sequence[Line] | Correspondence = (),
 ) -> Agreement:
     """Compare all pairs of at least two robots.
 
     Args:
         robots: The robots.
         rows: Properties to compare.
-        names: Known names, as :func:`names.read_map` returns them.
+        names: Known names, as :func:`names.read_map` returns them, or how the second of two robots
+            was made of the first.
 
     Raises:
+        ConfigError: The first robot cannot be what the correspondence declares.
         ModelError: The links of a robot do not form a tree.
     """
     meshes = MeshMeasures()
+    if isinstance(names, Correspondence):
+        if names.is_declared:
+            result = compare_declared(robots[0], robots[1], names, rows=rows, meshes=meshes)
+            return Agreement(tuple(rows), {(0, 1): result})
+        names = names.names
     pairs = {
         (i, j): compare_robots(
             robots[i], robots[j], rows=rows, names=get_pair(names, i, j), meshes=meshes

@@ -1,0 +1,263 @@
+"""Comparison of a robot with one that was made of it, in the way that a correspondence declares.
+
+Nothing is a convention here: each name, frame and mass must be what the correspondence says.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import ConfigError
+from ..mechanics.reference import Array, Mechanics, compute_mass_properties
+from ..model.elements import Joint, Link, Robot
+from ..model.kinematics import get_limits
+from ..model.provenance import NOWHERE
+from .compare import compare_robots
+from .conventions import express_pair
+from .correspondence import Correspondence
+from .difference import Comparison, Difference
+from .frames import describe_motion, describe_pose, format_vector, invert, measure_largest
+from .mesh_measure import MeshMeasures
+from .names import NameMap, get_pair
+from .pair import locate
+from .rows import Row
+
+_CONFIGURATIONS = 6
+_WIDEST = 3.0
+"""Largest position of a joint [rad, m] at which poses are compared; chosen, no source."""
+
+
+def compare_declared(
+    a: Robot,
+    b: Robot,
+    declared: Correspondence,
+    *,
+    rows: Sequence[Row],
+    meshes: MeshMeasures | None = None,
+) -> Comparison:
+    """Compare two robots in the conventions of the second.
+
+    All that :func:`compare.compare_robots` compares is, and in addition: the names of links and
+    joints; the pose of each link at random positions of all joints; mass, center of mass and tensor
+    of each link in its frame, with those that were merged into it; soft limits and calibration.
+
+    Args:
+        a: The first robot.
+        b: The second, made of the first.
+        declared: How it was made.
+        rows: Properties to compare, with their tolerances.
+        meshes: Meshes that have been measured before.
+
+    Raises:
+        ConfigError: The first robot cannot be what is declared.
+        ModelError: The links of a robot do not form a tree.
+    """
+    a, b = express_pair(a, b, declared)
+    _check_merged(a, declared)
+    names = get_pair(declared.names, 0, 1)
+    comparison = compare_robots(a, b, rows=rows, names=names, meshes=meshes)
+    _count_conventions(comparison)
+    for difference in (
+        *_compare_links(a, b, names, declared),
+        *_compare_joints(a, b, names, declared),
+        *_compare_poses(a, b, names),
+        *_compare_masses(a, b, names, declared, comparison.tolerances.get("mass", 0.0)),
+    ):
+        comparison.add(difference)
+    return comparison
+
+
+def _check_merged(a: Robot, declared: Correspondence) -> None:
+    bodies = a.tree.bodies
+    for name, into in declared.merged_links.items():
+        for link in (name, into):
+            if link not in a.link:
+                raise ConfigError(f"merged link '{link}' is not in robot '{a.name}'")
+        if bodies[name] != bodies[into]:
+            raise ConfigError(f"link '{name}' is declared merged, but a joint moves it in '{into}'")
+
+
+def _count_conventions(comparison: Comparison) -> None:
+    """Make differences of conventions those of their rows, since none is declared."""
+    for number, difference in enumerate(comparison.differences):
+        if difference.is_convention:
+            comparison.differences[number] = replace(difference, is_convention=False)
+            comparison.worst[difference.row] = max(
+                comparison.worst.get(difference.row, 0.0), difference.amount
+            )
+
+
+def _list_expected(parts: Sequence[Link] | Sequence[Joint], names: dict[str, str]) -> list[str]:
+    return [names.get(part.name, part.name) for part in parts]
+
+
+def _compare_links(
+    a: Robot, b: Robot, names: NameMap, declared: Correspondence
+) -> Iterator[Difference]:
+    """Yield links that only one robot has, but virtual ones."""
+    merged = declared.merged_links
+    expected = set()
+    for link in a.links:
+        name = names.links.get(link.name, link.name)
+        expected.add(name)
+        if (name in b.link) != (link.name not in merged) and not link.is_virtual:
+            values = ("merged", "there") if link.name in merged else (name, None)
+            yield _make("frames", "link", (link.name, ""), "name", values, math.inf, link)
+    for link in b.links:
+        if link.name not in expected and not link.is_frame:
+            yield _make(
+                "frames", "link", ("", link.name), "name", (None, link.name), math.inf, link
+            )
+
+
+def _compare_joints(
+    a: Robot, b: Robot, names: NameMap, declared: Correspondence
+) -> Iterator[Difference]:
+    """Yield joints that only the first robot has, and differences of soft limits."""
+    for joint in a.joints:
+        name = names.joints.get(joint.name, joint.name)
+        child = a.link.get(joint.child)
+        if child is None or child.name in declared.merged_links or joint.parent not in a.link:
+            continue
+        if name not in b.joint:
+            if not a.link[joint.parent].is_virtual:
+                values = name, None
+                yield _make("tree", "joint", (joint.name, ""), "name", values, math.inf, joint)
+            continue
+        yield from _compare_references(joint, b.joint[name])
+
+
+_REFERENCES = {
+    "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),
+    "calibration": ("rising", "falling", "reference_position"),
+}
+
+
+def _compare_references(x: Joint, y: Joint) -> Iterator[Difference]:
+    """Yield differences of soft limits and of calibration, which the rows do not compare."""
+    for tag, attributes in _REFERENCES.items():
+        one, two = getattr(x, tag), getattr(y, tag)
+        for attribute in attributes:
+            before, after = getattr(one, attribute, None), getattr(two, attribute, None)
+            amount = 0.0 if before == after else math.inf
+            if before is not None and after is not None:
+                amount = abs(before - after)
+            values = before, after
+            what = attribute.replace("_", " ")
+            yield Difference(
+                *("limits", "joint", (x.name, y.name), what, values, "", amount),
+                (locate(one, x), locate(two, y)),
+            )
+
+
+def _make(
+    row: str,
+    kind: str,
+    names: tuple[str, str],
+    what: str,
+    values: tuple[object, object],
+    amount: float,
+    part: Link | Joint,
+) -> Difference:
+    """Return the difference of a part that one robot has."""
+    here = locate(part, None)
+    places = (here, NOWHERE) if names[0] else (NOWHERE, here)
+    return Difference(row, kind, names, what, values, "", amount, places)
+
+
+def _compare_poses(a: Robot, b: Robot, names: NameMap) -> Iterator[Difference]:
+    """Yield the first link of a branch whose pose differs at random positions of all joints."""
+    one, two = Mechanics(a), Mechanics(b)
+    pairs = [(link, b.link.get(names.links.get(link.name, link.name))) for link in a.links]
+    known = {x.name: y for x, y in pairs if y is not None}
+    if one.root not in known:
+        return
+    offsets = dict.fromkeys(known, np.eye(4))
+    poses: dict[str, tuple[Array, Array]] = {}
+    generator = random.Random(0)
+    for number in range(_CONFIGURATIONS):
+        here = {j.name: _draw(j, generator) if number else 0.0 for j in one.joints}
+        there = {names.joints.get(name, name): value for name, value in here.items()}
+        frames, frames2 = one.compute_frames(here), two.compute_frames(there)
+        back = invert(frames2[known[one.root].name])
+        for name, other in known.items():
+            x, y = frames[name], back @ frames2[other.name]
+            offset = invert(x) @ y
+            if name not in poses or measure_largest(offset) > measure_largest(offsets[name]):
+                offsets[name], poses[name] = offset, (x, y)
+    wrong: set[str] = set()
+    for name in a.tree.order:
+        if name not in known:
+            continue
+        amount = measure_largest(offsets[name])
+        if not wrong.isdisjoint(a.tree.list_ancestors(name)):
+            continue
+        if amount > 1e-9:
+            wrong.add(name)
+        x, y = poses[name]
+        yield Difference(
+            *("frames", "link", (name, known[name].name), "pose at random positions"),
+            *((describe_pose(x), describe_pose(y)), "m, rad", amount),
+            (locate(a.link[name], None), locate(known[name], None)),
+            describe_motion(offsets[name]),
+        )
+
+
+def _draw(joint: Joint, generator: random.Random) -> float:
+    lower, upper = (max(-_WIDEST, min(_WIDEST, value)) for value in get_limits(joint))
+    return generator.uniform(lower, upper) if lower < upper else generator.uniform(-1.0, 1.0)
+
+
+def _compare_masses(
+    a: Robot, b: Robot, names: NameMap, declared: Correspondence, floor: float
+) -> Iterator[Difference]:
+    """Yield differences of the mass properties of links, with those merged into them."""
+    frames = Mechanics(a).compute_frames({})
+    groups: dict[str, list[str]] = {}
+    for link in a.links:
+        groups.setdefault(declared.merged_links.get(link.name, link.name), []).append(link.name)
+    for name, members in groups.items():
+        other = b.link.get(names.links.get(name, name))
+        if other is None or name not in frames:
+            continue
+        back = invert(frames[name])
+        one = _combine([(a.link[member], back @ frames[member]) for member in members])
+        two = _combine([(other, np.eye(4))])
+        places = locate(a.link[name].inertial, a.link[name]), locate(other.inertial, other)
+        ends = (name, other.name)
+        unit = abs(one[0] - two[0]) / max(one[0], two[0], 1e-12)
+        masses = one[0], two[0]
+        yield Difference("mass", "link", ends, "own mass", masses, "kg", unit, places)
+        if unit > floor or not one[0]:
+            continue
+        texts = format_vector(one[1]), format_vector(two[1])
+        size = float(np.linalg.norm(one[1] - two[1]))
+        what = "own center of mass"
+        yield Difference("center of mass", "link", ends, what, texts, "m", size, places)
+        texts = (_format_tensor(one[2]), _format_tensor(two[2]))
+        scale = max(float(np.trace(one[2])), float(np.trace(two[2])), 1e-15)
+        size = float(np.abs(one[2] - two[2]).max()) / scale
+        yield Difference("inertia", "link", ends, "own tensor", texts, "kg·m²", size, places)
+
+
+def _combine(links: list[tuple[Link, Array]]) -> tuple[float, Array, Array]:
+    """Return mass, center of mass and tensor about it of links at poses."""
+    found = [part for link, pose in links if (part := compute_mass_properties(link, pose))]
+    if len(found) == 1:
+        return found[0]
+    mass = math.fsum(part[0] for part in found)
+    center = sum((m * c for m, c, _ in found), np.zeros(3)) / (mass or 1.0)
+    tensor = np.zeros((3, 3))
+    for m, c, inertia in found:
+        arm = c - center
+        tensor += inertia + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return mass, center, tensor
+
+
+def _format_tensor(tensor: Array) -> str:
+    return format_vector(tensor[np.triu_indices(3)])
