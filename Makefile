@@ -77,20 +77,20 @@ site: $(VENV)/.docs
 # What urdftool is measured beside: the other tools in an environment of their own, then all that
 # takes no long time, into docs/benchmarks.md; `make fidelity` takes longer, for docs/fidelity.md.
 bench: $(VENV)/.dev
-	$(BIN)/python -m tests.benchmarks --write
+	$(BIN)/python -m measure.benchmarks --write
 
 bench-peers: $(VENV)/.dev
-	$(BIN)/python -m tests.benchmarks.peers
+	$(BIN)/python -m measure.benchmarks.peers
 
 fidelity: $(VENV)/.dev
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,fidelity]'
-	$(BIN)/python -m tests.benchmarks.fidelity --write --jobs 2
+	$(BIN)/python -m measure.benchmarks.fidelity --write --jobs 2
 
-# a case again: python -m tests.fuzz --seed 2026 --only NUMBER
+# a case again: python -m measure.fuzz --seed 2026 --only NUMBER
 CASES ?= 20000
 fuzz: $(VENV)/.dev
 	@mkdir -p build
-	$(BIN)/python -m tests.fuzz --seed 2026 --cases $(CASES) --log build/fuzz.jsonl --write
+	$(BIN)/python -m measure.fuzz --seed 2026 --cases $(CASES) --log build/fuzz.jsonl --write
 
 platforms: $(VENV)/.dev
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check nox
@@ -98,11 +98,11 @@ platforms: $(VENV)/.dev
 
 # what commands print and write: `make record` before a change, `make compare` after it
 record: $(VENV)/.dev
-	$(BIN)/python -m tests.record record build/record
+	$(BIN)/python -m measure.record record build/record
 
 compare: $(VENV)/.dev
-	$(BIN)/python -m tests.record record build/record-now
-	$(BIN)/python -m tests.record compare build/record build/record-now
+	$(BIN)/python -m measure.record record build/record-now
+	$(BIN)/python -m measure.record compare build/record build/record-now
 
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,6 +1,6 @@
 """Step every robot as exported to MJCF: ``python -m tests.runs [--only WORD] [--jobs N]``.
 
-Robots of example-robot-data (in the environment of ``tests.benchmarks.peers``) and of pybullet_data
+Robots of example-robot-data (in the environment of ``measure.benchmarks.peers``) and pybullet_data
 are exported, held at home by their own actuators (by position actuators where they have none),
 and stepped in MuJoCo for 2 s at 2 ms and 5 ms. The table has a line for each that does not run.
 """
@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from measure.benchmarks.robots import bullet_robots, example_folder, example_robots
 from urdftool.errors import UrdftoolError
 from urdftool.formats.common.directory import write_directory
 from urdftool.formats.defects import Refused
@@ -23,8 +24,6 @@ from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify_runs import TIMESTEPS, run_at_home
 from urdftool.formats.mjcf.write import write
 from urdftool.model.load import load
-
-from .benchmarks.robots import bullet_robots, example_folder, example_robots
 
 
 @dataclass

@@ -43,7 +43,7 @@ def test_files_exist():
     files = set(re.findall(r"`((?:[\w]+/)*\w+\.py)\b", PAGE))
     known = [
         f"/{path.relative_to(ROOT).as_posix()}"
-        for top in ("urdftool", "tests", "docs")
+        for top in ("urdftool", "tests", "measure", "docs")
         for path in (ROOT / top).rglob("*.py")
     ]
     missing = [

@@ -2,8 +2,8 @@
 
 import pytest
 
-from tests.benchmarks.heavy import CORPUS
-from tests.benchmarks.robots import example_folder
+from measure.benchmarks.heavy import CORPUS
+from measure.benchmarks.robots import example_folder
 from tests.collision.independent import reach_and_excess
 from tests.collision.test_measure import TOO_LOW
 from urdftool.collision.choose import choose

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.benchmarks.collision_auto import make
+from measure.benchmarks.collision_auto import make
 from tests.conftest import FIXTURES
 
 pytestmark = [

@@ -2,10 +2,10 @@
 
 import pytest
 
-from tests.benchmarks.robots import example_robots
-from tests.verification.__main__ import measure
-from tests.verification.round_trips import make_trip
-from tests.verification.sample import draw
+from measure.benchmarks.robots import example_robots
+from measure.verification.__main__ import measure
+from measure.verification.round_trips import make_trip
+from measure.verification.sample import draw
 from urdftool.errors import UrdftoolError
 
 ROBOTS = example_robots()

@@ -117,8 +117,8 @@ def test_a_change_of_a_model_with_merged_links_is_found(what):
 
     from lxml import etree
 
-    from tests.planted.measure import FOLDER, MJCF
-    from tests.planted.mjcf import CHANGES
+    from measure.planted.measure import FOLDER, MJCF
+    from measure.planted.mjcf import CHANGES
 
     source, options = load(FOLDER / "everything.urdf"), replace(MJCF, fuse=True)
     written = write_mjcf(source, options)

@@ -1,0 +1,209 @@
+"""``python -m measure.precision``: draw findings of real robots, for a person to judge.
+
+    python -m measure.precision [--by finding|rule] [--only robots] [--seed N] [--count N]
+    python -m measure.precision --page
+
+The first prints JSON lines, the second writes the page.
+
+The descriptions of example-robot-data, pybullet_data and the corpus, where they are installed, are
+checked with the defaults. Findings are drawn from all, or from the rules in turn, at most one of a
+robot and rule. ``--only robots`` leaves out what ``robots.py`` knows to be no robot: inputs of
+tests of parsers, steps of lessons, and objects without a moving joint. A verdict is a line as
+drawn with ``verdict`` (useful, noise or wrong) and ``reason``, written by somebody who read the
+finding beside the source and, where it speaks of a reader, asked that reader. They are kept in
+``verdicts.jsonl``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import random
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+from measure.benchmarks.robots import CORPUS, ROOT, bullet_robots, example_folder, example_robots
+from measure.precision.robots import is_robot
+from urdftool.finding import Finding
+from urdftool.lint.discover import find_descriptions
+from urdftool.lint.group import group
+from urdftool.lint.outcome import Options
+from urdftool.lint.parallel import check_files
+
+PAGE = ROOT / "docs" / "lint-precision.md"
+KEPT = Path(__file__).with_name("verdicts.jsonl")
+HEAD = """\
+# How precise lint is
+
+Readers compared findings on real robots (example-robot-data, pybullet_data, descriptions of public
+repositories) with the source, and each statement about a simulator with that simulator. *Useful*: a
+maintainer would change the file or needs to know. *Noise*: true, but it requires no action.
+*Wrong*: not true, or its advice makes the robot worse, or a statement about a reader is false for
+this file. `python -m measure.precision` draws a sample: `--by finding` from all findings, as
+users meet them; `--by rule` from the rules in turn, so that rare rules count as much as common
+ones. At most one finding of a rule and robot is drawn. `--only robots` leaves out test files of
+parsers, steps of lessons and objects without a moving joint (`measure/precision/robots.py`), where
+no reader can decide what should change. The samples were drawn before rules were changed because
+of them. The collections contain test files of parsers and steps of lessons; the readers of seed
+11235 counted true findings there as noise (23 of 35), earlier readers did not.
+"""
+VERDICTS = ("useful", "noise", "wrong")
+
+
+def descriptions(only_robots: bool = False) -> dict[str, str]:
+    """Find the descriptions: path by the name that is shown, which starts with the collection.
+
+    Args:
+        only_robots: Whether to leave out what is no robot.
+    """
+    found: dict[str, str] = {}
+    examples = example_folder()
+    for path in example_robots():
+        assert examples is not None
+        found[f"example-robot-data/{path.relative_to(examples)}"] = str(path)
+    for path in bullet_robots():
+        parts = path.parts
+        found["/".join(parts[parts.index("pybullet_data") :])] = str(path)
+    if CORPUS.exists():
+        for name in find_descriptions([str(CORPUS)]):
+            found[f"corpus/{Path(name).relative_to(CORPUS)}"] = name
+    if only_robots:
+        found = {name: path for name, path in found.items() if is_robot(name, path)}
+    return found
+
+
+def draw(
+    seed: int, count: int, by: str = "finding", only_robots: bool = False
+) -> list[dict[str, Any]]:
+    """Draw findings as ``lint`` prints them, the same for the same seed, rules and robots."""
+    named = descriptions(only_robots)
+    sample = f"{by} {seed}, robots" if only_robots else f"{by} {seed}"
+    found: list[tuple[str, Finding]] = []
+    reports = check_files(list(named.values()), Options())
+    for name, report in zip(named, reports, strict=True):
+        found += [(name, finding) for finding in group(report.findings)]
+    chance = random.Random(seed)
+    found = list(_by_rule(found, chance) if by == "rule" else chance.sample(found, len(found)))
+    firsts = {(finding.code, name): finding for name, finding in reversed(found)}
+    drawn = [(name, f) for name, f in found if firsts[f.code, name] is f][:count]
+    return [
+        _record(number, sample, name, named[name], finding)
+        for number, (name, finding) in enumerate(drawn, 1)
+    ]
+
+
+def _by_rule(
+    found: list[tuple[str, Finding]], chance: random.Random
+) -> Iterator[tuple[str, Finding]]:
+    """Shuffle rules and the findings of each, and go through the rules in turn."""
+    by_rule: dict[str, list[tuple[str, Finding]]] = {}
+    for name, finding in found:
+        by_rule.setdefault(finding.code, []).append((name, finding))
+    rules = sorted(by_rule)
+    chance.shuffle(rules)
+    for rule in rules:
+        chance.shuffle(by_rule[rule])
+    for turn in zip_longest(*(by_rule[rule] for rule in rules)):
+        yield from (one for one in turn if one is not None)
+
+
+def _record(number: int, sample: str, name: str, path: str, finding: Finding) -> dict[str, Any]:
+    return {
+        "sample": sample,
+        "number": number,
+        "robot": name,
+        "path": path,
+        "file": finding.location.path,
+        "line": finding.location.line,
+        "rule": finding.code,
+        "severity": finding.severity.label,
+        "message": _without_folders(finding.message),
+        "hint": finding.hint,
+        "effects": finding.effects,
+        "expansions": finding.expansions,
+    }
+
+
+def _without_folders(text: str) -> str:
+    """Leave out where the collections happen to be."""
+    text = text.replace(f"{CORPUS.resolve()}/", "").replace(f"{CORPUS}/", "")
+    return re.sub(r"[^' ]*/site-packages/", "", text)
+
+
+def judged() -> list[dict[str, Any]]:
+    """Read the verdicts."""
+    text = KEPT.read_text("utf-8")
+    return [json.loads(line) for line in text.splitlines() if line.strip()]
+
+
+def page(rows: list[dict[str, Any]]) -> str:
+    """Write the page: the counts of each sample, and a row for each finding."""
+    samples = list(dict.fromkeys(row["sample"] for row in rows))
+    lines = [
+        HEAD,
+        "| sample | findings | useful | noise | wrong |",
+        "|---|---:|---:|---:|---:|",
+    ]
+    for sample in samples:
+        counts = Counter(row["verdict"] for row in rows if row["sample"] == sample)
+        shares = (f"{counts[v]} ({counts[v] / counts.total():.1%})" for v in VERDICTS)
+        title = _title(sample)
+        anchor = title.lower().replace(",", "").replace(" ", "-")
+        lines.append(f"| [{title.lower()}](#{anchor}) | {counts.total()} | {' | '.join(shares)} |")
+    for sample in samples:
+        lines += [
+            "",
+            f"## {_title(sample)}",
+            "",
+            "| # | robot | rule | finding | verdict | why |",
+            "|---:|---|---|---|---|---|",
+        ]
+        lines += [_row(row) for row in rows if row["sample"] == sample]
+    return "\n".join(lines) + "\n"
+
+
+def _title(sample: str) -> str:
+    """Write the title of a sample such as ``finding 1`` or ``finding 1, robots``."""
+    by, _, rest = sample.partition(" ")
+    return f"By {by}, seed {rest}"
+
+
+def _row(row: dict[str, Any]) -> str:
+    assert row["verdict"] in VERDICTS, row
+    place = f"{row['robot']}:{row['line']}"
+    message = _cell(f"{row['severity']}: {row['message']}")
+    return (
+        f"| {row['number']} | {_cell(place)} | [{row['rule']}](rules/{row['rule']}.md) "
+        f"| {message} | {row['verdict']} | {_cell(row['reason'])} |"
+    )
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("<", "\\<").replace("*", "\\*").replace("\n", " ")
+
+
+def main(words: list[str]) -> int:
+    """Draw, or write the page."""
+    parser = argparse.ArgumentParser(prog="python -m measure.precision")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=120)
+    parser.add_argument("--by", choices=("finding", "rule"), default="finding")
+    parser.add_argument("--only", choices=("robots",), help="leave out tests, lessons, objects")
+    parser.add_argument("--page", action="store_true", help="write docs/lint-precision.md")
+    arguments = parser.parse_args(words)
+    if arguments.page:
+        PAGE.write_text(page(judged()), "utf-8")
+        return 0
+    only_robots = arguments.only == "robots"
+    for row in draw(arguments.seed, arguments.count, arguments.by, only_robots):
+        print(json.dumps(row, ensure_ascii=False))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

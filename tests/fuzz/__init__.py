@@ -1,1 +1,0 @@
-"""Every command on thousands of damaged and hostile robots: ``python -m tests.fuzz``."""
