@@ -19,11 +19,11 @@ from pathlib import Path
 from measure.benchmarks.robots import bullet_robots, example_folder, example_robots
 from urdftool.errors import UrdftoolError
 from urdftool.formats.common.directory import write_directory
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify_runs import TIMESTEPS, run_at_home
 from urdftool.formats.mjcf.write import write
 from urdftool.model.load import load
+from urdftool.refusal import Refused
 
 
 @dataclass

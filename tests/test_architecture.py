@@ -41,6 +41,7 @@ BELOW = {
     "source": BASE,
     "model": ("source", *BASE),
     "finding": ("source", "diagnostic"),
+    "refusal": ("finding", "source", *BASE),
     "output": BASE,
     "terminal": ("control_characters",),
     "console": BASE,
@@ -58,15 +59,15 @@ BELOW = {
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
     "formats": (
         *("lint", "rules", "compare", "finding", "mechanics", "model", "source", "geometry"),
-        *("output", *BASE),
+        *("refusal", "output", *BASE),
     ),
     "bundle": (
         *("collision", "drawing", "formats", "finding", "geometry", "model", "source", "output"),
-        *BASE,
+        *("refusal", *BASE),
     ),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
-        *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),
+        *("drawing", "finding", "lint", "mechanics", "geometry", "inertia", "model", "refusal"),
         *("rules", "source", *BASE),
     ),
     "report": (

@@ -24,13 +24,13 @@ from sdf_engines import Source, State, Target
 
 from urdftool.compare.check import is_faithful
 from urdftool.errors import UrdftoolError
-from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import Pair, compare, pair_of
 from urdftool.formats.sdf.verify.loader import run_loads
 from urdftool.formats.sdf.write import write
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
+from urdftool.refusal import Refused
 
 CONFIGURATIONS = 10
 COLUMNS = (

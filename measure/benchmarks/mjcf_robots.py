@@ -8,12 +8,12 @@ from pathlib import Path
 
 from urdftool.errors import UrdftoolError
 from urdftool.formats.common.directory import write_directory
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write
 from urdftool.formats.written import Written
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
+from urdftool.refusal import Refused
 
 
 @dataclass

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from measure.benchmarks.robots import FIXTURES
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import Verdict, judge
 

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.report.simulate import describe_outcome
 from urdftool.simulation.checks.interpenetration import precompute_overlaps
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

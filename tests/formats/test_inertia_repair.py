@@ -3,8 +3,8 @@
 import pytest
 
 import urdftool
-from urdftool.formats.common.extent import compute_box_size
 from urdftool.formats.common.inertia_repair import repair_tensor
+from urdftool.geometry.link_extent import compute_box_size
 from urdftool.mechanics.spatial_inertia import SpatialInertia
 from urdftool.model.pose import IDENTITY, Pose
 

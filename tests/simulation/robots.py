@@ -1,7 +1,7 @@
 """Robots simulated and judged in one step, and small ones written in one line."""
 
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

@@ -8,12 +8,12 @@ import pytest
 from PIL import Image
 
 from tests.conftest import FIXTURES
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.drawing.gif_file import encode_gif
 from urdftool.drawing.shapes import read_robot_shapes
 from urdftool.model.kinematics import link_poses as poses_at
 from urdftool.model.load import load
 from urdftool.simulation.animation import MOST, link_poses, render_animation, render_final_state
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 
 pytest.importorskip("mujoco")

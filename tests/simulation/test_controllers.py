@@ -10,11 +10,11 @@ from scipy.optimize import brentq
 from tests.conftest import FIXTURES
 from tests.simulation.robots import kinds
 from urdftool import cli
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.simulation.control import NONE, POSITION, SERVO, VELOCITY, Control, Pid, Pids
 from urdftool.simulation.controllers import read_controllers
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tests.simulation.robots import inertial
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
 from urdftool.simulation.engines.pybullet.urdf import write_folder
 from urdftool.simulation.engines.pybullet.world import PyBulletWorld, import_pybullet
 from urdftool.simulation.prepare import prepare
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 
 pytest.importorskip("pybullet")

@@ -9,6 +9,7 @@ import jsonschema
 import pytest
 
 from tests.conftest import FIXTURES, ROOT
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
 from urdftool.report.simulate import format_comparison_text
 from urdftool.simulation.engine_comparison import (
@@ -18,7 +19,6 @@ from urdftool.simulation.engine_comparison import (
     compare,
     compare_engines,
 )
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tests.simulation.robots import inertial, kinds
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

@@ -6,8 +6,8 @@ from importlib.util import find_spec
 
 import pytest
 
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 
 LINK = """

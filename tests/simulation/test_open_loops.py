@@ -2,8 +2,8 @@
 
 import pytest
 
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
 from urdftool.simulation.plot import Curve, Panel, draw_panels, plot
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 
 pytest.importorskip("mujoco")

@@ -9,12 +9,12 @@ from unittest import mock
 import pytest
 
 from tests.conftest import FIXTURES
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
 from urdftool.simulation import mesh_cache
 from urdftool.simulation.checks import interpenetration
 from urdftool.simulation.checks.interpenetration import precompute_overlaps
 from urdftool.simulation.prefetch import prefetch
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

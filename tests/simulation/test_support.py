@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from tests.simulation.robots import body, inertial, kinds, runs
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
 from urdftool.simulation.checks.final_state import measure_final_state
 from urdftool.simulation.checks.support import check_support
 from urdftool.simulation.recording import Contact
-from urdftool.simulation.run import Run, simulate
+from urdftool.simulation.run import Run
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

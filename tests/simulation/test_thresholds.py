@@ -11,13 +11,13 @@ import pytest
 
 from tests.conftest import ROOT
 from tests.simulation.robots import body
+from urdftool.api.simulate import run_trials as simulate
 from urdftool.errors import ConfigError
 from urdftool.model.load import load
 from urdftool.simulation.checks import thresholds as module
 from urdftool.simulation.checks.thresholds import Thresholds, read_thresholds
 from urdftool.simulation.engines.driver import Stillness
 from urdftool.simulation.prepare import prepare
-from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

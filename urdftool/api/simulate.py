@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from ..model.elements import Robot
 from ..simulation.settings import Settings
 from ..simulation.verdict import Verdict
+
+if TYPE_CHECKING:
+    from ..simulation.engines.base import ModelFiles
+    from ..simulation.run import Run
 
 
 def simulate(
@@ -34,7 +40,6 @@ def simulate(
     from ..extras import require
     from ..simulation.checks.interpenetration import precompute_overlaps
     from ..simulation.engines.registry import REGISTRY, check_engines, choose_default_engine
-    from ..simulation.run import simulate as run
     from ..simulation.scene import take_robot
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
@@ -45,5 +50,37 @@ def simulate(
     check_engines((engine,))
     require("simulate", "scipy", "manifold3d")
     robot, _ = take_robot(robot)
-    runs = run(robot, settings or Settings(), engine=engine, precompute=precompute_overlaps)
+    runs = run_trials(robot, settings or Settings(), engine=engine, precompute=precompute_overlaps)
     return [judge(robot, one) for one in runs]
+
+
+def run_trials(robot: Robot, settings: Settings, **options: Any) -> list[Run]:
+    """Run the trials of a robot, in MuJoCo with its export as MJCF.
+
+    Args:
+        robot: The robot, read from a description.
+        settings: Settings of the simulation.
+        options: Other arguments of ``simulation.run.simulate``.
+    """
+    from ..simulation.run import simulate
+
+    return simulate(robot, settings, export_mjcf=export_mjcf, **options)
+
+
+def export_mjcf(robot: Robot, fixed: bool) -> ModelFiles:
+    """Export a robot as MJCF without actuators, with a position of each joint.
+
+    Raises:
+        Refused: It has defects past which no MJCF can be written.
+    """
+    from ..formats.mjcf.options import Options
+    from ..formats.mjcf.write import write
+
+    options = Options(
+        actuators="none",
+        base="fixed" if fixed else "free",
+        file="robot.xml",
+        force=True,
+        keep_locked_joints=True,  # each joint of the file has a position to record
+    )
+    return write(robot, options)

@@ -18,8 +18,8 @@ from ..finding import Finding
 from ..formats.common.asset_filter import explain_invalid_mesh, is_companion, is_image
 from ..formats.common.assets import find_file
 from ..formats.common.missing_files import create_missing_mesh, explain_missing_file
-from ..formats.defects import make_defect
 from ..model.elements import Link, Material, Mesh, Part, Robot
+from ..refusal import make_defect
 from ..source.document import Element
 from ..source.location import Place
 from ..workspace import Workspace

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from ..diagnostic import Severity
 from ..errors import ConfigError
 from ..finding import Finding
-from ..formats.defects import refuse
 from ..model.elements import Mesh, Robot
+from ..refusal import refuse
 from ..source.document import STDIN
 from ..storage import cache_folder
 from .collect import Collection, collect

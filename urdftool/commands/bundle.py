@@ -123,8 +123,8 @@ def command(
     from ..bundle.check import is_bundle
     from ..bundle.make import make_bundle
     from ..bundle.output import write_bundle
-    from ..formats.defects import Refused
     from ..lint.validate import require as require_purpose
+    from ..refusal import Refused
     from .export_report import report_refused, restore_output
 
     if output is None:

@@ -75,8 +75,8 @@ def run_export(
         OutputError: The output cannot be written; existing files are unchanged.
     """
     from ..formats.common.loss_report import raise_losses_as_errors
-    from ..formats.defects import Refused
     from ..formats.export import finish_export
+    from ..refusal import Refused
 
     try:
         written = target.write(robot, options)

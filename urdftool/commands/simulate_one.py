@@ -65,14 +65,14 @@ def simulate_and_judge(
     Raises:
         UrdftoolError: The robot cannot be simulated.
     """
+    from ..api.simulate import run_trials
     from ..simulation.checks.interpenetration import precompute_overlaps
     from ..simulation.engine_comparison import compare_engines
-    from ..simulation.run import simulate
     from ..simulation.verdict import judge
 
     waiting = (child, *(None for _ in engines[1:]))
     runs = [
-        simulate(
+        run_trials(
             robot,
             settings,
             engine=engine,

@@ -8,55 +8,19 @@ export passes the others, and reports what it wrote instead.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-
-from ..diagnostic import Severity
-from ..errors import ModelError
 from ..finding import Finding
 from ..lint.validate import validate
 from ..model.elements import Robot
 from ..model.world import add_world
+from ..refusal import FATAL as FATAL
+from ..refusal import Refused as Refused
+from ..refusal import make_defect as make_defect
+from ..refusal import refuse as refuse
 from ..source.location import Place
-
-FATAL = frozenset(
-    ("no-links", "no-root", "multiple-roots", "multiple-parents", "duplicate-link-name",
-     "duplicate-joint-name", "unknown-parent-link", "unknown-child-link", "missing-parent-or-child",
-     "missing-name", "detached-cycle", "immense-number", "too-many-links")
-)  # fmt: skip
 
 MAX_LINKS = 4000
 """Number of links up to which the libraries of MuJoCo and OpenUSD take a model within 20 s and
 1 GB. Chosen from measurements: OpenUSD takes 4 ms for a link, MuJoCo the memory of a matrix."""
-
-
-class Refused(ModelError):  # noqa: N818 -- reads as what happened
-    """The robot has defects past which it cannot be written.
-
-    Attributes:
-        findings: One for each defect.
-    """
-
-    def __init__(self, findings: Sequence[Finding]) -> None:
-        """Take the findings, of which there is at least one."""
-        first, *others = findings
-        super().__init__(first.message, at=first.location, notes=[str(other) for other in others])
-        self.findings = list(findings)
-
-
-def refuse(findings: Iterable[Finding], *, force: bool, fatal: frozenset[str] = FATAL) -> None:
-    """Raise where defects forbid an export.
-
-    Args:
-        findings: Defects.
-        force: Go past those that leave a robot.
-        fatal: Names of those that leave none.
-
-    Raises:
-        Refused: With those that forbid it.
-    """
-    forbidding = [f for f in findings if not force or f.code in fatal]
-    if forbidding:
-        raise Refused(forbidding)
 
 
 def report_defects(robot: Robot) -> list[Finding]:
@@ -94,16 +58,3 @@ def report_taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
 def get_identity(finding: Finding) -> tuple[str, Place, str]:
     """Get what two findings about one defect of a robot have in common."""
     return finding.code, finding.location, finding.name
-
-
-def make_defect(
-    rule: str,
-    message: str,
-    place: Place,
-    kind: str = "",
-    name: str = "",
-    hint: str = "",
-    data: Mapping[str, object] | None = None,
-) -> Finding:
-    """Make a finding of severity error."""
-    return Finding(rule, Severity.ERROR, message, place, kind, name, hint=hint, data=data or {})

@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..formats.common.extent import get_shape_points, transform_to_link
 from ..geometry.hull import compute_convex_hull
+from ..geometry.link_extent import get_shape_points, transform_to_link
 from ..model.elements import Box, Capsule, Collision, Cylinder, Mesh, Robot, Sphere, Visual
 from .mesh_cache import get_outermost_points
 from .recording import Array

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from ..errors import ModelError
 from ..finding import Finding
-from ..formats.defects import FATAL, make_defect, refuse, report_defects
+from ..lint.validate import validate
 from ..model.elements import BALL_TYPES, Robot
 from ..model.kinematics import check_positions
+from ..refusal import FATAL, make_defect, refuse
 from ..suggestions import suggest_name
 from .rigid_bodies import RigidBodyModel, make_rigid_bodies
 from .settings import Settings
@@ -31,7 +32,9 @@ def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
         UrdftoolError: A mesh is not found or cannot be read.
     """
     # joints of SDF and MJCF come first: a rule of URDF does not know their types
-    refuse([*_report_unsupported_joints(robot), *report_defects(robot)], force=True, fatal=_FATAL)
+    refuse(
+        [*_report_unsupported_joints(robot), *validate(robot, "export")], force=True, fatal=_FATAL
+    )
     check_settings(robot, settings)
     return make_rigid_bodies(robot, settings)
 

@@ -19,6 +19,7 @@ from ..model.elements import Robot
 from ..model.pose import rotation_from_quaternion
 from .checks.thresholds import Thresholds
 from .engine_process import EngineProcess
+from .engines.base import ExportMjcf
 from .engines.registry import REGISTRY, get_library, load_engine
 from .prefetch import prefetch
 from .prepare import prepare
@@ -107,6 +108,7 @@ def simulate(
     robot: Robot,
     settings: Settings,
     *,
+    export_mjcf: ExportMjcf,
     engine: str | None = None,
     progress: Progress = lambda *_: None,
     child: EngineProcess | None = None,
@@ -118,6 +120,7 @@ def simulate(
     Args:
         robot: The robot, read from a description.
         settings: Settings of the simulation.
+        export_mjcf: Exports a robot as MJCF, for an engine that reads it.
         engine: Name of an engine; None for the first of the registry.
         progress: Receives the number of each trial before it begins, and their count.
         child: Process of this engine that waits for the first trial.
@@ -139,7 +142,7 @@ def simulate(
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
-            load_engine(engine).write_model(robot, bodies, trial, Path(folder))
+            load_engine(engine).write_model(robot, bodies, trial, Path(folder), export_mjcf)
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             known: Known = {}
 

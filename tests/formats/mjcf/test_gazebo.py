@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from urdftool.formats.defects import Refused
+from urdftool.refusal import Refused
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, rules, tree
 

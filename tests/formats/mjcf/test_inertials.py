@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from urdftool.formats.defects import Refused
+from urdftool.refusal import Refused
 
 from .robots import INERTIAL, export, find, joint, link, robot, rules, tree
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.joint import get_plane
 from urdftool.model.pose import compute_dot
+from urdftool.refusal import Refused
 
 from .robots import export, find, joint, link, robot, rules, tree
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.model.load import load
+from urdftool.refusal import Refused
 
 from .robots import BOX, INERTIAL, export, joint, link, robot, rules, tree
 

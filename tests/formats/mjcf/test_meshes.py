@@ -8,10 +8,10 @@ import pytest
 from tests.conftest import FIXTURES
 from urdftool.diagnostic import Severity
 from urdftool.formats.common.cut import Cut
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.convert import convert
 from urdftool.formats.mjcf.obj import write_obj_bytes
 from urdftool.geometry.load import load_mesh
+from urdftool.refusal import Refused
 
 from .robots import INERTIAL, export, link, robot, rules, tree
 

@@ -3,10 +3,10 @@
 import pytest
 
 from tests.conftest import CORPUS
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
+from urdftool.refusal import Refused
 
 from .robots import BOX, export, find, joint, link, robot, rules, tree
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.model import color_name
+from urdftool.refusal import Refused
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, rules, tree
 

@@ -3,10 +3,10 @@
 import pytest
 
 from urdftool.compare.check import is_faithful
-from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import verify
 from urdftool.formats.sdf.write import write
+from urdftool.refusal import Refused
 
 from .robots import (
     BOX,

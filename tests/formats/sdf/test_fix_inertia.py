@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tests.formats.sdf.robots import export, inertial, link, tree
-from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.options import Options as Mjcf
 from urdftool.formats.mjcf.write import write as write_mjcf
+from urdftool.refusal import Refused
 
 TURN = "0.4 0 0"
 MOMENTS = (0.1, 0.2, 0.4)

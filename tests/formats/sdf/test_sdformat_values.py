@@ -7,7 +7,7 @@ their names, and a number that is none is refused with its place.
 
 import pytest
 
-from urdftool.formats.defects import Refused
+from urdftool.refusal import Refused
 
 from .robots import export, gazebo, joint, link, named, names, robot, rules, tree
 

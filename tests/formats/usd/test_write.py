@@ -81,7 +81,7 @@ SINGULAR = '<inertia ixx="1e-6" ixy="1e-6" ixz="1e-6" iyy="1e-6" iyz="1e-6" izz=
 
 
 def test_an_inconsistent_inertia_is_refused_unless_repaired(stage):
-    from urdftool.formats.defects import Refused
+    from urdftool.refusal import Refused
 
     with pytest.raises(Refused) as refused:
         stage(link("a"), joint("j", "a", "b", "continuous"), link("b", inertia=SINGULAR))

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from ...diagnostic import Severity
 from ...finding import Finding
+from ...geometry.link_extent import compute_box_size
 from ...mechanics.spatial_inertia import SpatialInertia, combine
 from ...mechanics.tensor import (
     ZERO_TENSOR,
@@ -24,7 +25,6 @@ from ...mechanics.tensor import (
 )
 from ...model.elements import ZERO
 from ...model.pose import IDENTITY, transpose
-from ..common.extent import compute_box_size
 from ..common.inertia_repair import FixInertia, repair_tensor
 from ..defects import make_defect
 from ..written import Written

@@ -143,7 +143,7 @@ def repair_inertia(t: Translation, name: str) -> tuple[SymmetricTensor, str]:
     members = t.plan.members[name]
 
     def measure_box() -> Vector | None:
-        from ..common.extent import compute_box_size  # numpy, only for bodies that need it
+        from ...geometry.link_extent import compute_box_size  # numpy, only for bodies that need it
 
         return compute_box_size(t.robot, ((t.robot.link[m], t.plan.in_owner[m]) for m in members))
 

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...finding import Finding
+from ...geometry.link_extent import compute_box_size
 from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.spatial_inertia import SpatialInertia, link_inertia
 from ...mechanics.tensor import (
@@ -26,7 +27,6 @@ from ...mechanics.tensor import (
 )
 from ...model.elements import ZERO, Link
 from ...model.pose import IDENTITY
-from ..common.extent import compute_box_size
 from ..common.inertia_repair import repair_tensor
 from ..defects import make_defect
 from ..written import Written

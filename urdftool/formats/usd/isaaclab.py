@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
+from ...geometry.link_extent import get_shape_points
 from ...model.elements import Joint, Robot
 from ...model.kinematics import link_poses
 from ...model.start import start_positions
 from ..common.directory import mark_usda, write_beside
-from ..common.extent import get_shape_points
 from ..common.srdf import read_srdf
 from ..written import Written
 from .bodies import Bodies, is_movable, make_bodies

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ...diagnostic import Severity
-from ...formats.common.extent import get_shape_points
+from ...geometry.link_extent import get_shape_points
 from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
 from ...model.pose import Pose, make_pose
 from ..element_names import name_element

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     from ...model.elements import Robot
@@ -51,6 +52,35 @@ class Capabilities:
     uses_contact_stiffness: bool
     creeps: bool
     holds_massless_root: bool
+
+
+class ModelFiles(Protocol):
+    """An export of a robot, in memory.
+
+    Attributes:
+        main: Path of the model in ``files``.
+        files: Content by relative path: bytes, or the path of a file to copy.
+    """
+
+    @property
+    def main(self) -> str:
+        """Return the path of the model."""
+
+    @property
+    def files(self) -> Mapping[str, bytes | Path]:
+        """Return the content of each file."""
+
+
+class ExportMjcf(Protocol):
+    """A function that exports a robot as MJCF."""
+
+    def __call__(self, robot: Robot, fixed: bool) -> ModelFiles:
+        """Export a robot.
+
+        Args:
+            robot: The robot.
+            fixed: Whether its base is fixed to the world.
+        """
 
 
 class World(Protocol):
@@ -107,7 +137,12 @@ class Engine(ABC):
 
     @abstractmethod
     def write_model(
-        self, robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path
+        self,
+        robot: Robot,
+        bodies: RigidBodyModel,
+        settings: Settings,
+        folder: Path,
+        export_mjcf: ExportMjcf,
     ) -> None:
         """Write the files that :meth:`open_world` reads.
 
@@ -116,6 +151,7 @@ class Engine(ABC):
             bodies: Its rigid bodies.
             settings: Settings of the simulation.
             folder: Empty folder.
+            export_mjcf: Exports a robot as MJCF, for an engine that reads it.
 
         Raises:
             UrdftoolError: The robot cannot be written in a format of the engine.

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ....model.elements import Robot
     from ...rigid_bodies import RigidBodyModel
     from ...settings import Settings
+    from ..base import ExportMjcf
 
 _MACHINES = {
     "linux": ("x86_64", "aarch64"),
@@ -48,12 +49,17 @@ class MuJoCo(Engine):
         return platform.machine() in _MACHINES.get(sys.platform, ())
 
     def write_model(
-        self, robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path
+        self,
+        robot: Robot,
+        bodies: RigidBodyModel,
+        settings: Settings,
+        folder: Path,
+        export_mjcf: ExportMjcf,
     ) -> None:
         """Write the MJCF export of the robot, in a scene with a plane."""
         from .scene import write_model
 
-        write_model(robot, bodies, settings, folder)
+        write_model(robot, bodies, settings, folder, export_mjcf)
 
     def open_world(self, bodies: RigidBodyModel, settings: Settings, folder: Path) -> World:
         """Load the scene, which compiles it."""

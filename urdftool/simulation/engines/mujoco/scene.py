@@ -7,11 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 from xml.etree.ElementTree import Element, ElementTree, SubElement
 
-from ....formats.mjcf.options import Options
-from ....formats.mjcf.write import write
 from ....model.elements import Inertial, Joint, Link, Robot
 from ...rigid_bodies import ROOTED, RigidBodyModel
 from ...settings import Settings
+from ..base import ExportMjcf
 
 SCENE = "scene.xml"
 PLANE = "plane of the simulation"
@@ -19,7 +18,13 @@ MOTOR = "motor of "
 """What the motor of each held joint is called, before the joint's name."""
 
 
-def write_model(robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path) -> Path:
+def write_model(
+    robot: Robot,
+    bodies: RigidBodyModel,
+    settings: Settings,
+    folder: Path,
+    export_mjcf: ExportMjcf,
+) -> Path:
     """Write the MJCF of a robot, its meshes and the scene around it; the path of the scene.
 
     Args:
@@ -27,6 +32,7 @@ def write_model(robot: Robot, bodies: RigidBodyModel, settings: Settings, folder
         bodies: The same, prepared.
         settings: Of this trial.
         folder: Where the files go.
+        export_mjcf: Exports the robot.
 
     Raises:
         Refused: It has defects past which no MJCF can be written.
@@ -35,16 +41,7 @@ def write_model(robot: Robot, bodies: RigidBodyModel, settings: Settings, folder
     assert root is not None
     held = bodies.fixed_base or bodies.bodies[0].name != root.name
     model = _remove_without_visuals(robot, settings, rename=not held)
-    written = write(
-        model,
-        Options(
-            actuators="none",
-            base="fixed" if held else "free",
-            file="robot.xml",
-            force=True,
-            keep_locked_joints=True,  # each joint of the file has a position to record
-        ),
-    )
+    written = export_mjcf(model, held)
     for name, content in written.files.items():
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)

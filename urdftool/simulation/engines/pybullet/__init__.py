@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ....model.elements import Robot
     from ...rigid_bodies import RigidBodyModel
     from ...settings import Settings
+    from ..base import ExportMjcf
 
 
 class PyBullet(Engine):
@@ -44,7 +45,12 @@ class PyBullet(Engine):
         return is_linux and sys.version_info[:2] < (3, 12)
 
     def write_model(
-        self, robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path
+        self,
+        robot: Robot,
+        bodies: RigidBodyModel,
+        settings: Settings,
+        folder: Path,
+        export_mjcf: ExportMjcf,
     ) -> None:
         """Write the rigid bodies as URDF, and their hulls as OBJ."""
         from .urdf import write_folder

@@ -7,9 +7,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ...errors import UrdftoolError
-from ...geometry.load import load_named
-from ...model.elements import (
+from ..errors import UrdftoolError
+from ..model.elements import (
     Box,
     Capsule,
     Collision,
@@ -24,7 +23,8 @@ from ...model.elements import (
     Vector,
     Visual,
 )
-from ...model.pose import IDENTITY, Pose, make_pose
+from ..model.pose import IDENTITY, Pose, make_pose
+from .load import load_named
 
 Array = npt.NDArray[np.float64]
 
