@@ -21,10 +21,12 @@ EXTRA_OF = {
     "pxr": "usd",
     "newton": "usd-verify",
     "robot_descriptions": "robots",
+    "fcl": "srdf",
 }
 """Extra that installs each optional library, by import name."""
 
 DISTRIBUTION_OF = {
+    "fcl": "python-fcl",
     "PIL": "Pillow",
     "matplotlib": "Matplotlib",
     "pxr": "usd-core",

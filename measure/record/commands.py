@@ -75,6 +75,7 @@ def commands() -> Iterator[Command]:
         yield Command(f"expand-{name}", ["expand", *robot, "-o", "out.urdf"])
         yield Command(f"source-map-{name}", ["expand", *robot, "--source-map", "map.json"])
         yield Command(f"info-text-{name}", ["info", *robot])
+        yield Command(f"srdf-{name}", ["srdf", *robot, "-o", "robot.srdf"])
         yield Command(f"graph-text-{name}", ["graph", *robot, "-o", "robot.gv"])
         yield Command(f"inertia-text-{name}", ["inertia", "robot", *robot])
         yield Command(

@@ -29,6 +29,7 @@ from ..finding import Finding
 from ..model.elements import Joint, Link, Robot
 from ..source.description import Description
 from ..source.document import Document, Element
+from ..source.escape import escape_attribute as escape_attribute
 from ..source.location import Place, SourceFile
 from ..workspace import Workspace
 from .rule import Problem
@@ -357,13 +358,6 @@ def write_inside(
 def format_numbers(values: Iterable[float], digits: int = 9) -> str:
     """Format numbers with a maximum of significant digits, and without ``-0``."""
     return " ".join(f"{value + 0.0:.{digits}g}" for value in values)
-
-
-def escape_attribute(text: str) -> str:
-    """Escape text for an attribute in double quotes, or between tags."""
-    for plain, escaped in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ('"', "&quot;")):
-        text = text.replace(plain, escaped)
-    return text
 
 
 def _find_as_written(element: Element) -> Element | None:

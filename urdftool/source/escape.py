@@ -22,3 +22,8 @@ def unescape(text: str, entities: Mapping[str, str] | None = None) -> str:
     for entity, character in (entities or {}).items():
         text = text.replace(entity, character)
     return text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
+
+
+def escape_attribute(text: str) -> str:
+    """Escape text for an attribute in double quotes, or between tags."""
+    return escape(text, {'"': "&quot;"})

@@ -7,9 +7,8 @@ from pathlib import Path
 
 from ...errors import ModelError
 from ...model.elements import Robot
-from ...model.read import number
+from ...model.semantic import SemanticDescription, read_semantic
 from ...source.description import read_description
-from ...source.document import Element
 from ...source.packages import Packages
 from ..written import Written
 
@@ -45,41 +44,44 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
         raise ModelError(
             f"the root element is <{root.tag}>; an SRDF file starts with <robot>", at=root.place
         )
+    content = read_semantic(root)
     disabled = []
-    for element in root.list_children("disable_collisions"):
-        one, other = element.get("link1") or "", element.get("link2") or ""
-        unknown = [name for name in (one, other) if name not in robot.link]
+    for pair in content.disabled:
+        unknown = [name for name in (pair.link1, pair.link2) if name not in robot.link]
         if unknown:
             written.report_loss(
                 "srdf",
                 f"the SRDF disables a collision of link '{unknown[0]}', which does not exist",
-                element.place,
+                pair.element.place,
                 kind="link",
                 name=unknown[0],
             )
         else:
-            disabled.append((one, other))
-    virtual = root.find_child("virtual_joint")
-    kind = virtual.get("type") if virtual is not None else None
-    return Srdf(disabled, kind, path, _collect_states(root, robot, written))
+            disabled.append((pair.link1, pair.link2))
+    virtual = content.virtual_joints[0].type if content.virtual_joints else None
+    return Srdf(disabled, virtual or None, path, _collect_states(content, robot, written))
 
 
-def _collect_states(root: Element, robot: Robot, written: Written) -> dict[str, dict[str, float]]:
+def _collect_states(
+    content: SemanticDescription, robot: Robot, written: Written
+) -> dict[str, dict[str, float]]:
     states: dict[str, dict[str, float]] = {}
-    for element in root.list_children("group_state"):
-        state = states.setdefault(element.get("name") or "", {})
-        for joint in element.list_children("joint"):
-            name, value = joint.get("name") or "", number(joint.get("value"))
-            if name not in robot.joint or value is None:
-                why = "which does not exist" if name not in robot.joint else "without one number"
+    for group_state in content.states:
+        state = states.setdefault(group_state.name, {})
+        for joint in group_state.joints:
+            if joint.name not in robot.joint or joint.value is None:
+                why = (
+                    "which does not exist"
+                    if joint.name not in robot.joint
+                    else "without one number"
+                )
                 written.report_loss(
                     "srdf",
-                    f"group state '{element.get('name') or ''}' of the SRDF has joint '{name}', "
-                    f"{why}",
-                    joint.place,
+                    f"group state '{group_state.name}' of the SRDF has joint '{joint.name}', {why}",
+                    joint.element.place,
                     kind="joint",
-                    name=name,
+                    name=joint.name,
                 )
             else:
-                state[name] = value
+                state[joint.name] = joint.value
     return states

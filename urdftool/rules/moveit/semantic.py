@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...errors import SourceError
 from ...model.elements import Robot
-from ...model.read import number
+from ...model.semantic import read_semantic
 from ...source.description import Description
 from ...source.document import Document, Element, parse, read_file
 from ...source.packages import shorten_path
@@ -215,10 +215,10 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
     MoveIt cannot plan to this pose.
     """
     for document in get_srdf_documents(robot, description):
-        for state in document.root.list_children("group_state"):
-            for element in state.list_children("joint"):
-                joint = robot.joint.get(element.get("name") or "")
-                value = number(element.get("value"))
+        for state in read_semantic(document.root).states:
+            for part in state.joints:
+                element, value = part.element, part.value
+                joint = robot.joint.get(part.name)
                 if joint is None or value is None or not joint.is_limited or joint.limit is None:
                     continue
                 low, high = joint.limit.lower or 0.0, joint.limit.upper or 0.0
@@ -226,7 +226,7 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
                     yield Problem(
                         element,
                         f"joint '{joint.name}' is {value:g} in pose "
-                        f"'{state.get('name') or ''}', outside "
+                        f"'{state.name}', outside "
                         f"its limits {low:g} to {high:g}",
                         at=element.locate_attribute("value"),
                         data={"nearest": min(max(value, low), high)},

@@ -1,0 +1,1 @@
+"""SRDF for MoveIt and other planners: pairs of links that never touch, with proof, and groups."""

@@ -1,0 +1,32 @@
+"""Content of a new SRDF."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..model.elements import Robot
+from ..model.semantic import DisabledPair, SemanticDescription
+from .adjacent import find_adjacent_pairs
+
+
+def make_semantic(robot: Robot) -> SemanticDescription:
+    """Make the semantic description of a robot, with the pairs of adjacent links.
+
+    Args:
+        robot: Robot.
+    """
+    shaped = list_shaped_links(robot)
+    return SemanticDescription(None, robot.name, disabled=_disable_adjacent(robot, shaped))
+
+
+def list_shaped_links(robot: Robot) -> list[str]:
+    """List the names of the links with collision geometry, in the order of the file."""
+    return [name for name, link in robot.link.items() if link.collisions]
+
+
+def _disable_adjacent(robot: Robot, shaped: Sequence[str]) -> list[DisabledPair]:
+    """List the adjacent pairs in the order of the file: of the first link, then of the second."""
+    rank = {name: index for index, name in enumerate(shaped)}
+    pairs = [sorted(pair, key=rank.__getitem__) for pair in find_adjacent_pairs(robot, shaped)]
+    pairs.sort(key=lambda pair: (rank[pair[0]], rank[pair[1]]))
+    return [DisabledPair(None, one, other, "Adjacent") for one, other in pairs]
