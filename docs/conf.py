@@ -21,7 +21,8 @@ MENU = {
     "Start": ("start", "install", "terms", "compare"),
     "Commands": (
         *(f"commands/{name}" for name in ("expand", "lint", "inertia", "collision", "graph")),
-        *(f"commands/{name}" for name in ("info", "diff", "verify", "view", "simulate", "srdf")),
+        *(f"commands/{name}" for name in ("info", "diff", "verify", "view", "simulate")),
+        *(f"commands/{name}" for name in ("srdf", "fmt")),
         *(f"commands/{name}" for name in ("bundle", "export")),
     ),
     "How-to": (

@@ -66,6 +66,7 @@ BELOW = {
         *("collision", "drawing", "formats", "finding", "geometry", "model", "source", "output"),
         *("refusal", *BASE),
     ),
+    "fmt": ("lint", "source", *BASE),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "finding", "lint", "mechanics", "geometry", "inertia", "model", "refusal"),
