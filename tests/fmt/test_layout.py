@@ -69,8 +69,11 @@ COMMENTS = st.text(st.sampled_from("ab \n<>&"), max_size=12)
 ATTRIBUTES = st.dictionaries(st.sampled_from(["x", "y", "xyz"]), VALUES, max_size=3)
 
 
+NO_CONTENT = st.just("")
+
+
 @st.composite
-def elements(draw, content=st.just("")):
+def elements(draw, content=NO_CONTENT):
     name = draw(NAMES)
     attributes = "".join(
         f'{draw(SPACES) or " "}{key} {draw(st.sampled_from(["=", "= "]))}"{value}"'
