@@ -24,13 +24,19 @@ def list_events(file: SourceFile) -> list[Event]:
     events: list[Event] = []
     stack: list[_Open] = []
     parser: Any = expat.ParserCreate()
+
+    def start(tag: str, attributes: list[str]) -> None:
+        events.append(("start", tag, *attributes))
+        stack.append(_Open(tag, parser.CurrentByteIndex))
+
+    def end(tag: str) -> None:
+        events.append(("end", tag))
+        stack.pop()
+
     parser.ordered_attributes = True
     parser.buffer_text = True
-    parser.StartElementHandler = lambda tag, attributes: (
-        events.append(("start", tag, *attributes)),
-        stack.append(_Open(tag, parser.CurrentByteIndex)),
-    )
-    parser.EndElementHandler = lambda tag: (events.append(("end", tag)), stack.pop())
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
     parser.CommentHandler = lambda text: events.append(("comment", text))
     parser.ProcessingInstructionHandler = lambda *parts: events.append(("instruction", *parts))
     parser.CharacterDataHandler = lambda text: events.append(_describe(text))
