@@ -369,6 +369,7 @@ OPENERS = {
     "source/expansion_process.py": "the null device",
     "lint/baseline.py": NAMED,
     "lint/cache.py": "entries of the cache",
+    "fmt/discover.py": "lists the folder that the user names",
     "lint/discover.py": "lists the folder that the user names",
     "lint/moot.py": OWN,
     "output.py": OUTPUTS,
