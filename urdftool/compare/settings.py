@@ -55,7 +55,7 @@ def compare_joint_settings(
 def _turn(settings: Settings, sign: float) -> Settings:
     """Return the settings of a joint with the opposite axis for a negative sign."""
     rest = settings.get("spring_reference")
-    if sign > 0 or rest is None or isinstance(rest.content, tuple):
+    if sign > 0 or rest is None or isinstance(rest.content, tuple | str):
         return settings
     return settings | {"spring_reference": type(rest)(rest.provenance, -rest.content)}
 
@@ -98,8 +98,8 @@ def _has(form: str, setting: Setting) -> bool:
 def _measure(x: Content, y: Content) -> float:
     if isinstance(x, tuple) and isinstance(y, tuple):
         return max(abs(a - b) for a, b in zip(x, y, strict=True))
-    if isinstance(x, tuple) or isinstance(y, tuple):
-        return math.inf
+    if isinstance(x, tuple | str) or isinstance(y, tuple | str):
+        return 0.0 if x == y else math.inf
     if isinstance(x, bool) or isinstance(y, bool):
         return 0.0 if bool(x) == bool(y) else math.inf
     return measure(x, y)

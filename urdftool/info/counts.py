@@ -8,6 +8,7 @@ from math import fsum
 
 from ..errors import PackageNotFound
 from ..model.elements import Joint, Mesh, Robot
+from ..model.mechanism import Camera, MountedSensor
 from ..model.world import WORLD
 
 FREEDOMS = {
@@ -119,14 +120,16 @@ def _collect_plugins(robot: Robot) -> list[Named]:
 
 
 def _collect_sensors(robot: Robot) -> list[Named]:
-    simulated = [
-        Named(sensor.name, sensor.type, block.reference)
-        for block in robot.gazebo
-        for sensor in block.sensors
+    parts: list[MountedSensor | Camera] = [
+        *(s for s in robot.mounted_sensors if not s.quantities),
+        *robot.cameras,
     ]
-    mounted = [Named(s.name, s.type, s.link or s.joint) for s in robot.mounted_sensors]
-    cameras = [Named(camera.name, "camera", camera.link) for camera in robot.cameras]
-    return [*simulated, *mounted, *cameras] + [
+    if robot.xml is not None:
+        parts.sort(key=lambda part: part.place.start)
+    listed = [
+        Named(part.name, part.type, part.link or getattr(part, "joint", "")) for part in parts
+    ]
+    return listed + [
         Named(component.name, "ros2_control", None)
         for control in robot.ros2_controls
         for component in control.components

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..source.document import Element
-from .read import number
+from .numbers import number
 
 
 class System(NamedTuple):
@@ -248,6 +248,48 @@ SENSOR_PLUGINS: dict[str, SensorPlugin] = {
     "gazebo_ros_bumper": SensorPlugin("contact"),
 }
 """Sensor plugins by library name, without ``lib`` and ``.so``."""
+
+
+class BodySensor(NamedTuple):
+    """A plugin that acts as a sensor.
+
+    Attributes:
+        type: SDF sensor type.
+        names: Parameters that hold the name of the link or joint.
+        noises: Elements of the sensor to which each standard deviation parameter applies.
+        offsets: Elements of the sensor to which each constant error parameter applies.
+    """
+
+    type: str
+    names: tuple[str, ...] = ("bodyName", "body_name")
+    noises: dict[str, tuple[str, ...]] = {}  # noqa: RUF012
+    offsets: dict[str, tuple[str, ...]] = {}  # noqa: RUF012
+
+
+_TURNING = tuple(f"imu/angular_velocity/{axis}" for axis in "xyz")
+_MOVING = tuple(f"imu/linear_acceleration/{axis}" for axis in "xyz")
+_FIX = tuple(f"navsat/position_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
+_SPEED = tuple(f"navsat/velocity_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
+_IMU = BodySensor(
+    "imu",
+    noises={"gaussianNoise": (*_TURNING, *_MOVING), "gaussian_noise": (*_TURNING, *_MOVING)},
+)
+
+BODY_SENSORS = {
+    "gazebo_ros_imu": _IMU,
+    "gazebo_ros_imu_sensor": _IMU,
+    "hector_gazebo_ros_imu": BodySensor(
+        "imu",
+        noises={"rateGaussianNoise": _TURNING, "accelGaussianNoise": _MOVING},
+        offsets={"rateOffset": _TURNING, "accelOffset": _MOVING},
+    ),
+    "hector_gazebo_ros_gps": BodySensor(
+        "navsat", noises={"gaussianNoise": _FIX, "velocityGaussianNoise": _SPEED}
+    ),
+    "hector_gazebo_ros_magnetic": BodySensor("magnetometer"),
+    "gazebo_ros_ft_sensor": BodySensor("force_torque", ("jointName", "joint_name")),
+}
+"""By library name; inside a ``<sensor>`` they configure it, outside they define one."""
 
 
 class Carried(NamedTuple):

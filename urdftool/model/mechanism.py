@@ -1,7 +1,6 @@
-"""Parts of a robot that SDF, MJCF and USD have and plain URDF does not.
+"""Parts of a robot that SDF, MJCF and USD have, and URDF only in ``<gazebo>`` and other blocks.
 
-URDF has no place for them, so their lists are empty in a robot that was read from URDF. Names refer
-to links and joints of the same robot. Lengths are in meters, angles in radians.
+Names refer to links and joints of the same robot. Lengths are in meters, angles in radians.
 """
 
 from __future__ import annotations
@@ -9,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from .part import Origin, Part, Vector
+from .settings import Settings
 
 
 @dataclass(slots=True)
@@ -114,6 +114,8 @@ class Camera(Part):
         origin: Pose of the camera in the frame of the link: x forward, z up.
         vertical_fov: Vertical field of view [rad]; None if not written.
         resolution: Width and height [pixels]; None if not written.
+        type: Type as the source names it.
+        settings: Settings of ``sensors.SETTINGS``, such as ``rate``, and others by their path.
     """
 
     name: str = ""
@@ -121,6 +123,8 @@ class Camera(Part):
     origin: Origin | None = None
     vertical_fov: float | None = None
     resolution: tuple[int, int] | None = None
+    type: str = "camera"
+    settings: Settings = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -132,6 +136,8 @@ class MountedSensor(Part):
         link: Name of the link; empty for a sensor of a joint.
         joint: Name of the joint; empty for a sensor of a link.
         origin: Pose in the frame of the link; None for the identity.
+        settings: Settings of ``sensors.SETTINGS``, such as ``rate``, and others by their path.
+        quantities: Sensors of MJCF that a sensor of ros2_control stands for; empty for others.
     """
 
     name: str = ""
@@ -139,3 +145,5 @@ class MountedSensor(Part):
     link: str = ""
     joint: str = ""
     origin: Origin | None = None
+    settings: Settings = field(default_factory=dict)
+    quantities: tuple[str, ...] = ()

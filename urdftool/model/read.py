@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from ..source.document import Element
+from .blocks import add_blocks
 from .elements import (
     Actuator,
     Axis,
@@ -80,6 +81,7 @@ def read_robot(root: Element) -> Robot:
         if reader is not None:
             reader(child)
     add_settings(robot)
+    add_blocks(robot)
     return robot
 
 

@@ -23,7 +23,7 @@ from .part import Part, Vector
 if TYPE_CHECKING:
     from .elements import Robot
 
-Content = float | bool | Vector
+Content = float | bool | Vector | str
 
 
 class Setting(NamedTuple):
@@ -31,7 +31,8 @@ class Setting(NamedTuple):
 
     Attributes:
         name: Name in the model.
-        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers) or ``flag``.
+        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``flag`` or
+            ``text``.
         unit: Unit of the value; empty for none.
         path: Path of the SDF element below the collision, link or joint.
         default: What SDF's specification says where it is not written.
@@ -173,15 +174,15 @@ class Rejected(Part):
     """Element of a setting whose text is not a value.
 
     Attributes:
-        name: Name of the link or joint.
-        of_joint: Whether it is one of a joint.
+        kind: ``link``, ``joint``, ``robot`` or ``sensor``.
+        name: Name of that part.
         tag: Tag of the element.
         text: Its text.
         required: What it has to be.
     """
 
+    kind: str = ""
     name: str = ""
-    of_joint: bool = False
     tag: str = ""
     text: str = ""
     required: str = ""
@@ -193,14 +194,14 @@ class _Reading:
 
     Attributes:
         name: Name of the part.
-        of_joint: Whether it is a joint.
+        kind: Kind of the part.
         rejected: Elements whose text is not a value.
         values: What was read.
         weak: Identities of values for another reader, which are replaced without a word.
     """
 
     name: str = ""
-    of_joint: bool = False
+    kind: str = "link"
     rejected: list[Rejected] = field(default_factory=list)
     values: Settings = field(default_factory=dict)
     weak: set[int] = field(default_factory=set)
@@ -212,7 +213,7 @@ class _Reading:
             if all(one.provenance is not element for one in self.rejected):
                 required = describe_required(row)
                 self.rejected.append(
-                    Rejected(element, self.name, self.of_joint, element.tag, text, required)
+                    Rejected(element, self.kind, self.name, element.tag, text, required)
                 )
             return
         content = not content if negated else content
@@ -246,6 +247,8 @@ def parse(kind: str, text: str) -> Content | None:
     """Return the value of a text; None if it has not the kind that a row requires."""
     if kind == "flag":
         return is_true(text) if is_true(text) or is_false(text) else None
+    if kind == "text":
+        return text
     if kind == "vector":
         return parse_numbers(text, 3)  # type: ignore[return-value]
     value = number(text)
@@ -261,6 +264,7 @@ def describe_kind(kind: str) -> str:
         "count": "a whole number",
         "vector": "three finite numbers",
         "flag": "true or false",
+        "text": "a text",
     }[kind]
 
 
@@ -270,7 +274,7 @@ def describe_required(row: Setting) -> str:
 
 
 def _is_within(row: Setting, content: Content) -> bool:
-    return row.lowest is None or isinstance(content, tuple) or content >= row.lowest
+    return row.lowest is None or isinstance(content, tuple | str) or content >= row.lowest
 
 
 def get_number(settings: Mapping[str, Value], name: str) -> float | None:
@@ -333,7 +337,8 @@ def add_settings(robot: Robot) -> None:
     blocks: dict[str, list[Element]] = {}
     for block in robot.gazebo:
         blocks.setdefault(block.reference or "", []).extend(block.element.children)
-    robot.settings = _read_elements(robot, _Reading(), blocks.pop("", []), OF_ROBOT)
+    own = _Reading(robot.name, "robot")
+    robot.settings = _read_elements(robot, own, blocks.pop("", []), OF_ROBOT)
     for link in robot.links:
         contact = link.find_child_xml("contact")
         elements = blocks.get(link.name, [])
@@ -352,7 +357,7 @@ def add_settings(robot: Robot) -> None:
     for joint in robot.joints:
         elements = blocks.get(joint.name, [])
         if elements:
-            reading = _Reading(joint.name, of_joint=True)
+            reading = _Reading(joint.name, "joint")
             joint.settings = _read_elements(robot, reading, elements, OF_JOINTS)
 
 

@@ -31,7 +31,7 @@ class _Kind(NamedTuple):
 def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[str] = ()) -> None:
     """Report what the reader left out, and each part that the writers do not express.
 
-    A robot read from URDF has neither.
+    Those of a robot that was read from URDF are in its blocks, whose elements the writers report.
 
     Args:
         robot: The source.
@@ -39,6 +39,8 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
         expressed: Codes after ``lossy-`` of the kinds that the writer expresses.
     """
     written.losses += robot.unread
+    if robot.xml is not None:
+        return
     for code, what, parts, severity in _list_kinds(robot):
         if code in expressed:
             continue

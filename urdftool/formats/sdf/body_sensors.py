@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from ...model.elements import Joint, Link
-from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library
+from ...model.gazebo_plugins import BODY_SENSORS, SENSOR_PLUGINS, get_library
 from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..common.naming import get_free_name
@@ -14,48 +12,6 @@ from .raw_sdf import move_to_owner
 from .sensor_plugins import convert_sensor_plugin
 from .translation import Translation
 from .xml import Node, add, get_or_create
-
-
-class BodySensor(NamedTuple):
-    """A plugin that acts as a sensor.
-
-    Attributes:
-        type: SDF sensor type.
-        names: Parameters that hold the name of the link or joint.
-        noises: Elements of the sensor to which each standard deviation parameter applies.
-        offsets: Elements of the sensor to which each constant error parameter applies.
-    """
-
-    type: str
-    names: tuple[str, ...] = ("bodyName", "body_name")
-    noises: dict[str, tuple[str, ...]] = {}  # noqa: RUF012 -- a named tuple's default
-    offsets: dict[str, tuple[str, ...]] = {}  # noqa: RUF012
-
-
-_TURNING = tuple(f"imu/angular_velocity/{axis}" for axis in "xyz")
-_MOVING = tuple(f"imu/linear_acceleration/{axis}" for axis in "xyz")
-_FIX = tuple(f"navsat/position_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
-_SPEED = tuple(f"navsat/velocity_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
-_IMU = BodySensor(
-    "imu",
-    noises={"gaussianNoise": (*_TURNING, *_MOVING), "gaussian_noise": (*_TURNING, *_MOVING)},
-)
-
-BODY_SENSORS = {
-    "gazebo_ros_imu": _IMU,
-    "gazebo_ros_imu_sensor": _IMU,
-    "hector_gazebo_ros_imu": BodySensor(
-        "imu",
-        noises={"rateGaussianNoise": _TURNING, "accelGaussianNoise": _MOVING},
-        offsets={"rateOffset": _TURNING, "accelOffset": _MOVING},
-    ),
-    "hector_gazebo_ros_gps": BodySensor(
-        "navsat", noises={"gaussianNoise": _FIX, "velocityGaussianNoise": _SPEED}
-    ),
-    "hector_gazebo_ros_magnetic": BodySensor("magnetometer"),
-    "gazebo_ros_ft_sensor": BodySensor("force_torque", ("jointName", "joint_name")),
-}
-"""By library name; inside a ``<sensor>`` they configure it, outside they define one."""
 
 _CARRIED = frozenset(
     ("bodyName", "body_name", "jointName", "joint_name", "updateRate", "update_rate", "topicName",

@@ -60,8 +60,8 @@ def write_settings(node: Node, settings: Mapping[str, Value], rows: Iterable[Set
 
 def format_content(content: Content) -> str:
     """Return the text of a value."""
-    if isinstance(content, bool):
-        return "true" if content else "false"
+    if isinstance(content, bool | str):
+        return str(content).lower() if isinstance(content, bool) else content
     return format_numbers_text(content) if isinstance(content, tuple) else number_text(content)
 
 
@@ -157,7 +157,7 @@ def report_dissolved_joint(t: Translation, joint: Joint) -> None:
 def _report_settings(t: Translation, part: Link | Joint, settings: Mapping[str, Value]) -> None:
     """Report rejected values, and tags that are set to several."""
     for one in t.robot.rejected_settings:
-        if (one.name, one.of_joint) == (part.name, isinstance(part, Joint)):
+        if (one.kind, one.name) == (part.tag, part.name):
             text = f"<{one.tag}> of '{one.name}' is '{one.text}', not {one.required}"
             t.report_loss("extension", f"{text}; it is not exported", one, part)
     for value in {id(value.provenance): value for value in settings.values()}.values():

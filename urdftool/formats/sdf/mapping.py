@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...model.gazebo_colors import COLORS
-from ...model.gazebo_plugins import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
+from ...model.gazebo_plugins import (
+    BODY_SENSORS,
+    CONTROL_PLUGINS,
+    MIMIC_PLUGINS,
+    SENSOR_PLUGINS,
+    SYSTEM_PLUGINS,
+)
 from ...model.settings import LUMPING_TAGS, OF_JOINTS, OF_LINKS, SURFACE, Setting
-from .body_sensors import BODY_SENSORS
 from .joints import SDF_TYPES
 from .options import DEFAULT_VERSION, RELEASES, VERSIONS
 from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType

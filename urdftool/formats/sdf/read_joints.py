@@ -10,16 +10,18 @@ import math
 from dataclasses import dataclass, replace
 
 from ...errors import ModelError
+from ...model.blocks import add_parts
 from ...model.elements import Axis, Dynamics, Joint, Limit, Link, Mimic, Robot, Vector
-from ...model.mechanism import Closure, Frame, MountedSensor
+from ...model.mechanism import Closure, Frame
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
+from ...model.sensors import read_sensor
 from ...model.settings import OF_JOINTS, read_sdf_settings
 from ...model.world import WORLD
 from ...source.document import Element
 from .read_links import Context, normalize_direction
 from .read_scope import MODEL, Item, Scope
-from .read_values import number, read_flag, read_vector
+from .read_values import number, read_flag, read_pose, read_vector
 
 UNLIMITED = 1e16
 """Limit of a joint that has none, before SDF 1.10."""
@@ -156,9 +158,8 @@ def add_joint(context: Context, found: Found) -> None:
     if found.type == "gearbox":
         context.record_loss("gearbox", "ratios of gearboxes are not read", found.element)
     for sensor in found.element.list_children("sensor"):
-        place, name = Written(sensor.place, sensor), sensor.get("name") or ""
-        kind = sensor.get("type") or ""
-        robot.mounted_sensors.append(MountedSensor(place, name, kind, joint=found.name))
+        pose, place = read_pose(sensor)[0], Written(sensor.place, sensor)
+        add_parts(robot, read_sensor(sensor, pose, joint=found.name, provenance=place))
 
 
 def get_link_pose(context: Context, link: str) -> Pose:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import os
 from dataclasses import dataclass, field
 
 from ...diagnostic import Severity
 from ...errors import ModelError
+from ...model.blocks import add_parts
 from ...model.elements import (
     Box,
     Capsule,
@@ -28,9 +28,9 @@ from ...model.elements import (
     Vector,
     Visual,
 )
-from ...model.mechanism import Camera, MountedSensor
 from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
+from ...model.sensors import read_sensor
 from ...model.settings import OF_LINKS, SURFACE, read_sdf_settings
 from ...source.document import Element
 from ..reading import Losses
@@ -38,7 +38,6 @@ from .read_scope import Scope
 from .read_values import number, read_numbers, read_pose, read_text, read_vector
 
 _TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
-_CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "thermal_camera", "wideanglecamera")
 _MATERIAL = Severity.INFO
 
 
@@ -225,25 +224,9 @@ def _read_material(context: Context, holder: Element) -> Material | None:
 def _add_sensor(
     context: Context, scope: Scope, prefix: str, link: Element, element: Element
 ) -> None:
-    written, kind = Written(element.place, element), element.get("type") or ""
     pose = _compute_pose(context, scope, prefix, link, element)
-    name, owner = element.get("name") or "", prefix + (link.get("name") or "")
-    camera = element.find_child("camera")
-    if kind in _CAMERAS and camera is not None:
-        inner, _ = read_pose(camera)
-        width, height = (
-            number(camera.find_child("image"), tag, 0.0) for tag in ("width", "height")
-        )
-        across = number(camera, "horizontal_fov", 1.047)
-        vertical = None
-        if width and height and across < math.pi:
-            vertical = 2 * math.atan(math.tan(across / 2) * height / width)
-        size = (int(width), int(height)) if width and height else None
-        origin = get_origin_at(pose @ inner, written)
-        context.robot.cameras.append(Camera(written, name, owner, origin, vertical, size))
-        return
-    sensor = MountedSensor(written, name, kind, owner, "", get_origin_at(pose, written))
-    context.robot.mounted_sensors.append(sensor)
+    owner, written = prefix + (link.get("name") or ""), Written(element.place, element)
+    add_parts(context.robot, read_sensor(element, pose, link=owner, provenance=written))
 
 
 def normalize_direction(element: Element, vector: Vector) -> Vector:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...model.elements import Joint, Link
 from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library
 from ...model.read import number
+from ...model.sensors import get_topic
 from ...source.document import Element
 from .translation import Translation
 from .xml import Node, add
@@ -23,7 +24,7 @@ def convert_sensor_plugin(made: Node, t: Translation, part: Link | Joint, elemen
     if known.type and made.get("type") != known.type:
         made.set("type", known.type)
     settings = {child.tag: child.text.strip() for child in element.children if child.text.strip()}
-    topic = _get_topic(element, settings)
+    topic = get_topic(element)
     _add_once(made, "topic", topic)
     rate = settings.get("updateRate") or settings.get("update_rate") or ""
     if number(rate):
@@ -70,26 +71,3 @@ def _name_frame(
             part,
             hint="use --sdf-version 1.12, or write <gz_frame_id> in the <sensor>",
         )
-
-
-def _get_topic(element: Element, settings: dict[str, str]) -> str:
-    """Return the topic that a plugin publishes, from its parameters or a remapping."""
-    ros = element.find_child("ros")
-    namespace = settings.get("robotNamespace", "")
-    topic = ""
-    if ros is not None:
-        inner = ros.find_child("namespace")
-        namespace = inner.text.strip() if inner is not None else namespace
-        for remapping in ros.list_children("remapping"):
-            _, arrow, new = remapping.text.strip().partition(":=")
-            if arrow and not topic:
-                topic = new
-    if not topic:
-        topic = settings.get("topicName") or settings.get("imageTopicName") or ""
-        camera = settings.get("cameraName") or settings.get("camera_name") or ""
-        if camera and not topic.startswith("/"):
-            topic = f"{camera}/{topic or 'image_raw'}"
-        topic = topic or settings.get("bumperTopicName") or settings.get("topic_name") or ""
-    if topic and namespace.strip("/") and not topic.startswith("/"):
-        topic = f"{namespace.rstrip('/')}/{topic}"
-    return topic

@@ -92,8 +92,8 @@ def _add_block(
 
 
 def _format(content: Content) -> str:
-    if isinstance(content, bool):
-        return "true" if content else "false"
+    if isinstance(content, bool | str):
+        return str(content).lower() if isinstance(content, bool) else content
     return format_numbers(*content) if isinstance(content, tuple) else format_number(content)
 
 
