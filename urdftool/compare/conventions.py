@@ -339,6 +339,6 @@ def _shift_calibration(part: Calibration, sign: float, zero: float) -> Calibrati
 
 def _shift_settings(joint: Joint, sign: float, zero: float) -> Settings:
     rest = joint.settings.get("spring_reference")
-    if rest is None or isinstance(rest.content, tuple):
+    if rest is None or isinstance(rest.content, tuple | str):
         return joint.settings
     return {**joint.settings, "spring_reference": replace(rest, content=sign * rest.content + zero)}

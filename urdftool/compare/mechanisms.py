@@ -9,6 +9,7 @@ from typing import Any
 from ..model.elements import Robot
 from ..model.part import Origin, Part
 from ..model.pose import make_pose
+from ..model.settings import Value
 from .change import Change
 from .links import describe_pose
 from .tolerance import are_close, close, is_same_pose
@@ -27,7 +28,10 @@ def compare_mechanisms(
         tolerance: Tolerance as in ``closeness.TOLERANCE``.
         renamed: New names of links and joints by their old names.
     """
+    in_blocks = a.xml is not None and b.xml is not None  # their elements are compared
     for kind, before, after in zip(_KINDS, _list_parts(a), _list_parts(b), strict=True):
+        if in_blocks and kind in _IN_BLOCKS:
+            continue
         one, two = _index_by_name(before, renamed), _index_by_name(after, {})
         for name in dict.fromkeys((*one, *two)):
             old, new = one.get(name), two.get(name)
@@ -48,6 +52,8 @@ _KINDS = (
     *("closed loop", "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
     "mounted sensor",
 )
+
+_IN_BLOCKS = ("closed loop", "camera", "mounted sensor")
 
 
 def _list_parts(robot: Robot) -> tuple[Iterable[Part], ...]:
@@ -84,6 +90,8 @@ def _index_by_name(
 def _is_same(a: Any, b: Any, tolerance: float) -> bool:
     if isinstance(a, Origin) or isinstance(b, Origin):
         return is_same_pose(make_pose(a), make_pose(b), tolerance)
+    if isinstance(a, Value) and isinstance(b, Value):
+        return _is_same(a.content, b.content, tolerance)
     if isinstance(a, dict) and isinstance(b, dict):
         return a.keys() == b.keys() and all(_is_same(a[key], b[key], tolerance) for key in a)
     if isinstance(a, tuple) and isinstance(b, tuple):
@@ -97,4 +105,6 @@ def _convert_to_data(value: Any) -> Any:
     """Return a value as data."""
     if isinstance(value, Origin):
         return describe_pose(make_pose(value))
-    return value
+    if isinstance(value, dict):
+        return {key: _convert_to_data(one) for key, one in value.items()}
+    return value.content if isinstance(value, Value) else value

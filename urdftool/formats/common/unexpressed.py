@@ -28,10 +28,14 @@ class _Kind(NamedTuple):
     severity: Severity = Severity.WARNING
 
 
+_IN_BLOCKS = ("closure", "camera", "sensor")
+"""Codes of parts that a URDF has in its blocks."""
+
+
 def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[str] = ()) -> None:
     """Report what the reader left out, and each part that the writers do not express.
 
-    Those of a robot that was read from URDF are in its blocks, whose elements the writers report.
+    Those in blocks of a URDF are elements, which the writers report themselves.
 
     Args:
         robot: The source.
@@ -39,12 +43,12 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
         expressed: Codes after ``lossy-`` of the kinds that the writer expresses.
     """
     written.losses += robot.unread
-    if robot.xml is not None:
-        return
     for code, what, parts, severity in _list_kinds(robot):
         if code in expressed:
             continue
         for part, name in parts:
+            if part.xml is not None and code in _IN_BLOCKS:
+                continue
             message = f"{what} '{name}' is dropped" if name else f"an unnamed {what} is dropped"
             written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)
 
