@@ -170,7 +170,7 @@ def command(
     from .lint_report import OutputOptions, report
 
     if explain or list_rules:
-        return _show_rules(console, explain)
+        return _show_rules(console, explain, style)
     paths, arguments = split_arguments(words)
     if not paths:
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
@@ -237,14 +237,21 @@ def _warn_of_old_names(
             console.print_note(f"{path}: {old.message}")
 
 
-def _show_rules(console: Console, explain: str | None) -> int:
+def _show_rules(console: Console, explain: str | None, style: str | None) -> int:
+    """Print the page of a rule, or the list of all, as text or as JSON."""
     from ..report import rule_pages
+    from ..rules import FAMILY_OF
     from ..rules.old_names import find_old_rules
 
-    if explain is None:
-        click.echo(rule_pages.format_rule_list(), nl=False)
+    if style not in (None, "full", "json"):
+        raise click.UsageError(f"rules are printed as text or JSON, not with --format {style}")
+    for old in find_old_rules([explain] if explain else []):
+        console.print_note(f"urdftool: {old.message}")
+    if style == "json":
+        text = rule_pages.format_pages_as_json([explain] if explain else FAMILY_OF)
+    elif explain:
+        text = rule_pages.format_page(explain)
     else:
-        for old in find_old_rules([explain]):
-            console.print_note(f"urdftool: {old.message}")
-        click.echo(rule_pages.format_page(explain), nl=False)
+        text = rule_pages.format_rule_list()
+    click.echo(text, nl=False)
     return 0

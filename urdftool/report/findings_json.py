@@ -8,6 +8,7 @@ from typing import Any
 from ..diagnostic import Fix, Severity
 from ..extras import EXTRA_OF
 from ..finding import Finding
+from ..lint.fingerprint import compute_fingerprint
 from ..lint.outcome import Outcome
 from .json_text import format_json, replace_non_finite
 
@@ -57,6 +58,7 @@ def build_finding_record(finding: Finding) -> dict[str, Any]:
         "end_line": end_line,
         "end_column": end_column,
         "element": {"kind": finding.kind, "name": finding.name},
+        "fingerprint": compute_fingerprint(finding),
         "targets": list(finding.targets),
         "effects": finding.effects,
         "expansion": _collect_calls(finding.location.calls),

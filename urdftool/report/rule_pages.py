@@ -5,7 +5,9 @@ from __future__ import annotations
 import inspect
 import json
 import re
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from ..errors import ConfigError
 from ..lint.settings import suggest_rule
@@ -13,6 +15,7 @@ from ..rules import FAMILY_OF, get_all_rules, get_rule
 from ..rules.old_names import resolve_rule
 from ..rules.rule import Rule
 from ..rules.table import FIXES
+from .json_text import format_json
 
 
 def format_rule_list() -> str:
@@ -40,10 +43,7 @@ def format_page(name: str) -> str:
     Raises:
         ConfigError: There is no such rule.
     """
-    name = resolve_rule(name)
-    if name not in FAMILY_OF:
-        raise ConfigError(f"no rule is called '{name}'{suggest_rule(name)}")
-    rule = get_rule(name)
+    rule = _find_rule(name)
     text = remove_markup(inspect.cleandoc(rule.check.__doc__ or ""))
     lines = [f"{rule.name} ({rule.family})", "", text, ""]
     lines.extend(f"{label}: {value}" for label, value in get_facts(rule))
@@ -54,6 +54,54 @@ def format_page(name: str) -> str:
             if known := get_effect_source(rule.name, readers):
                 lines.append(f"    [{known}]")
     return "\n".join(lines) + "\n"
+
+
+def format_pages_as_json(names: Iterable[str]) -> str:
+    """Format the pages of rules as one object; the schema is ``docs/schemas/rules.json``.
+
+    Args:
+        names: Present or old names of the rules.
+
+    Raises:
+        ConfigError: There is no such rule.
+    """
+    records = [_build_page(_find_rule(name)) for name in names]
+    return format_json({"version": 1, "rules": records}, 1) + "\n"
+
+
+def _build_page(rule: Rule) -> dict[str, Any]:
+    """Return the JSON form of a rule's page."""
+    fix = FIXES.get(rule.name)
+    return {
+        "rule": rule.name,
+        "family": rule.family,
+        "fact": remove_markup(rule.fact),
+        "page": remove_markup(inspect.cleandoc(rule.check.__doc__ or "")),
+        "severity": rule.severity.label,
+        "severity_for": {target: raised.label for target, raised in rule.raised.items()},
+        "on_by_default": rule.default,
+        "targets": None if rule.on is None else list(rule.on),
+        "fixes": [] if fix is None else fix.applicability.split(" or "),
+        "thresholds": {
+            name.replace("_", "-"): default for name, default in rule.thresholds.items()
+        },
+        "effects": [
+            {
+                "readers": [reader.strip() for reader in readers.split(",")],
+                "effect": effect,
+                "evidence": get_effect_source(rule.name, readers) or None,
+            }
+            for readers, effect in rule.effects.items()
+        ],
+    }
+
+
+def _find_rule(name: str) -> Rule:
+    """Return a rule by its present or old name; raise :class:`ConfigError` if there is none."""
+    name = resolve_rule(name)
+    if name not in FAMILY_OF:
+        raise ConfigError(f"no rule is called '{name}'{suggest_rule(name)}")
+    return get_rule(name)
 
 
 def remove_markup(text: str) -> str:
