@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from .elements import Joint, Robot
 from .kinematics import add_mimic_positions, find_movable_joints, follow_mimic_chain, get_limits
+from .numbers import number
 
 
 def start_positions(
@@ -36,6 +37,24 @@ def start_positions(
         if joint.mimic is not None and joint.name not in given and lower < upper:
             found[joint.name] = min(max(found.get(joint.name, 0.0), lower), upper)
     return found, clamped
+
+
+def list_initial_positions(robot: Robot) -> dict[str, float]:
+    """Return the initial joint positions of ros2_control [rad, m], by joint name.
+
+    They are ``initial_value`` of the position interface, else the parameter ``initial_position``.
+    """
+    found: dict[str, float] = {}
+    for block in robot.ros2_controls:
+        for component in block.joints:
+            for interface in component.state_interfaces:
+                value = number(interface.params.get("initial_value"))
+                if interface.name == "position" and value is not None:
+                    found[component.name] = value
+            value = number(component.params.get("initial_position"))
+            if value is not None:
+                found.setdefault(component.name, value)
+    return found
 
 
 def compute_allowed_range(robot: Robot, name: str) -> tuple[float, float]:

@@ -10,8 +10,12 @@ from ...errors import ConfigError, ModelError
 from ...model.elements import Joint, Origin, Robot, Vector
 from ...model.kinematics import check_positions, find_movable_joints, link_poses
 from ...model.pose import Pose, make_pose
-from ...model.read import number, parse_numbers
-from ...model.start import compute_allowed_range, start_positions
+from ...model.read import parse_numbers
+from ...model.start import (
+    compute_allowed_range,
+    list_initial_positions,
+    start_positions,
+)
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import Srdf
 from ..common.standing import measure_ground
@@ -105,7 +109,7 @@ def choose_home_positions(
             )
     found: dict[str, float] = {}
     for source, positions in (
-        ("ros2_control", _get_initial_positions(robot)),
+        ("ros2_control", list_initial_positions(robot)),
         ("the SRDF", _state(srdf, state)),
         ("--pose", pose),
     ):
@@ -142,21 +146,6 @@ def _compute_within(
         name=joint.name,
     )
     return near
-
-
-def _get_initial_positions(robot: Robot) -> dict[str, float]:
-    """Return the initial joint positions [rad or m] of ros2_control."""
-    found = {}
-    for block in robot.ros2_controls:
-        for component in block.joints:
-            for interface in component.state_interfaces:
-                value = number(interface.params.get("initial_value"))
-                if interface.name == "position" and value is not None:
-                    found[component.name] = value
-            value = number(component.params.get("initial_position"))
-            if value is not None:
-                found.setdefault(component.name, value)
-    return found
 
 
 def _state(srdf: Srdf | None, name: str) -> Mapping[str, float]:

@@ -1,0 +1,1 @@
+"""MoveIt configuration package of a robot, as MoveIt's Setup Assistant makes it."""

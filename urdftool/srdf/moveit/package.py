@@ -1,0 +1,208 @@
+"""MoveIt configuration package: its new files, and edits of those that exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...errors import ConfigError
+from ...source.edit import Edit, apply
+from ...source.location import SourceFile
+from ...source.nearby_files import read_optional_file
+from ...source.yaml_tree import Node, parse_yaml
+from ...workspace import Workspace
+from .configuration import Configuration
+from .controllers import (
+    PlannedController,
+    add_missing,
+    get_sections,
+    make_moveit_controllers,
+    make_ros2_controllers,
+    plan_controllers,
+    read_moveit_controllers,
+    read_ros2_controllers,
+)
+from .description_files import list_uncontrolled_joints, make_description, make_mock_hardware
+from .launch_files import make_launch_files
+from .package_files import (
+    make_assistant_settings,
+    make_build_file,
+    make_manifest,
+    make_rviz,
+)
+from .parameters import (
+    CARTESIAN_LIMITS,
+    make_initial_positions,
+    make_joint_limits,
+    make_kinematics,
+)
+from .yaml_text import Tree, append_items, complete, format_yaml
+
+_MOVEIT, _ROS2 = "config/moveit_controllers.yaml", "config/ros2_controllers.yaml"
+
+
+@dataclass
+class PackageFile:
+    """File of a package.
+
+    Attributes:
+        path: Its path in the package, with ``/``.
+        data: Its bytes.
+        before: Its bytes on disk; None for a new file.
+        added: Keys that were added to an existing file.
+    """
+
+    path: str
+    data: bytes
+    before: bytes | None = None
+    added: list[str] = field(default_factory=list)
+
+
+class PackageFiles:
+    """Files of a package that is made or completed."""
+
+    def __init__(self, folder: Path, workspace: Workspace) -> None:
+        """Begin without files.
+
+        Args:
+            folder: Folder of the package, which may exist.
+            workspace: Access to the existing files.
+        """
+        self.folder = folder
+        self._workspace = workspace
+        self.files: list[PackageFile] = []
+
+    def read(self, path: str) -> SourceFile | None:
+        """Read an existing file of the package; None if there is none."""
+        return read_optional_file(self._workspace, self.folder / path)
+
+    def read_parameters(self, path: str) -> Node | None:
+        """Read an existing parameter file; None if there is none, or only comments in it.
+
+        Raises:
+            ConfigError: It is not a YAML mapping.
+        """
+        file = self.read(path)
+        return None if file is None or _is_blank(file) else parse_yaml(file)
+
+    def add_text(self, path: str, text: str) -> None:
+        """Add a file; an existing one is kept as it is."""
+        file = self.read(path)
+        if file is None:
+            self.files.append(PackageFile(path, text.encode()))
+        else:
+            self.files.append(PackageFile(path, file.data, file.data))
+
+    def add_parameters(self, path: str, tree: Tree, *comments: str) -> None:
+        """Add a parameter file; an existing one gets the keys that it lacks."""
+        file = self.read(path)
+        root = self.read_parameters(path)
+        if file is None:
+            self.add_text(path, format_yaml(tree, comments))
+        elif root is None:
+            data = file.data.rstrip() + b"\n" + format_yaml(tree).encode()
+            self.files.append(PackageFile(path, data.lstrip(), file.data, list(tree)))
+        else:
+            self.add_edits(path, root, complete(root, tree))
+
+    def add_edits(self, path: str, root: Node, edits: Iterable[tuple[str, Edit]]) -> None:
+        """Add an existing file with edits, each with what it adds."""
+        found = list(edits)
+        data = apply(root.file, [edit for _, edit in found])
+        self.files.append(PackageFile(path, data, root.file.data, [what for what, _ in found]))
+
+
+def _is_blank(file: SourceFile) -> bool:
+    """Tell whether a file has only comments and document marks."""
+    lines = (line.strip() for line in file.data.splitlines())
+    return all(not line or line[:1] == b"#" or line in (b"---", b"...") for line in lines)
+
+
+def make_package(configuration: Configuration, files: PackageFiles) -> None:
+    """Add all files of a MoveIt configuration package but its SRDF.
+
+    Raises:
+        ConfigError: An existing parameter file is not a YAML mapping.
+    """
+    controllers = _merge_controllers(configuration, files)
+    files.add_text("package.xml", make_manifest(configuration, controllers))
+    files.add_text("CMakeLists.txt", make_build_file(configuration))
+    files.add_text(".setup_assistant", make_assistant_settings(configuration))
+    stem = f"config/{configuration.stem}"
+    files.add_text(f"{stem}.urdf.xacro", make_description(configuration))
+    if list_uncontrolled_joints(configuration):
+        files.add_text(f"{stem}.ros2_control.xacro", make_mock_hardware(configuration))
+        positions = make_initial_positions(configuration)
+        files.add_parameters(
+            "config/initial_positions.yaml", positions, "Where mock hardware starts"
+        )
+    _add_parameter_files(configuration, files)
+    _add_controllers(files, controllers)
+    files.add_text("config/moveit.rviz", make_rviz(configuration))
+    for path, text in make_launch_files(configuration):
+        files.add_text(path, text)
+
+
+def _add_parameter_files(configuration: Configuration, files: PackageFiles) -> None:
+    files.add_parameters(
+        "config/joint_limits.yaml",
+        make_joint_limits(configuration),
+        "Limits of MoveIt; numbers must be doubles: 3.0, not 3.",
+        "Increase the scaling factors up to 1.0 for full speed.",
+    )
+    kinematics = make_kinematics(configuration)
+    if kinematics or files.read("config/kinematics.yaml") is None:
+        files.add_parameters("config/kinematics.yaml", kinematics)
+    files.add_parameters(
+        "config/pilz_cartesian_limits.yaml",
+        CARTESIAN_LIMITS,
+        "Limits of the tip for the Pilz planner [m/s, m/s^2, rad/s]: guesses, not of this robot",
+    )
+
+
+def _merge_controllers(
+    configuration: Configuration, files: PackageFiles
+) -> list[PlannedController]:
+    """List the controllers of existing files, and those for the joints that they lack."""
+    ros2, moveit = files.read_parameters(_ROS2), files.read_parameters(_MOVEIT)
+    gripper = configuration.distribution.gripper_controller
+    known: list[PlannedController] = []
+    if ros2 is not None:
+        known += read_ros2_controllers(ros2)
+    if moveit is not None:
+        known = add_missing(known, read_moveit_controllers(moveit, gripper))
+    return add_missing(known, plan_controllers(configuration))
+
+
+def _add_controllers(files: PackageFiles, controllers: list[PlannedController]) -> None:
+    ros2, moveit = files.read_parameters(_ROS2), files.read_parameters(_MOVEIT)
+    known = [] if ros2 is None else list(read_ros2_controllers(ros2))
+    names = {one.name for one in known}
+    lacking = [one for one in controllers if one.name not in names]
+    files.add_parameters(_ROS2, make_ros2_controllers(lacking))
+    if moveit is None:
+        files.add_parameters(_MOVEIT, make_moveit_controllers(controllers))
+    else:
+        files.add_edits(_MOVEIT, moveit, _complete_moveit(moveit, controllers))
+
+
+def _complete_moveit(
+    root: Node, controllers: list[PlannedController]
+) -> Iterator[tuple[str, Edit]]:
+    """Yield the edits of an existing list of controllers: new ones, and lacking keys."""
+    sections = get_sections(root)
+    used = {
+        node.text
+        for section in sections.values()
+        for node in (section.fields or {}).get("joints", section).items or ()
+    }
+    wanted = [one for one in controllers if one.name in sections or not used & set(one.joints)]
+    yield from complete(root, make_moveit_controllers(wanted))
+    listed = root.find("moveit_simple_controller_manager", "controller_names")
+    present = {node.text for node in (listed.items if listed is not None else None) or ()}
+    lacking = [one.name for one in wanted if one.name not in present]
+    if listed is not None and lacking:
+        if listed.items is None:
+            raise ConfigError("controller_names is not a list", at=listed.place)
+        yield f"controller_names: {', '.join(lacking)}", append_items(listed, lacking)
