@@ -20,7 +20,7 @@ _TIPS = tuple(
 _SENSORS = frozenset(["imu", "camera", "optical", "sensor", "laser", "lidar"])
 _WORLDS = frozenset(("world", "map", "odom", "base_footprint"))
 _SHORT = 2
-"""Least number of joints of a chain, unless other chains hang on it."""
+"""Least number of joints of a chain, unless it carries other chains."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class KinematicChain:
         base: Name of the base link.
         tip: Name of the tip link.
         joints: Joints with one position between them, from the base to the tip.
-        is_trunk: Whether further chains hang on it.
+        is_trunk: Whether it carries further chains.
     """
 
     base: str
@@ -89,7 +89,7 @@ def _keep_bodies(tree: BodyTree, fingers: set[str]) -> set[str]:
 
 
 def _list_carriers(tree: BodyTree, kept: set[str]) -> set[str]:
-    """Return the kept bodies on which another kept body hangs."""
+    """Return the kept bodies that have a kept child."""
     above = (tree.get_joint_above(body) for body in kept)
     return {tree.get_body(joint.parent) for joint in above if joint is not None}
 
@@ -126,7 +126,7 @@ def _list_kept_below(tree: BodyTree, kept: set[str], body: str) -> list[Joint]:
 
 
 def _is_end(tree: BodyTree, kept: set[str], body: str) -> bool:
-    """Tell whether a chain ends at a body: no or several chains hang on it."""
+    """Tell whether a chain ends at a body: it has no or several kept children."""
     return len(_list_kept_below(tree, kept, body)) != 1
 
 

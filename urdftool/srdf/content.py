@@ -7,16 +7,23 @@ from collections.abc import Sequence
 from ..model.elements import Robot
 from ..model.semantic import DisabledPair, SemanticDescription
 from .adjacent import find_adjacent_pairs
+from .groups import GivenGroup, add_groups, find_groups
 
 
-def make_semantic(robot: Robot) -> SemanticDescription:
-    """Make the semantic description of a robot, with the pairs of adjacent links.
+def make_semantic(robot: Robot, given: Sequence[GivenGroup] = ()) -> SemanticDescription:
+    """Make the semantic description of a robot: groups, states and the pairs of adjacent links.
 
     Args:
         robot: Robot.
+        given: Groups that the user asks for.
+
+    Raises:
+        ConfigError: A given group is not a chain of the robot.
     """
     shaped = list_shaped_links(robot)
-    return SemanticDescription(None, robot.name, disabled=_disable_adjacent(robot, shaped))
+    content = SemanticDescription(None, robot.name, disabled=_disable_adjacent(robot, shaped))
+    add_groups(content, find_groups(robot, given))
+    return content
 
 
 def list_shaped_links(robot: Robot) -> list[str]:

@@ -11,7 +11,7 @@ from .body_tree import BodyTree
 from .name_parts import is_wheel_name, split_name
 
 FINGER_REACH = 0.3
-"""Largest length of a finger without a name that says so [m]; chosen, no source."""
+"""Largest length of a finger that has another name [m]; chosen, no source."""
 
 _FINGER = re.compile(r"finger|thumb|knuckle|gripper|jaw|claw|pinch", re.IGNORECASE)
 _DIGITS = frozenset(("index", "middle", "ring", "pinky", "little", "mrl"))

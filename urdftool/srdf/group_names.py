@@ -21,7 +21,7 @@ _KINDS = (
 
 
 def guess_kind(chain: KinematicChain) -> str:
-    """Guess what a chain is: ``arm``, ``leg``, ``head`` or ``torso``; empty if no name says it."""
+    """Guess what a chain is: ``arm``, ``leg``, ``head`` or ``torso``; empty if it is unknown."""
     if chain.is_trunk:
         return "torso"
     names = [set(split_name(f"{joint.name} {joint.child}")) for joint in chain.joints]

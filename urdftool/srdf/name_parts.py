@@ -33,7 +33,7 @@ def find_common_prefix(names: Sequence[str]) -> str:
         return ""
     start = _find_common_start(min(names), max(names))
     ends = {match.end() for match in _WORDS.finditer(names[0])}
-    cut = max((end for end in ends if end <= len(start) and _ends_word(names, end)), default=0)
+    cut = max((end for end in ends if end <= len(start) and _is_word_end(names, end)), default=0)
     while cut:
         words = list(_WORDS.finditer(names[0][:cut]))
         last = words[-1] if words else None
@@ -50,7 +50,7 @@ def _find_common_start(one: str, other: str) -> str:
     return min(one, other, key=len)
 
 
-def _ends_word(names: Sequence[str], end: int) -> bool:
+def _is_word_end(names: Sequence[str], end: int) -> bool:
     """Tell whether a word ends there in all names."""
     return all(end in {match.end() for match in _WORDS.finditer(name)} for name in names)
 

@@ -66,7 +66,7 @@ def make_mock_hardware(configuration: Configuration) -> str:
     lines = [
         '<?xml version="1.0"?>',
         f'<robot xmlns:xacro="{_XACRO}">',
-        "  <!-- Mock hardware, which follows each command at once. Replace its plugin for a real",
+        "  <!-- Mock hardware, which follows each command. Replace its plugin for a real",
         "       robot. -->",
         f'  <xacro:macro name="{configuration.stem}_ros2_control" '
         'params="name initial_positions_file">',
