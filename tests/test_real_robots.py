@@ -6,7 +6,7 @@ import pytest
 
 from tests.conftest import CORPUS
 from urdftool.lint.discover import find_descriptions
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
 from urdftool.lint.run import check_file
 from urdftool.source.document import read_file

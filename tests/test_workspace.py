@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from urdftool.dependencies import ABSENT, Dependencies, compute_answer, is_settled, read_stamp
-from urdftool.workspace import STDIN, Memo, Workspace, memoize_by_workspace
+from urdftool.memo import Memo
+from urdftool.workspace import STDIN, Workspace, memoize_by_workspace
 
 
 def asked_by(action, workspace=None):

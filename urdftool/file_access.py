@@ -1,16 +1,12 @@
-"""Restriction of a workspace: the policy it asks, and the error for a file that it refuses."""
+"""Files that a workspace refuses: the error for them, and those that may never end."""
 
 from __future__ import annotations
 
 import errno
 import os
 import stat
-from collections.abc import Hashable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
-
-if TYPE_CHECKING:
-    from .workspace import Workspace
+from typing import Any
 
 
 class AccessRefused(OSError):  # noqa: N818 -- reads as what happened
@@ -23,22 +19,6 @@ class AccessRefused(OSError):  # noqa: N818 -- reads as what happened
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle with both arguments."""
         return AccessRefused, (self.strerror, self.filename)
-
-
-class Access(Protocol):
-    """Policy that decides which files a workspace reads."""
-
-    @property
-    def key(self) -> Hashable:
-        """Identity of the policy: equal for policies that decide equally."""
-
-    def explain_refusal(self, path: str | Path, files: Workspace) -> str:
-        """Return why a file may not be read; empty if it may be.
-
-        Args:
-            path: The file or folder.
-            files: The workspace that asks, without restriction.
-        """
 
 
 IRREGULAR = "is a device or a pipe, not a file"

@@ -19,10 +19,10 @@ from fnmatch import fnmatchcase
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Protocol, TypeVar, cast
 
 from .dependencies import Dependencies
-from .file_access import IRREGULAR, Access, AccessRefused, is_irregular, is_stream
+from .file_access import IRREGULAR, AccessRefused, is_irregular, is_stream
 
 if TYPE_CHECKING:
     from typing import Concatenate, ParamSpec
@@ -44,35 +44,6 @@ MAX_TEXT_BYTES = 16 << 20
 """Path of the contents of standard input in an overlay."""
 
 
-class Memo:
-    """Values that are computed once and live as long as their owner."""
-
-    __slots__ = ("_known",)
-
-    def __init__(self) -> None:
-        """Create an empty memo."""
-        self._known: dict[Hashable, Any] = {}
-
-    def get(self, key: Hashable, make: Callable[[], T]) -> T:
-        """Return the value of a key, computing it at the first request."""
-        try:
-            return cast("T", self._known[key])
-        except KeyError:
-            return cast("T", self._known.setdefault(key, make()))
-
-    def peek(self, key: Hashable) -> Any:
-        """Return the value of a key; None if it was not computed."""
-        return self._known.get(key)
-
-    def clear(self) -> None:
-        """Remove all values, which breaks reference cycles with the owner."""
-        self._known.clear()
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle as an empty memo: values are recomputed."""
-        return Memo, ()
-
-
 class Entry(NamedTuple):
     """Entry of a folder: name, path, and whether it is a folder and a symbolic link."""
 
@@ -80,6 +51,22 @@ class Entry(NamedTuple):
     path: str
     is_folder: bool
     is_link: bool
+
+
+class Access(Protocol):
+    """Policy that decides which files a workspace reads."""
+
+    @property
+    def key(self) -> Hashable:
+        """Identity of the policy: equal for policies that decide equally."""
+
+    def explain_refusal(self, path: str | Path, files: Workspace) -> str:
+        """Return why a file may not be read; empty if it may be.
+
+        Args:
+            path: The file or folder.
+            files: The workspace that asks, without restriction.
+        """
 
 
 class Workspace:

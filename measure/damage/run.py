@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from urdftool.finding import Finding
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 
 from .kinds import KINDS, Robot

@@ -32,7 +32,7 @@ from measure.precision.robots import is_robot
 from urdftool.finding import Finding
 from urdftool.lint.discover import find_descriptions
 from urdftool.lint.group import group
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
 
 PAGE = ROOT / "docs" / "lint-precision.md"

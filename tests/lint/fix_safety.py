@@ -8,7 +8,7 @@ import struct
 from tests.lint.engine_views import ENGINES, Engine, difference
 from urdftool.errors import UrdftoolError
 from urdftool.lint.fix_run import fix_description
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.source.description import read_description

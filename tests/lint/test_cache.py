@@ -22,7 +22,7 @@ from urdftool import dependencies
 from urdftool.lint import cache as cache_module
 from urdftool.lint import run
 from urdftool.lint.cache import Cache
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
 from urdftool.rules import get_rule
 from urdftool.source.location import SourceFile

@@ -11,7 +11,7 @@ from tests.conftest import FIXTURES, ROOT
 
 PROBE = """
 import json, os, sys
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint import run
 from urdftool.lint.settings import Settings
 from urdftool.lint.cache import Cache

@@ -7,7 +7,7 @@ import pytest
 
 from tests.conftest import XACRO
 from urdftool.lint import fix_run
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.rules import get_rule

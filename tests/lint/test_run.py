@@ -5,7 +5,7 @@ import pytest
 from tests.conftest import CORPUS, ROOT, XACRO
 from urdftool import Severity, check, load
 from urdftool.lint.discover import find_descriptions
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
 from urdftool.rules import get_rule
 

@@ -9,7 +9,7 @@ import pytest
 from tests.conftest import FIXTURES
 from urdftool.lint.fix_run import apply_fixes
 from urdftool.lint.merge import gather
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.report.findings_json import to_json

@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 

@@ -16,7 +16,7 @@ import pytest
 
 from tests import rule_table
 from urdftool.formats.detect import read_other_format
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 from urdftool.rules import FAMILY_OF, get_rule

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.conftest import FIXTURES
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 

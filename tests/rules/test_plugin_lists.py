@@ -1,6 +1,6 @@
 """Elements of plugins that name several joints: some plugins take lists, others one name each."""
 
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 

@@ -8,7 +8,7 @@ import math
 
 import pytest
 
-from urdftool.lint.outcome import Options
+from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 

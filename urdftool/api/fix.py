@@ -50,7 +50,7 @@ def fix(
     """
     from ..formats.detect import read_other_format
     from ..lint.fix_run import fix_description
-    from ..lint.outcome import Options
+    from ..lint.options import Options
     from ..lint.run import check_file, warn_of_renamed
     from ..lint.settings import Settings, check_selectors, check_targets
 

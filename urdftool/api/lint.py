@@ -9,7 +9,7 @@ from ..errors import ConfigError
 from ..finding import Finding
 from ..formats.detect import read_other_format
 from ..lint.group import group
-from ..lint.outcome import Options
+from ..lint.options import Options
 from ..lint.run import check_file, check_robot, warn_of_renamed
 from ..lint.settings import Settings, check_selectors, check_targets
 from ..model.elements import Robot

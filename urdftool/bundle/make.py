@@ -21,14 +21,12 @@ from .layout import make_portable
 from .limits import Limits
 from .manifest import MANIFEST, Manifest, compute_digest
 from .origin import find_licenses, find_repositories, list_declared_licenses, name_source
-from .presets import PRESETS
+from .presets import PRESETS, Uri
 from .ros_package import make_package_files
 from .store import Content, Conversion, Stored, store_assets
 
 if TYPE_CHECKING:
     from .mesh_formats import MeshFormat
-
-Uri = Literal["relative", "package", "file"]
 
 PACKAGE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 

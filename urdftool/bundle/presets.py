@@ -6,14 +6,16 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ..errors import MeshError
 from ..geometry.stl_header import read_stl_header
 
 if TYPE_CHECKING:
-    from .make import Uri
     from .mesh_formats import MeshFormat
+
+Uri = Literal["relative", "package", "file"]
+"""How the URDF of a bundle names its files."""
 
 _MOST_STL_FACES = 200_000
 _OBJECT = re.compile(rb"(?m)^[ \t]*[og][ \t]")

@@ -162,7 +162,8 @@ def command(
     from ..formats.detect import read_other_format
     from ..formats.search import find_other_descriptions
     from ..lint.discover import explain_nothing_found, find_descriptions
-    from ..lint.outcome import Options, Report
+    from ..lint.options import Options
+    from ..lint.outcome import Report
     from ..lint.parallel import check_files
     from ..lint.settings import Settings, check_selectors, check_targets
     from ..lint.skipped import add_skipped_parts, exclude_files

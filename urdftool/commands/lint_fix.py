@@ -14,7 +14,8 @@ from ..extras import make_missing_error
 
 if TYPE_CHECKING:
     from ..lint.fix_run import FixResult
-    from ..lint.outcome import Options, Report
+    from ..lint.options import Options
+    from ..lint.outcome import Report
     from ..lint.settings import Settings
     from .lint_report import OutputOptions
 

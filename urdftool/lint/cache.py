@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 from .. import __version__
-from ..configuration import Configuration
 from ..dependencies import (
     ABSENT,
     KINDS,
@@ -32,11 +31,10 @@ from ..dependencies import (
 from ..extras import EXTRA_OF, is_installed
 from ..source.location import SourceFile
 from ..storage import DiskCache, read_regular_file
-from .outcome import Options, Report
+from .outcome import Report
 from .report_form import convert_to_bytes, convert_to_text, read_file, read_report, write_report
-from .settings import Settings
 
-_FORMAT = 3
+_FORMAT = 4
 _DAYS = 30
 _MOST = 200 * 1024 * 1024
 _LARGEST_SOURCE = 256 * 1024 * 1024  # bytes
@@ -64,27 +62,15 @@ class Cache:
         self._sets: dict[Dependencies, str] = {}
         self._valid: dict[str, bool] = {}
 
-    def get_key(
-        self,
-        path: str | Path,
-        options: Options,
-        configuration: Configuration,
-        settings: Settings,
-    ) -> str:
-        """Return the key of a check: a digest of its inputs."""
-        facts = [
-            *(_FORMAT, self._code, os.getcwd(), str(path), sorted(options.arguments.items())),
-            *(_collect_folders(options.packages), [str(path) for path in options.package_paths]),
-            *(
-                configuration.path,
-                _collect_folders(configuration.packages),
-                _list_settings(settings),
-            ),
-            options.fixes,
-            self._libraries,
-            options.gltf_up or configuration.gltf_up,
-        ]
-        return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
+    def get_key(self, path: str | Path, facts: list[Any]) -> str:
+        """Return the key of a check: a digest of its inputs.
+
+        Args:
+            path: Path of the description.
+            facts: What the report depends on besides files.
+        """
+        known = [_FORMAT, self._code, os.getcwd(), str(path), self._libraries, *facts]
+        return sha256(repr(known).encode("utf-8", "surrogateescape")).hexdigest()
 
     def read(self, key: str) -> Report | None:
         """Return a report that is still valid; None if there is none."""
@@ -252,17 +238,3 @@ def _list_library_folders(path: Iterable[str]) -> Iterable[tuple[str, int]]:
                 yield folder, os.stat(folder).st_mtime_ns
             except OSError:
                 continue
-
-
-def _collect_folders(packages: Mapping[str, object]) -> list[tuple[str, str]]:
-    return sorted((name, str(folder)) for name, folder in packages.items())
-
-
-def _list_settings(settings: Settings) -> list[Any]:
-    """Return the settings as a list, sorted where order is irrelevant."""
-    return [
-        *(settings.select, settings.extend_select, settings.ignore),
-        None if settings.targets is None else sorted(settings.targets),
-        sorted((name, level and level.label) for name, level in settings.severity.items()),
-        sorted((name, sorted(table.items())) for name, table in settings.thresholds.items()),
-    ]

@@ -18,7 +18,8 @@ from ..source.description import Description
 from ..source.document import Document
 from .fingerprint import get_fact
 from .fix_settle import Settler
-from .outcome import Options, Report
+from .options import Options
+from .outcome import Report
 
 
 class Origin(NamedTuple):

@@ -8,44 +8,9 @@ from typing import Any, NamedTuple
 
 from ..diagnostic import Severity
 from ..finding import Finding
+from ..rules.table import FIXES
 from .fingerprint import get_fact, get_word
 from .outcome import Report
-
-REVEALING = frozenset(
-    (
-        "not-well-formed",
-        "content-before-declaration",
-        "missing-xmlns",
-        "unknown-macro",
-        "undeclared-arg",
-        "include-not-found",
-        "non-boolean-conditional",
-        "unprefixed-xacro-tag",
-        "bad-substitution-command",
-        "unknown-element",
-        "unknown-attribute",
-        "wrong-case-keyword",
-        "unexpanded-expression",
-        "not-a-number",
-        "wrong-arity",
-        "unknown-extension",
-        "dangling-reference",
-        "misplaced-extension",
-        "padded-reference",
-        "unknown-joint-type",
-        "classic-plugin-in-gz",
-        "ros2-control-nested",
-        "several-shapes-in-geometry",
-        "unknown-parent-link",
-        "unknown-child-link",
-        "missing-limit",
-        "empty-geometry",
-        "repeated-element",
-        "missing-collision",
-        "odd-link-without-collision",
-    )
-)
-"""Rules whose fix lets readers see content that they ignored, with its own defects."""
 
 Key = tuple[Any, ...]
 
@@ -99,7 +64,7 @@ def find_regression(before: Report, after: Report, chosen: Sequence[Finding]) ->
     still = [finding for finding in chosen if left[get_key(finding)] >= there[get_key(finding)]]
     if still:
         return Wrong("the finding remains", subjects=frozenset(map(get_subject, still)))
-    if stops[0] or any(finding.code in REVEALING for finding in chosen):
+    if stops[0] or any(FIXES[finding.code].reveals for finding in chosen):
         return None
     for level in (Severity.ERROR, Severity.WARNING):
         now, then = _count_by_subject(after, level), _count_by_subject(before, level)

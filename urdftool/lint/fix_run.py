@@ -21,8 +21,9 @@ from ..finding import Finding
 from ..rules.file_rewrites import compute_rewritten_bytes
 from ..rules.table import FIXES
 from ..workspace import Workspace
-from .fix_proof import REVEALING, Key, Wrong, find_regression, get_key, get_likeness, get_subject
-from .outcome import Options, Report
+from .fix_proof import Key, Wrong, find_regression, get_key, get_likeness, get_subject
+from .options import Options
+from .outcome import Report
 from .run import check_file
 
 MAX_ROUNDS = 200
@@ -201,7 +202,7 @@ class _Round:
     def prove(self, chosen: Sequence[_Wanted]) -> None:
         """Apply the fixes that do not make a report worse.
 
-        Fixes without a common description are independent. Fixes of ``REVEALING`` rules are tried
+        Fixes without a common description are independent. Fixes that reveal content are tried
         separately, since more findings are no reason to revert them, and so are renames, since
         findings then have other objects. A fix like one that failed in another description, such as
         a variant of the robot, is tried separately too.
@@ -212,7 +213,8 @@ class _Round:
             for one in part:
                 key: object = get_likeness(one.finding)
                 if key not in self.doubted:
-                    key = one.finding.code in REVEALING, FIXES[one.finding.code].renames
+                    traits = FIXES[one.finding.code]
+                    key = traits.reveals, traits.renames
                 groups.setdefault(key, []).append(one)
             for some in sorted(groups.values(), key=len, reverse=True):
                 self._halve(self._list_pending(some))

@@ -1,66 +1,14 @@
-"""Input and output of a check: options, reports, outcome."""
+"""Results of checks: the report of a description, and the outcome of a run."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError
 from ..finding import Finding
-from ..source.description import GltfUp
-from ..source.location import SourceFile
-from ..source.packages import Packages
-from ..workspace import Workspace
-from .settings import Settings
-
-if TYPE_CHECKING:
-    from ..model.elements import Robot
-    from ..rules.fix import ComputeInertia
-    from .cache import Cache
-
 
 NOT_EXPANDED = "xacro, which --no-expand does not expand; only the source was checked"
-
-ReadOther = Callable[[SourceFile, Packages], "Robot | None"]
-
-
-@dataclass
-class Options:
-    """Options of the command line for every file.
-
-    Attributes:
-        settings: Rules, targets, severities.
-        arguments: xacro arguments.
-        packages: Folders by package name.
-        package_paths: Folders that contain packages.
-        config: Configuration file named by the user.
-        cache: Cache of reports; None disables it.
-        expand: Whether to expand xacro; otherwise only its source is checked, and no expression is
-            evaluated.
-        fixes: Whether to compute fixes for findings.
-        compute_inertia: Function for fixes that fill in inertia: returns (mass [kg], center of mass
-            [m], six tensor elements [kg·m²]) by link, in the link frame, for a robot and link
-            names.
-        read_other: Function that reads a file in a format other than URDF, with its packages, and
-            returns None for URDF; None reads every file as URDF.
-        gltf_up: Up axis of glTF meshes; None uses the configuration.
-        workspace: Access to the files of the run.
-    """
-
-    settings: Settings = field(default_factory=Settings)
-    arguments: Mapping[str, str] = field(default_factory=dict)
-    packages: Mapping[str, str | Path] = field(default_factory=dict)
-    package_paths: Iterable[str | Path] = ()
-    config: str | None = None
-    cache: Cache | None = None
-    expand: bool = True
-    fixes: bool = False
-    compute_inertia: ComputeInertia | None = None
-    read_other: ReadOther | None = None
-    gltf_up: GltfUp | None = None
-    workspace: Workspace = field(default_factory=Workspace)
 
 
 @dataclass

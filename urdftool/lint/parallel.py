@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from .outcome import Options, Report
+from .options import Options
+from .outcome import Report
 from .run import check_file, find_cached_report
 
 WORTH_IT = 40  # files; below, starting workers costs more than it saves

@@ -35,7 +35,8 @@ from .motion import (
     is_welded_in_mujoco,
 )
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
-from .outcome import NOT_EXPANDED, Options, Report
+from .options import Options
+from .outcome import NOT_EXPANDED, Report
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
@@ -93,10 +94,11 @@ def find_cached_report(path: str | Path, options: Options) -> Report | None:
         return None
     reports = []
     for question in _list_checks(path, options):
-        report = cache.read(cache.get_key(*question))
+        _, chosen, configuration, settings = question
+        report = cache.read(chosen.get_key(cache, path, configuration, settings))
         if report is None:
             return None
-        reports.append((label(question[1].arguments), report))
+        reports.append((label(chosen.arguments), report))
     return _as_one(reports)
 
 
@@ -130,7 +132,8 @@ def _check_with_cache(
     assert view.dependencies is not None
     if report.format != "urdf":  # MuJoCo reads files itself
         return label(options.arguments), report
-    options.cache.write(options.cache.get_key(*question), report, view.dependencies)
+    key = options.get_key(options.cache, path, configuration, settings)
+    options.cache.write(key, report, view.dependencies)
     return label(options.arguments), report
 
 

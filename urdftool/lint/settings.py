@@ -12,12 +12,12 @@ from typing import Any
 from ..configuration import Configuration
 from ..diagnostic import Severity
 from ..errors import ConfigError
+from ..memo import Memo
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.old_names import resolve_rule, resolve_selectors, resolve_threshold
 from ..rules.rule import TARGETS, Rule
 from ..suggestions import find_nearest as nearest_name
 from ..suggestions import suggest_name
-from ..workspace import Memo
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
 _KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "exclude")

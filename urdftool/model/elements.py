@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from ..memo import Memo
 from ..source.document import Element
-from ..workspace import Memo
 from .conversions import RobotConversions
 from .mechanism import (
     Base,

@@ -32,7 +32,7 @@ from ..source.document import Document, Element
 from ..source.escape import escape_attribute as escape_attribute
 from ..source.location import Place, SourceFile
 from ..workspace import Workspace
-from .rule import Problem
+from .problem import Problem
 from .words import fold
 
 if TYPE_CHECKING:

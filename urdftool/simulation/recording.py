@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    from .engines.base import Capabilities
+    from .capabilities import Capabilities
 
 Array = npt.NDArray[np.float64]
 

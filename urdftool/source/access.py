@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Hashable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from ..errors import AccessError, PackageNotFound
 from ..file_access import IRREGULAR, AccessRefused
@@ -27,7 +27,6 @@ from ..workspace import Workspace
 
 if TYPE_CHECKING:
     from .location import Place
-    from .packages import Packages
 
 MODEL_PATHS = (
     *("SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"),
@@ -90,10 +89,39 @@ def is_companion_allowed(mesh: Path, path: Path) -> bool:
     return True
 
 
+class PackageFolders(Protocol):
+    """Packages of a description.
+
+    Attributes:
+        file: Path of the description.
+        files: Access to files, without restriction.
+        named: Folders by package name that the user named.
+        paths: Folders that contain packages.
+    """
+
+    file: Path
+    files: Workspace
+    named: dict[str, Path]
+    paths: list[Path]
+
+    def list_configured(self) -> list[Path]:
+        """Return the configured folders that the description may read."""
+
+    def find_owner(self, path: Path) -> tuple[str, Path] | None:
+        """Return name and folder of the package of a file."""
+
+    def find_by_manifest(self, name: str) -> Path | None:
+        """Return the folder of a package; None without a manifest.
+
+        Raises:
+            PackageNotFound: It may not be read.
+        """
+
+
 class FileAccess:
     """Decision which files one description may read."""
 
-    def __init__(self, packages: Packages) -> None:
+    def __init__(self, packages: PackageFolders) -> None:
         """Store the packages of the description; folders are searched on demand."""
         self._packages = packages
         self._allowed: list[Path] = []
@@ -117,7 +145,7 @@ class FileAccess:
         self._included.append(other)
         self._rules = None
 
-    def with_packages(self, packages: Packages) -> FileAccess:
+    def with_packages(self, packages: PackageFolders) -> FileAccess:
         """Return the policy for the same description with another finder."""
         other = FileAccess(packages)
         other._allowed = self._allowed.copy()

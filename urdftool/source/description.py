@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from ..workspace import Memo, Workspace
+from ..memo import Memo
+from ..workspace import Workspace
 from .document import STDIN, Document, parse, read_file
 from .location import SourceFile
 from .packages import ConfiguredFolder, Packages

@@ -94,7 +94,7 @@ def parse_source(file: SourceFile) -> Source:
     Raises:
         SourceError: Its encoding is not supported for edits.
     """
-    if file.editable is None:
+    if not isinstance(file.editable, Source):
         file.editable = Source(file)
     return file.editable
 

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from .edit import Source
+from typing import NamedTuple
 
 
 class SourceFile:
@@ -30,7 +27,7 @@ class SourceFile:
         self.encoding = encoding
         self._starts: list[int] | None = None
         self._tags: dict[int, dict[str, tuple[int, int]]] = {}
-        self.editable: Source | None = None
+        self.editable: object = None
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle the bytes without derived values."""

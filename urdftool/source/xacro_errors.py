@@ -11,7 +11,7 @@ from .xacro_messages import Failure, explain_failure, find_unknown_parameter, li
 
 if TYPE_CHECKING:
     from .expansion import Expansion
-    from .xacro_hooks import Files
+    from .xacro_files import Files
     from .xacro_tree import XacroElement
 
 

@@ -18,15 +18,16 @@ from functools import lru_cache
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Any
 
 from ..errors import SourceError, UrdftoolError, XacroError
 from .expansion import Argument, Expansion, Warned
 from .expressions import compile_expression
 from .limits import EvaluationLimits, make_time_error
-from .location import Call, Place, SourceFile
+from .location import Call, Place
 from .safe_builtins import MAX_LENGTH, check_size
 from .xacro_errors import explain
+from .xacro_files import Files
 from .xacro_parse import parse_xacro
 from .xacro_symbols import make_ros1_evaluation, make_symbols
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
@@ -76,43 +77,6 @@ def _import_substitution_args() -> Any:
 
 
 substitution_args: Any = _import_substitution_args()
-
-
-class Files(Protocol):
-    """Files, packages and variables that an expansion may request."""
-
-    def find_package(self, name: str) -> str:
-        """Return the folder of a package."""
-
-    def locate_file(self, path: str) -> str:
-        """Return a path, or that of its source by the install rules if it does not exist."""
-
-    def read_xml(self, path: str) -> SourceFile:
-        """Return a file to include."""
-
-    def import_yaml(self) -> Any:
-        """Return the module yaml."""
-
-    def read_yaml(self, path: str) -> bytes:
-        """Return the contents of a YAML file."""
-
-    def list_matches(self, pattern: str) -> list[str]:
-        """Return the paths that match a pattern."""
-
-    def read_variable(self, name: str) -> str:
-        """Return the value of ``$(env NAME)``."""
-
-    def read_optional_variable(self, name: str, default: str = "") -> str:
-        """Return the value of ``$(optenv NAME DEFAULT)``."""
-
-    def suggest_path(self, path: str) -> tuple[str, str]:
-        """Return the first missing folder of a path, and the nearest existing name; or empty."""
-
-    def add_message(self, text: str) -> None:
-        """Print a message of the description."""
-
-    def mark_place(self, file: SourceFile, start: int) -> None:
-        """Store the location of the element that is evaluated."""
 
 
 class Run:

@@ -148,7 +148,7 @@ def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@ros2_control_nested.fix(BOTH)
+@ros2_control_nested.fix(BOTH, reveals=True)
 def move_up(problem: Problem, context: FixContext) -> Proposal | None:
     """Move it into the robot; unsafe if the robot has another ``<ros2_control>``."""
     element = problem.element

@@ -87,7 +87,7 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
         )
 
 
-@classic_plugin_in_gz.fix(UNSAFE)
+@classic_plugin_in_gz.fix(UNSAFE, reveals=True)
 def load_counterpart(problem: Problem, context: FixContext) -> Proposal | None:
     """Load the counterpart, with the parameters that have an equivalent."""
     plugin = problem.element

@@ -86,7 +86,7 @@ _MIN_SIMILARITY = 0.8
 """Minimum similarity of a suggested name; high, because parts of an arm have similar names."""
 
 
-@dangling_reference.fix(UNSAFE)
+@dangling_reference.fix(UNSAFE, reveals=True)
 def write_reference(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested name of a link or joint."""
     name = get_suggestion(problem, problem.element.get("reference") or "")
@@ -234,7 +234,7 @@ def _is_repeated(robot: Robot, block: Element, children: list[Element]) -> bool:
     return there.difference(("collision", "visual")).issuperset(child.tag for child in children)
 
 
-@misplaced_extension.fix(UNSAFE)
+@misplaced_extension.fix(UNSAFE, reveals=True)
 def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
     """Move the keywords to their joint or link.
 

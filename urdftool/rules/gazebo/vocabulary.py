@@ -75,7 +75,7 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@unknown_extension.fix(UNSAFE)
+@unknown_extension.fix(UNSAFE, reveals=True)
 def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the element that Gazebo reads."""
     element, word = find_element(problem), problem.data.get("write", "")

@@ -91,7 +91,7 @@ def _report_unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
     )
 
 
-@unknown_joint_type.fix(UNSAFE)
+@unknown_joint_type.fix(UNSAFE, reveals=True)
 def write_joint_type(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the URDF type with a similar name or the same meaning."""
     word: str | None = problem.data.get("write")

@@ -284,7 +284,7 @@ def _report_unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Probl
     )
 
 
-@unknown_parent_link.fix(BOTH)
+@unknown_parent_link.fix(BOTH, reveals=True)
 def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     """Declare ``world``; for another name write the suggested link.
 
@@ -381,7 +381,7 @@ def _describe_remedy(name: str, robot: Robot) -> str:
     return suggest_name(name, robot.link) or remedy
 
 
-@unknown_child_link.fix(UNSAFE)
+@unknown_child_link.fix(UNSAFE, reveals=True)
 def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested link, if it does not have a parent joint yet."""
     orphan: str = problem.data.get("orphan", "")

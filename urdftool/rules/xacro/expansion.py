@@ -37,7 +37,7 @@ def missing_xmlns() -> tuple[Problem, ...]:
 _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
 
-@missing_xmlns.fix(SAFE, of_file=True)
+@missing_xmlns.fix(SAFE, of_file=True, reveals=True)
 def declare_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
     """Declare the prefix in the root element."""
     file = finding.location.file
@@ -62,7 +62,7 @@ def unknown_macro() -> tuple[Problem, ...]:
     return _NO_PROBLEMS
 
 
-@unknown_macro.fix(UNSAFE, of_file=True)
+@unknown_macro.fix(UNSAFE, of_file=True, reveals=True)
 def call_suggested_macro(finding: Finding, context: FixContext) -> Proposal | None:
     """Call the suggested macro."""
     right = finding.data.get("suggestion", "")
@@ -113,7 +113,7 @@ def undeclared_arg() -> tuple[Problem, ...]:
     return _NO_PROBLEMS
 
 
-@undeclared_arg.fix(UNSAFE, of_file=True)
+@undeclared_arg.fix(UNSAFE, of_file=True, reveals=True)
 def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     """Write the suggested argument, or declare it with an empty default at the start."""
     name, place = finding.data["name"], finding.location
@@ -149,7 +149,7 @@ def include_not_found() -> tuple[Problem, ...]:
     return _NO_PROBLEMS
 
 
-@include_not_found.fix(BOTH, of_file=True)
+@include_not_found.fix(BOTH, of_file=True, reveals=True)
 def write_suggested_file(finding: Finding, context: FixContext) -> Proposal | None:
     """Write the suggested file; safe if only the case differs."""
     right = finding.data.get("suggestion", "")
@@ -226,7 +226,7 @@ _BOOLEANS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 _COMPARED = re.compile(r"(\$\(arg [\w-]+\))\s*(==|!=)\s*(['\"]?)([\w.-]+)\3")
 
 
-@non_boolean_conditional.fix(UNSAFE, of_file=True)
+@non_boolean_conditional.fix(UNSAFE, of_file=True, reveals=True)
 def write_boolean(finding: Finding, context: FixContext) -> Proposal | None:
     """Write ``true`` for ``yes``, ``false`` for ``no``, and a comparison as an expression."""
     place = finding.location

@@ -125,7 +125,7 @@ def _shorten(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "…"
 
 
-@unexpanded_expression.fix(UNSAFE)
+@unexpanded_expression.fix(UNSAFE, reveals=True)
 def add_dollar(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the ``$``, if the name is defined."""
     name = problem.data.get("name", "")

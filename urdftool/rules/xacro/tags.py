@@ -87,7 +87,7 @@ def _find_unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Probl
         yield from _find_unprefixed(child, macros)
 
 
-@unprefixed_xacro_tag.fix(UNSAFE)
+@unprefixed_xacro_tag.fix(UNSAFE, reveals=True)
 def add_prefix(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the prefix."""
     tag = f"xacro:{problem.element.tag}"

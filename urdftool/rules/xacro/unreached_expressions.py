@@ -65,7 +65,7 @@ def bad_substitution_command(document: Document, description: Description) -> It
         yield Problem(element, f"xacro has no $({name} …){right}", at=at, data=data)
 
 
-@bad_substitution_command.fix(SAFE)
+@bad_substitution_command.fix(SAFE, reveals=True)
 def write_command(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the equivalent substitution of xacro."""
     old, name = problem.data["command"], problem.data["write"]

@@ -35,7 +35,7 @@ def not_well_formed() -> tuple[Problem, ...]:
     return ()
 
 
-@not_well_formed.fix(SAFE, of_file=True)
+@not_well_formed.fix(SAFE, of_file=True, reveals=True)
 def separate_hyphens(finding: Finding, context: FixContext) -> Proposal | None:
     """Write ``- -`` for ``--`` in all comments."""
     if finding.data.get("case") != "'--' in a comment":
@@ -80,7 +80,7 @@ _ROOT_REMEDIES = {
 }
 
 
-@content_before_declaration.fix(SAFE, of_file=True)
+@content_before_declaration.fix(SAFE, of_file=True, reveals=True)
 def move_declaration(finding: Finding, context: FixContext) -> Proposal | None:
     """Move the declaration to the start of the file."""
     file = finding.location.file

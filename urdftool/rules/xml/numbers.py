@@ -145,7 +145,7 @@ _NOT_A_NUMBER = {
 }
 
 
-@wrong_arity.fix(BOTH)
+@wrong_arity.fix(BOTH, reveals=True)
 def complete_vector(problem: Problem, context: FixContext) -> Proposal | None:
     """Make a color without opacity opaque; write one scale for all three axes.
 
@@ -364,7 +364,7 @@ _TABBED_VECTOR = {
 _ONE = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
-@not_a_number.fix(UNSAFE)
+@not_a_number.fix(UNSAFE, reveals=True)
 def write_number(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove spaces around it, and write a point for a comma.
 

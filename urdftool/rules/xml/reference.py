@@ -55,7 +55,7 @@ def _report_padded(element: Element, attribute: str, text: str) -> Problem:
     )
 
 
-@padded_reference.fix(BOTH)
+@padded_reference.fix(BOTH, reveals=True)
 def remove_blank(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the space.
 

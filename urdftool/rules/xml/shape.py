@@ -66,7 +66,7 @@ def list_shapes(geometry: Element) -> list[Element]:
     ]
 
 
-@repeated_element.fix(BOTH)
+@repeated_element.fix(BOTH, reveals=True)
 def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
     """Keep the first element, which readers take."""
     element = problem.element
@@ -112,7 +112,7 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@several_shapes_in_geometry.fix(UNSAFE)
+@several_shapes_in_geometry.fix(UNSAFE, reveals=True)
 def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
     """Write a separate visual or collision for each shape."""
     shape = problem.element
@@ -177,7 +177,7 @@ def _describe_missing_shape(link: Link, shape: Visual | Collision) -> str:
     return f"{kind} of link '{link.name}' has {what}; write a shape, or remove the {kind}"
 
 
-@empty_geometry.fix(UNSAFE)
+@empty_geometry.fix(UNSAFE, reveals=True)
 def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the shape of the only counterpart; without one, remove the visual or collision."""
     element = find_element(problem)

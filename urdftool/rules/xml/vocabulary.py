@@ -223,7 +223,7 @@ _ATTRIBUTE_EFFECTS = {
 }
 
 
-@unknown_element.fix(BOTH)
+@unknown_element.fix(BOTH, reveals=True)
 def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the element with the most similar name, or the URDF form of an SDF element."""
     element = problem.element
@@ -353,7 +353,7 @@ def _report_misspelled_attributes(element: Element, known: set[str]) -> Iterator
             )
 
 
-@unknown_attribute.fix(BOTH)
+@unknown_attribute.fix(BOTH, reveals=True)
 def write_known_attribute(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the attribute with the most similar name."""
     found = find_attribute(problem)
@@ -440,7 +440,7 @@ def _describe(element: Element | None) -> str:
     )
 
 
-@wrong_case_keyword.fix(BOTH)
+@wrong_case_keyword.fix(BOTH, reveals=True)
 def write_lower_case(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the keyword in lower case.
 

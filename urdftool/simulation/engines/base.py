@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from ..capabilities import Capabilities as Capabilities
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,38 +21,6 @@ UNLIMITED_EFFORT = 1e6
 
 Sample = dict[str, Any]
 """One value for each column of a recording, by name."""
-
-
-@dataclass(frozen=True)
-class Capabilities:
-    """Capabilities of an engine, and its differences from others.
-
-    Attributes:
-        name: The value of ``--engine``.
-        title: The name in messages.
-        library: The Python package to import; ``extras.EXTRA_OF`` has the extra that installs it.
-        wheels: Platforms for which that package has wheels.
-        closes_loops: Whether joints that close a kinematic loop are simulated.
-        max_joints: Maximum number of moving joints of a robot; None without a limit.
-        lumps_fixed_joints: Whether links connected by fixed joints are one body of the model file.
-        hull_per_object: Whether each object of a mesh file is a separate hull; otherwise the file
-            is one hull.
-        uses_contact_stiffness: Whether ``<kp>`` and ``<kd>`` of the file apply.
-        creeps: Whether contacts may let a robot at rest creep.
-        holds_massless_root: Whether a root without mass is fixed at its start pose.
-    """
-
-    name: str
-    title: str
-    library: str
-    wheels: str
-    closes_loops: bool
-    max_joints: int | None
-    lumps_fixed_joints: bool
-    hull_per_object: bool
-    uses_contact_stiffness: bool
-    creeps: bool
-    holds_massless_root: bool
 
 
 class ModelFiles(Protocol):
