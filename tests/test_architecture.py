@@ -73,6 +73,7 @@ BELOW = {
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
+        "srdf",
         *("collision", "inertia", "mechanics", *BASE),
     ),
     "info": ("model", "geometry", *BASE),

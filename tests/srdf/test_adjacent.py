@@ -4,7 +4,8 @@ import pytest
 
 from urdftool.api.load import load
 from urdftool.srdf.adjacent import find_adjacent_pairs
-from urdftool.srdf.content import list_shaped_links, make_semantic
+from urdftool.srdf.content import make_semantic
+from urdftool.srdf.verdicts import decide, list_shaped_links
 from urdftool.srdf.write import format_srdf
 
 BOX = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
@@ -56,7 +57,7 @@ def test_srdf_is_read_as_it_was_written(write):
     from urdftool.source.description import read_description
 
     robot = load(write("r.urdf", make_urdf("a b&amp; c", [revolute("a", "b&amp;")])))
-    content = make_semantic(robot)
+    content = make_semantic(robot, decide(robot))
     content.disabled[0].comment = "two -- hyphens"
     text = format_srdf(content, ("urdftool",))
     root = read_description(write("r.srdf", text)).document.root

@@ -5,13 +5,30 @@ from __future__ import annotations
 from ..model.elements import Robot
 
 
-def make_srdf(robot: Robot) -> str:
-    """Return the text of an SRDF for a robot.
+def make_srdf(
+    robot: Robot,
+    *,
+    visual: bool = False,
+    default: bool = False,
+    boxes: int | None = None,
+    jobs: int | None = None,
+) -> str:
+    """Return the text of an SRDF for a robot, with the pairs that are proved never to touch.
 
     Args:
         robot: A robot from ``load``.
+        visual: Whether the visual geometry is compared.
+        default: Whether pairs that touch at the default pose are disabled.
+        boxes: Largest number of boxes of joint values for each two bodies.
+        jobs: Number of processes; None is one per core.
+
+    Raises:
+        MissingDependency: python-fcl is not installed.
     """
-    from ..srdf.content import make_semantic
+    from ..srdf.content import list_comments, make_semantic
+    from ..srdf.verdicts import BOXES, Options, decide
     from ..srdf.write import format_srdf
 
-    return format_srdf(make_semantic(robot))
+    options = Options(boxes=boxes or BOXES, visual=visual, default=default, jobs=jobs)
+    verdicts = decide(robot, options)
+    return format_srdf(make_semantic(robot, verdicts), tuple(list_comments(robot, verdicts)))

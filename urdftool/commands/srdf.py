@@ -1,9 +1,9 @@
-"""``urdftool srdf``: write the SRDF of a robot."""
+"""``urdftool srdf``: write the SRDF of a robot, with proved pairs."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,46 +11,168 @@ from ..console import Console
 from .grouped_help import GroupedCommand
 from .options import (
     add_gltf_option,
+    add_jobs_option,
     add_package_options,
     add_robot_argument,
     make_output_option,
 )
+from .progress import Progress
 from .srdf_groups import add_group_option, report_groups
 
 if TYPE_CHECKING:
-    from ..srdf.groups import GivenGroup
+    from ..model.elements import Robot
+    from ..srdf.verdicts import Verdicts
+
+_GROUPS = {
+    "Pairs": "visual default",
+    "Content": "given_groups",
+    "Output": "style output",
+    "Performance": "boxes time_limit jobs",
+}
+
+_STYLES = ("srdf", "mjcf", "curobo", "pyroki", "usd", "table", "json")
 
 
-@click.command("srdf", cls=GroupedCommand, groups={"Output": "output", "Content": "given_groups"})
+@click.command("srdf", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
+@click.option(
+    "--visual", is_flag=True, help="Compare the visual geometry instead of the collision geometry."
+)
+@click.option(
+    "--default",
+    is_flag=True,
+    help="Disable pairs that touch at the default pose: 0, or the middle of a range without 0.",
+)
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(_STYLES),
+    default="srdf",
+    show_default=True,
+    help="Output format: SRDF; the disabled pairs for MuJoCo, cuRobo, pyroki or OpenUSD; or all "
+    "pairs with their verdicts.",
+)
 @make_output_option("Output file.  [default: standard output]")
 @add_group_option
+@click.option(
+    "--boxes",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Largest number of boxes of joint values for each two bodies.  [default: 40000]",
+)
+@click.option(
+    "--time",
+    "time_limit",
+    type=click.FloatRange(0.0),
+    metavar="S",
+    help="Time after which no proof begins; the pairs left stay enabled [s].  [default: no limit]",
+)
+@add_jobs_option
 @add_gltf_option
 @add_package_options
-@click.pass_obj
+@click.pass_context
 def command(
-    console: Console,
+    ctx: click.Context,
+    /,
     robot: tuple[str, dict[str, str]],
-    output: str | None,
-    given_groups: tuple[GivenGroup, ...],
     package: dict[str, Path],
     package_path: tuple[str, ...],
+    **values: Any,
 ) -> int:
-    """Write the SRDF of the robot IN, which MoveIt reads.
+    """Write the SRDF of the robot IN, which MoveIt reads, with proved pairs.
+
+    A pair of links is disabled if one joint connects the two, or if a proof shows that they touch
+    at no joint values within the limits. For a pair that can touch, the report has joint positions
+    at which it does. A pair that is not decided stays enabled.
 
     \b
         urdftool srdf arm.urdf.xacro -o arm.srdf
         urdftool srdf arm.urdf.xacro --group manipulator=base_link:flange
+        urdftool srdf arm.urdf --format table
     """  # noqa: D301 -- click reads the escape
-    from ..output import write_result
-    from ..srdf.content import make_semantic
-    from ..srdf.write import format_srdf
+    from ..output import check_targets, write_result
+    from ..srdf.groups import find_groups
     from .load_tolerant import load_tolerant
 
-    path, arguments = robot
+    console, (path, arguments) = ctx.obj, robot
     model = load_tolerant(console, path, arguments, package, package_path)
     inputs = [file.path for file in model.source.files] if model.source else []
-    content = make_semantic(model, given_groups)
-    report_groups(console, content)
-    write_result(format_srdf(content), output, inputs=inputs)
+    check_targets([values["output"]], inputs=inputs)
+    find_groups(model, values["given_groups"])  # an error of a group comes before the proof
+    verdicts = decide_pairs(console, model, values)
+    text = format_result(console, model, verdicts, values)
+    write_result(text, values["output"], inputs=inputs)
     return 0
+
+
+def decide_pairs(console: Console, robot: Robot, values: dict[str, Any]) -> Verdicts:
+    """Decide the pairs of a robot, and print the summary and what is open.
+
+    Args:
+        console: Output for messages.
+        robot: Robot.
+        values: Values of the options.
+    """
+    from ..report import srdf as report
+    from ..srdf.verdicts import BOXES, Options, decide
+
+    check_shapes(robot, visual=values["visual"])
+    options = Options(
+        boxes=values["boxes"] or BOXES,
+        visual=values["visual"],
+        time_limit=values["time_limit"],
+        jobs=values["jobs"],
+        default=values["default"],
+    )
+    with Progress(console, "pairs of bodies") as progress:
+        verdicts = decide(robot, options, progress)
+    for line in (*report.list_problems(verdicts), *report.list_open(verdicts)):
+        console.print_message(line)
+    console.print_note(report.format_summary(verdicts))
+    return verdicts
+
+
+def check_shapes(robot: Robot, *, visual: bool) -> None:
+    """Check that there is something to compare.
+
+    Raises:
+        ModelError: No link has the geometry.
+    """
+    from ..errors import ModelError
+    from ..srdf.verdicts import list_shaped_links
+
+    if list_shaped_links(robot, visual=visual):
+        return
+    advice = ""
+    if not visual and list_shaped_links(robot, visual=True):
+        advice = "; use --visual to compare the visual geometry"
+    kind = "visual" if visual else "collision"
+    raise ModelError(f"no link has {kind} geometry, so no pair can be compared{advice}")
+
+
+def format_result(
+    console: Console, robot: Robot, verdicts: Verdicts, values: dict[str, Any]
+) -> str:
+    """Format the result.
+
+    Args:
+        console: Output for the names of groups.
+        robot: Robot.
+        verdicts: Verdicts on its pairs.
+        values: Values of the options.
+    """
+    from ..report import srdf as report
+    from ..srdf.content import list_comments, list_disabled, make_semantic
+    from ..srdf.other_formats import FORMATS
+    from ..srdf.write import format_srdf
+
+    style = values["style"]
+    if style == "table":
+        return report.format_table(verdicts)
+    if style == "json":
+        return report.to_json(verdicts)
+    if style in FORMATS:
+        return FORMATS[style](robot, list_disabled(verdicts))
+    content = make_semantic(robot, verdicts, values["given_groups"])
+    report_groups(console, content)
+    return format_srdf(content, tuple(list_comments(robot, verdicts)))

@@ -1,0 +1,286 @@
+"""Proof by boxes of joint values that links of two bodies never touch.
+
+A box is free for a pair of links if the distance of their covers at its center is larger than all
+displacements within it (the theorem of :mod:`.chain`), by a margin that is larger than all errors
+of rounding. Else it is halved, unless the links touch at its center, which is a witness.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry.mesh import Array
+from .body import Body, Contacts
+from .chain import Chain, Placement, bound_motion, place
+from .separate import Candidates, Poses, Separator
+
+MARGIN = 1e-4
+"""Distance added to each displacement [m], above the errors of FCL (1e-6) and of sums (1e-8)."""
+
+BATCH = 256
+"""Boxes computed at once."""
+
+THIN = 0.01
+"""Displacement below which triangles are asked for their distance [m]."""
+
+NARROWEST = 1e-4
+"""Half width below which a box is not halved [rad, m]."""
+
+SAMPLES = 512
+"""Random poses that are tried before the proof; chosen, no source."""
+
+TESTS = 6
+"""Tests of contact for each pair in a batch; chosen, no source."""
+
+
+@dataclass
+class Outcome:
+    """What is known of two links.
+
+    Attributes:
+        is_free: Whether the proof is complete.
+        witness: Values of the coordinates at which they touch; None if none was found.
+        nearest: Smallest distance at a pose that was looked at [m]; infinite if none was measured.
+        near_values: Values of the coordinates of that pose.
+    """
+
+    is_free: bool = False
+    witness: Array | None = None
+    nearest: float = np.inf
+    near_values: Array | None = None
+
+
+@dataclass
+class Result:
+    """Outcomes of the pairs of two bodies, and the boxes that were computed."""
+
+    outcomes: dict[tuple[int, int], Outcome]
+    boxes: int = 0
+    tests: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Boxes:
+    """Boxes of joint values, with the pairs of pieces that may touch within.
+
+    Attributes:
+        values: Centers [rad, m], shape (n, number of coordinates).
+        halves: Half widths [rad, m], of the same shape.
+        directions: Unit vector that is tried first in each box, shape (n, 3).
+        candidates: Pairs of pieces.
+    """
+
+    values: Array
+    halves: Array
+    directions: Array
+    candidates: Candidates
+
+    def __len__(self) -> int:
+        """Return the number of boxes."""
+        return len(self.values)
+
+    def choose(self, rows: np.ndarray, candidates: Candidates) -> Boxes:
+        """Return some of the boxes, with candidates that are already numbered for them."""
+        return Boxes(self.values[rows], self.halves[rows], self.directions[rows], candidates)
+
+
+class Prover:
+    """Proof for two bodies."""
+
+    def __init__(
+        self, chain: Chain, a: Body, b: Body, pairs: list[tuple[int, int]], seed: int = 0
+    ) -> None:
+        """Store the bodies.
+
+        Args:
+            chain: Joints between them.
+            a: One body.
+            b: The other.
+            pairs: Indices of the links to compare.
+            seed: Of the random poses.
+        """
+        self.chain, self.covers, self.pairs = chain, (a.cover, b.cover), pairs
+        self.contacts = Contacts(a, b)
+        self.outcomes = {pair: Outcome() for pair in pairs}
+        self.random = np.random.default_rng(seed)
+        self.boxes = self.tests = self.measures = 0
+        number = -np.ones((len(a.shapes), len(b.shapes)), dtype=np.int64)
+        for index, pair in enumerate(pairs):
+            number[pair] = index
+        self.pair_of = number[a.cover.owner[:, None], b.cover.owner[None]]
+        """Index of the pair of links of two pieces, shape (ka, kb); -1 for none."""
+        self.separator = Separator(self.covers, self.pair_of)
+        self.lower = np.array([c.lower for c in chain.coordinates])
+        self.upper = np.array([c.upper for c in chain.coordinates])
+
+    def run(self, budget: int) -> Result:
+        """Sample, and prove until everything is decided or the budget of boxes is used."""
+        self.sample(SAMPLES if self.chain.coordinates else 1)
+        stack = [self._make_first()]
+        while stack and self.boxes < budget:
+            boxes = self._advance(_take(stack))
+            if len(boxes):
+                stack.append(boxes)
+        self._conclude(stack)
+        return Result(self.outcomes, self.boxes, self.tests)
+
+    def _make_first(self) -> Boxes:
+        center, half = (self.lower + self.upper) / 2, (self.upper - self.lower) / 2
+        half = half * (1 + 1e-12) + 1e-12
+        one, other = np.nonzero(self.pair_of >= 0)
+        candidates = Candidates(np.zeros(len(one), dtype=np.int64), one, other)
+        return Boxes(center[None], half[None], np.eye(3)[:1], candidates)
+
+    def _list_open(self) -> np.ndarray:
+        """Return which pairs have no witness, shape (pairs,)."""
+        return np.array([self.outcomes[pair].witness is None for pair in self.pairs])
+
+    def sample(self, count: int) -> None:
+        """Test random poses for contact, those with the deepest overlaps of pieces first."""
+        values = self.random.uniform(self.lower, self.upper, (count, len(self.lower)))
+        if count > 2:
+            values[: count // 2] = self._push_to_limits(values[: count // 2])
+        one, other = np.nonzero(self.pair_of >= 0)
+        placed = place(self.chain, values)
+        poses = _get_poses(placed)
+        centers = self.separator.locate(poses)
+        depth = np.full((count, len(self.pairs)), np.inf)
+        for index in range(len(one)):
+            a, b = one[index], other[index]
+            between = np.linalg.norm(centers[0][:, a] - centers[1][:, b], axis=1)
+            pair = self.pair_of[a, b]
+            slack = between - self.covers[0].radii[a] - self.covers[1].radii[b]
+            depth[:, pair] = np.minimum(depth[:, pair], slack)
+        self._test(values, placed, depth, 4 * TESTS)
+
+    def _push_to_limits(self, values: Array) -> Array:
+        """Put half of the coordinates of each pose at a limit, where robots fold."""
+        choice = self.random.integers(0, 4, values.shape)
+        return np.where(choice == 0, self.lower, np.where(choice == 1, self.upper, values))
+
+    def _advance(self, boxes: Boxes) -> Boxes:
+        """Look at boxes, and return the halves of those that are not free."""
+        c = boxes.candidates
+        c = c.choose(np.nonzero(self._list_open()[self.pair_of[c.one, c.other]])[0])
+        if not len(c):
+            return boxes.choose(np.zeros(0, dtype=np.int64), c)
+        boxes = boxes.choose(*_renumber(c))
+        c = boxes.candidates
+        self.boxes += len(boxes)
+        placed = place(self.chain, boxes.values)
+        poses = _get_poses(placed)
+        centers = self.separator.locate(poses)
+        radii = self.covers[0].radii, self.covers[1].radii
+        moves_a, moves_b, share = bound_motion(self.chain, placed, boxes.halves, centers, radii)
+        needed = moves_a[c.box, c.one] + moves_b[c.box, c.other] + MARGIN
+        slack = self.separator.compute_slack(c, centers, needed)
+        near = np.nonzero(slack <= 0)[0]
+        c, needed, slack = c.choose(near), needed[near], slack[near]
+        rows, group, slack = self.separator.resolve(c, poses, needed, slack, boxes.directions)
+        shape = len(boxes), len(self.pairs)
+        depth: Array = np.full(shape[0] * shape[1], np.inf)
+        motion: Array = np.zeros(shape[0] * shape[1])
+        np.minimum.at(depth, group, slack + needed[rows])
+        np.maximum.at(motion, group, needed[rows])
+        depth, motion = depth.reshape(shape), motion.reshape(shape)
+        self._test(boxes.values, placed, depth, TESTS)
+        undecided: np.ndarray = np.isfinite(depth)
+        self._measure(boxes.values, placed, motion, undecided)
+        left = rows[(undecided & self._list_open()).reshape(-1)[group]]
+        return self._halve(boxes, c.choose(left), share)
+
+    def _test(self, values: Array, placed: Placement, depth: Array, tests: int) -> None:
+        """Test the deepest overlaps of each pair for contact."""
+        for index, pair in enumerate(self.pairs):
+            if self.outcomes[pair].witness is not None:
+                continue
+            rows = np.nonzero(depth[:, index] <= MARGIN)[0]
+            for row in rows[np.argsort(depth[rows, index], kind="stable")][:tests]:
+                self.tests += 1
+                if self.contacts.touches(pair, get_pose_of(placed, row)):
+                    self.outcomes[pair].witness = values[row].copy()
+                    break
+
+    def _measure(
+        self, values: Array, placed: Placement, motion: Array, undecided: np.ndarray
+    ) -> None:
+        """Ask the triangles for their distance where the motion is small; clear free boxes."""
+        for row, index in zip(*np.nonzero(undecided & (motion < THIN)), strict=True):
+            outcome = self.outcomes[self.pairs[index]]
+            if outcome.witness is not None:
+                continue
+            self.measures += 1
+            distance = self.contacts.measure(self.pairs[index], get_pose_of(placed, row))
+            if distance <= 0:
+                outcome.witness = values[row].copy()
+                continue
+            if distance < outcome.nearest:
+                outcome.nearest, outcome.near_values = distance, values[row].copy()
+            undecided[row, index] = distance <= motion[row, index]
+
+    def _halve(self, boxes: Boxes, candidates: Candidates, share: Array) -> Boxes:
+        """Halve boxes in the coordinate that moves the pieces most."""
+        if not len(candidates):
+            return boxes.choose(np.zeros(0, dtype=np.int64), candidates)
+        kept, c = _renumber(candidates)
+        boxes, share = boxes.choose(kept, c), share[kept]
+        rows = np.arange(len(boxes))
+        column = share.argmax(axis=1)
+        halves = boxes.halves.copy()
+        halves[rows, column] /= 2
+        step = np.zeros_like(halves)
+        step[rows, column] = halves[rows, column]
+        halves *= 1 + 1e-15
+        both = Candidates(
+            np.concatenate([c.box, c.box + len(rows)]),
+            np.concatenate([c.one, c.one]),
+            np.concatenate([c.other, c.other]),
+        )
+        return Boxes(
+            np.concatenate([boxes.values - step, boxes.values + step]),
+            np.concatenate([halves, halves]),
+            np.concatenate([boxes.directions, boxes.directions]),
+            both,
+        )
+
+    def _conclude(self, stack: list[Boxes]) -> None:
+        """Mark the pairs that no box has left as free."""
+        left = np.zeros(len(self.pairs), dtype=bool)
+        for boxes in stack:
+            c = boxes.candidates
+            left[self.pair_of[c.one, c.other]] = True
+        for index, pair in enumerate(self.pairs):
+            outcome = self.outcomes[pair]
+            outcome.is_free = outcome.witness is None and not left[index]
+
+
+def _renumber(candidates: Candidates) -> tuple[np.ndarray, Candidates]:
+    """Return the boxes of candidates, and the candidates with the boxes numbered from 0."""
+    kept, box = np.unique(candidates.box, return_inverse=True)
+    return kept, Candidates(box, candidates.one, candidates.other)
+
+
+def _get_poses(placed: Placement) -> Poses:
+    (a, b), (at_a, at_b) = placed.rotations, placed.translations
+    return (a, at_a), (b, at_b)
+
+
+def get_pose_of(placed: Placement, row: int) -> list[tuple[Array, Array]]:
+    """Return rotation and translation [m] of A and of B in one box."""
+    return [(rotation[row], translation[row]) for rotation, translation in _get_poses(placed)]
+
+
+def _take(stack: list[Boxes]) -> Boxes:
+    """Take a batch of boxes from the end of the stack."""
+    boxes = stack.pop()
+    if len(boxes) <= BATCH:
+        return boxes
+    start = len(boxes) - BATCH
+    c = boxes.candidates
+    late = c.box >= start
+    rows = np.arange(len(boxes))
+    rest = Candidates(c.box[~late], c.one[~late], c.other[~late])
+    stack.append(boxes.choose(rows[:start], rest))
+    return boxes.choose(rows[start:], Candidates(c.box[late] - start, c.one[late], c.other[late]))
