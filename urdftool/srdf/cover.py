@@ -124,9 +124,9 @@ def _bound_distance(points: Points, hull: Points) -> float:
 
 def _find_normal(points: Points) -> Array:
     """Return the unit direction in which points extend least."""
-    centered = points - points.mean(axis=0)
     if len(points) < 3:
-        return np.eye(3)[2]
+        return np.array([0.0, 0.0, 1.0])
+    centered = points - points.mean(axis=0)
     normal: Array = np.linalg.svd(centered, full_matrices=False)[2][-1]
     return normal
 
