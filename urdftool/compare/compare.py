@@ -12,6 +12,7 @@ from ..model.elements import Joint, Robot
 from ..model.world import WORLD
 from .bodies import Body, compute_axis
 from .difference import Comparison, Difference
+from .drives import compare_drives
 from .dynamics import compare_dynamics
 from .equipment import compare_equipment
 from .frames import describe_motion, describe_pose, invert, measure_largest
@@ -29,6 +30,7 @@ from .origins import (
 )
 from .pair import Match, Pair, add_presence, locate, make_pair
 from .rows import ROWS, Row
+from .sensors import compare_sensors
 from .settings import compare_flags, compare_joint_settings, compare_robot_flags
 from .shapes import compare_shapes
 
@@ -98,6 +100,8 @@ def compare_robots(
         joints = pair.a.joints[name], pair.b.joints[other]
         compare_mimic(pair, *joints, walk.signs, comparison)
     compare_robot_flags(pair, comparison)
+    compare_sensors(pair, comparison)
+    compare_drives(pair, comparison)
     compare_equipment(pair, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)
@@ -312,6 +316,7 @@ def _compare_tree(walk: _Walk, match: Match) -> None:
         match = todo.pop()
         if match.two.name not in links:
             links.add(pair.links.setdefault(match.one.name, match.two.name))
+        pair.frames[match.one.name] = match.two.name, match.frame
         _compare_content(pair, match, walk.comparison)
         pairs = [(j, other) for j in match.one.joints if (other := _find_joint(pair, j))]
         left = [j for j in match.one.joints if j.name not in pair.joints]

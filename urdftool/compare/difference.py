@@ -25,6 +25,7 @@ class Difference:
         note: Explanation, such as ``opposite direction``.
         is_convention: Whether the robots are equal except for a convention, which causes no
             difference in motion, contact or mass.
+        owners: Names of the links or joints of a part, such as a sensor, in both robots.
     """
 
     row: str
@@ -37,6 +38,7 @@ class Difference:
     places: tuple[Place, Place]
     note: str = ""
     is_convention: bool = False
+    owners: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from ..model.provenance import NOWHERE
 from ..model.settings import JOINT_TAGS, LINK_TAGS
 from .change import Change
 from .difference import Comparison, Difference
-from .extensions import compare_extensions
+from .extensions import collect_tags, compare_extensions
 from .mechanisms import compare_mechanisms
 from .pair import Pair
 
 _BLOCKS = "simulator data"
 
 _ROW_OF = {
-    "camera": "sensors",
-    "mounted sensor": "sensors",
     "joint actuator": "actuators",
     "contact exclusion": "contact pairs",
     "closed loop": "loops",
@@ -28,14 +27,20 @@ _ROW_OF = {
 
 _TOLERANCE = 1e-6
 
+_WHY = {"simulator data": "only URDF has such blocks"}
+
+_READ = LINK_TAGS | JOINT_TAGS | {"sensor", "joint"}
+"""Elements in ``<gazebo>`` whose values are compared in rows of their own."""
+
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
-    """Compare sensors, actuators, loops, contact pairs and plugins of two files of one format."""
+    """Compare actuators, contact pairs, configurations and plugins of two files of one format."""
     rows = set(_ROW_OF.values()) & comparison.tolerances.keys()
     if pair.formats[0] != pair.formats[1]:
-        comparison.skipped.update(dict.fromkeys(rows, "of two files of one format only"))
+        for row in rows - {"actuators"}:
+            comparison.skipped[row] = _WHY.get(row, "of two files of one format only")
         return
-    if pair.formats[0] == "urdf":  # its sensors and actuators are elements of blocks
+    if pair.formats[0] == "urdf":  # its actuators are elements of blocks
         comparison.skipped.update(dict.fromkeys(rows - {_BLOCKS}, f"in the row of {_BLOCKS}"))
     elif _BLOCKS in rows:
         comparison.skipped[_BLOCKS] = "plugins are not read"
@@ -49,8 +54,13 @@ def _list_changes(pair: Pair) -> Iterator[Change]:
     renamed = {**pair.joints, **pair.links}
     yield from compare_mechanisms(a, b, _TOLERANCE, renamed)
     for change in compare_extensions(a, b, _TOLERANCE, renamed):
-        if change.what.split("/")[0].split(" ")[0] not in LINK_TAGS | JOINT_TAGS:
-            yield change  # the others are settings, which have rows of their own
+        if change.what in ("added", "removed"):
+            one = change.what == "removed"
+            tags = collect_tags(a if one else b, change, renamed if one else {})
+            if not tags or tags - _READ:
+                yield change
+        elif re.split(r"[/ \[(]", change.what)[0] not in _READ:
+            yield change
 
 
 def _make_difference(row: str, change: Change) -> Difference:

@@ -34,6 +34,12 @@ def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[
     return found
 
 
+def collect_tags(robot: Robot, change: Change, renamed: Mapping[str, str]) -> set[str]:
+    """Return the tags of the elements in the blocks that a change adds or removes."""
+    blocks = _collect_blocks(robot, change.kind, renamed).get(change.name, [])
+    return {child.tag for block in blocks for child in block.children}
+
+
 def _compare_blocks(
     tag: str,
     name: str,

@@ -25,6 +25,8 @@ class Pair:
         joints: Joints of the second robot by those of the first.
         links: Links of the second robot by those of the first.
         meshes: Measured meshes of both robots.
+        frames: Of each body of the first robot that was compared, the body of the second and the
+            pose of its frame in that of the first, 4 × 4.
     """
 
     a: Bodies
@@ -32,6 +34,7 @@ class Pair:
     joints: dict[str, str]
     links: dict[str, str]
     meshes: MeshMeasures = field(default_factory=MeshMeasures)
+    frames: dict[str, tuple[str, Array]] = field(default_factory=dict)
 
     @property
     def formats(self) -> tuple[str, str]:
@@ -131,6 +134,7 @@ def add_presence(
     *,
     other: Part | None = None,
     counterpart: str = "",
+    owners: tuple[str, ...] = (),
 ) -> None:
     """Record a part that only one robot has.
 
@@ -145,12 +149,15 @@ def add_presence(
         value: Description of the part.
         other: The part of the other robot that should have it.
         counterpart: Name of that part, if it exists.
+        owners: Links or joints of the part.
     """
     here, there = locate(part, None), locate(other, None)
     names = (name, counterpart) if side == 0 else (counterpart, name)
     values = (value, None) if side == 0 else (None, value)
     places = (here, there) if side == 0 else (there, here)
-    comparison.add(Difference(row, kind, names, what, values, "", float("inf"), places))
+    comparison.add(
+        Difference(row, kind, names, what, values, "", float("inf"), places, owners=owners)
+    )
 
 
 def get_members(bodies: Bodies, body: Body) -> list[tuple[Link, Array]]:

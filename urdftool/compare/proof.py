@@ -193,6 +193,8 @@ def _start_check(row: Row, comparison: Comparison) -> Check:
 def _list_names(source: Robot, difference: Difference, back: Mapping[str, str]) -> set[str]:
     """Return the parts of the source that a difference concerns."""
     one, two = difference.names
+    if difference.owners:
+        return {one, two, *difference.owners}
     if one:
         return {one}
     name = back.get(two, two)

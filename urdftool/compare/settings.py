@@ -85,8 +85,8 @@ def _compare(
                 comparison.record_not_comparable(f"{what}: not in every format")
             continue
         places = locate(parts[0], owners[0]), locate(parts[1], owners[1])
-        amount = _measure(x, y)
-        values: tuple[object, object] = _format(x), _format(y)
+        amount = measure_content(x, y)
+        values: tuple[object, object] = format_content(x), format_content(y)
         comparison.add(Difference(row, kind, names, what, values, setting.unit, amount, places))
 
 
@@ -95,7 +95,8 @@ def _has(form: str, setting: Setting) -> bool:
     return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, "SDF or a tag"))
 
 
-def _measure(x: Content, y: Content) -> float:
+def measure_content(x: Content, y: Content) -> float:
+    """Return how far two values are apart, relative above 1; infinite for unequal texts."""
     if isinstance(x, tuple) and isinstance(y, tuple):
         return max(abs(a - b) for a, b in zip(x, y, strict=True))
     if isinstance(x, tuple | str) or isinstance(y, tuple | str):
@@ -105,7 +106,7 @@ def _measure(x: Content, y: Content) -> float:
     return measure(x, y)
 
 
-def _format(content: Content) -> object:
+def format_content(content: Content) -> object:
     """Return a number; another value as text."""
     if isinstance(content, tuple):
         return " ".join(f"{part:g}" for part in content)

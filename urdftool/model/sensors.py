@@ -108,6 +108,9 @@ SETTINGS = (
 )
 """Settings of sensors, by their path in SDF."""
 
+MAX_RAYS = 36
+"""Largest number of rays of a lidar that rangefinders of MJCF stand for; chosen, no source."""
+
 _ENDINGS: dict[str, float | str] = {
     **dict.fromkeys(("mean", "stddev", "bias_mean", "bias_stddev", "precision"), 0.0),
     **dict.fromkeys(("dynamic_bias_stddev", "dynamic_bias_correlation_time"), 0.0),

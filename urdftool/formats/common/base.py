@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from typing import Literal
 
 from ...diagnostic import Severity
+from ...model.drives import drive_plugins
 from ...model.settings import is_set
 from ...model.world import WORLD
 from ..written import Written
-from .drives import drive_plugins
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
 from .standing import explain_free_base

@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from ...model.drives import get_commanded_joints
 from ...model.elements import Joint
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, make_pose, rotate
-from .drives import get_commanded_joints
 from .rigid_tree import RigidTree
 from .shape_box import Bounds, ShapeBoxes
 

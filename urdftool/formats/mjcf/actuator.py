@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from lxml import etree
 
 from ...diagnostic import Severity
+from ...model.drives import get_actuator_kind, get_plugin_drives
 from ...model.elements import Joint, Robot
 from ..common.actuator_config import JointSettings
-from ..common.drives import get_actuator_kind, get_plugin_drives
 from ..written import Written
 from .digits import format_numbers_text, number_text
 from .equality import follows

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...diagnostic import Severity
+from ...model.drives import list_servo_joints
 from ...model.elements import Joint
 from ..common.actuator_config import JointSettings, read_actuator_config
-from ..common.drives import list_servo_joints
 from ..written import Written
 from .bodies import Bodies
 
