@@ -9,6 +9,11 @@ How the consumers of a robot description read ``<asset>``, according to their so
   this reader does. PyBullet rotates them; a note reports that if it matters.
 
 Coordinates are rounded to 32 bits, as assimp stores them.
+
+Why not pycollada (0.9.3 was compared on 336 files): it reads 330 of them as this reader does, and
+nothing of 4 (of ANYmal's foot, because an image is missing); it takes NaN for 0 and ignores a
+malformed transform, 26 bytes of ``vcount`` make it allocate 15 GB, and 4,000 nodes that each show
+the next take 210 s.
 """
 
 from __future__ import annotations

@@ -5,6 +5,9 @@ since 2025), Drake and Blender rotate the scene by +90° about X so that Y becom
 of RViz and Gazebo (gz-common's ``AssimpLoader``) keep the file's axes. PyBullet and MuJoCo do not
 read glTF. This reader rotates it, as the standard requires, unless the user declares that Z is up
 (``--gltf-up z``); a note reports either.
+
+Why not trimesh (5.2 reads 18 of 18 files as this reader does): it ignores sparse accessors, loses
+fans, and takes compressed meshes and corners out of range without an error.
 """
 
 from __future__ import annotations
