@@ -6,7 +6,9 @@ import inspect
 import re
 from dataclasses import fields, is_dataclass
 from enum import Enum
+from importlib import import_module
 from types import FunctionType
+from typing import Literal, get_args, get_origin
 
 import urdftool
 from urdftool.collision import compute, settings
@@ -65,7 +67,7 @@ def _format_path(one: type) -> str:
 
 def _format_function(name: str, one: FunctionType) -> str:
     signature = inspect.signature(one)
-    words = [_format_parameter(parameter) for parameter in signature.parameters.values()]
+    words = [_format_parameter(parameter, one) for parameter in signature.parameters.values()]
     keyword_only = [p.kind is p.KEYWORD_ONLY for p in signature.parameters.values()]
     if True in keyword_only:
         words.insert(keyword_only.index(True), "*")
@@ -75,9 +77,21 @@ def _format_function(name: str, one: FunctionType) -> str:
     return f"### {one.__name__}\n\n{code}\n\n{_convert(one.__doc__)}"
 
 
-def _format_parameter(parameter: inspect.Parameter) -> str:
+def _format_parameter(parameter: inspect.Parameter, one: FunctionType) -> str:
     default = "" if parameter.default is parameter.empty else f" = {parameter.default!r}"
-    return f"{parameter.name}: {parameter.annotation}{default}"
+    return f"{parameter.name}: {_format_type(parameter.annotation, one)}{default}"
+
+
+def _format_type(annotation: str, one: FunctionType) -> str:
+    """Return a type; the words of a Literal in place of its name in the options of an export."""
+    verb, _, target = one.__name__.partition("_")
+    if verb != "export":
+        return annotation
+    options = import_module(f"urdftool.formats.{target}.options")
+    type_ = getattr(options, annotation, None)
+    if get_origin(type_) is not Literal:
+        return annotation
+    return f"Literal[{', '.join(map(repr, get_args(type_)))}]"
 
 
 def _format_class(name: str, one: type) -> str:

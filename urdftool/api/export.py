@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from ..formats.written import Written
 from ..model.elements import Robot
@@ -15,20 +15,20 @@ from ..source.description import GltfUp
 
 if TYPE_CHECKING:
     from ..finding import Finding
-    from ..formats.common.base import Base
-    from ..formats.common.cut import Cut
-    from ..formats.common.inertia_repair import FixInertia
+    from ..formats.common.cut import Cut, Cutter
+    from ..formats.common.option import Base, FixInertia
     from ..formats.mjcf.options import Actuators, Exclude
+    from ..formats.sdf.options import FixedJoints, Target, Uri
 
 
 def export_sdf(
     robot: Robot,
     output: str | Path | None = None,
     *,
-    target: Literal["gz", "gazebo-classic"] = "gz",
+    target: Target = "gz",
     version: str = "",
-    fixed_joints: Literal["", "keep", "lump"] = "",
-    uri: Literal["", "relative", "model", "package", "file"] = "",
+    fixed_joints: FixedJoints = "",
+    uri: Uri = "",
     world: bool = False,
     fix_inertia: FixInertia = "none",
     mesh_dir: str = "meshes",
@@ -57,32 +57,28 @@ def export_sdf(
 
     Raises:
         ModelError: The robot has errors that prevent writing it; ``notes`` lists the others.
-        ConfigError: The target does not read that version.
+        ConfigError: An option has a value that is not allowed, or the target does not read that
+            version.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
-    from ..errors import ConfigError
+    from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.registry import format_named
-    from ..formats.sdf.options import VERSIONS, Options, get_folder_and_file
+    from ..formats.sdf.options import Options, get_folder_and_file
 
-    if version and version not in VERSIONS.get(target, ()):
-        known = ", ".join(VERSIONS.get(target, ()))
-        raise ConfigError(f"'{target}' does not read SDF {version}; it reads {known or 'nothing'}")
+    choices = {
+        "target": target,
+        "version": version,
+        "fixed_joints": fixed_joints,
+        "uri": uri,
+        "world": world,
+        "fix_inertia": fix_inertia,
+        "mesh_dir": mesh_dir,
+        "actuator_config": actuator_config,
+        "force": force,
+    }
     folder, file = get_folder_and_file(output or robot.name or "robot")
-    config = None if actuator_config is None else Path(actuator_config)
-    options = Options(
-        target,
-        version,
-        fixed_joints,
-        uri,
-        world,
-        force,
-        folder,
-        file,
-        mesh_dir,
-        fix_inertia,
-        config,
-    )
+    options = make_options(Options, choices, folder=folder, file=file)
     sdf, robot = format_named("sdf"), weld_base(robot)
     written = sdf.write(robot, options)
     written.losses += check_plugins(robot, target)
@@ -150,35 +146,41 @@ def export_mjcf(
     Raises:
         ModelError: The robot has errors that prevent writing it, listed in ``notes``; or it lacks
             a joint of ``pose``.
-        ConfigError: The SRDF has no such group state.
+        ConfigError: An option has a value that is not allowed, or the SRDF has no such group state.
         MissingDependency: MuJoCo (for ``verify``) or CoACD (for ``decompose``) is not installed.
         OutputError: A file cannot be written, or MuJoCo cannot compile it; previous contents are
             unchanged.
     """
+    from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
 
     mjcf, robot = format_named("mjcf"), weld_base(robot)
     name = Path(output).name if output is not None else ""
-    options = Options(
-        actuators=actuators,
-        base=base,
-        scene=scene,
-        srdf=None if srdf is None else Path(srdf),
-        fix_inertia=fix_inertia,
-        force=force,
-        mesh_dir="" if mesh_dir == "." else mesh_dir,
+    choices = {
+        "actuators": actuators,
+        "base": base,
+        "scene": scene,
+        "srdf": srdf,
+        "fix_inertia": fix_inertia,
+        "decompose": decompose,
+        "keep_locked_joints": keep_locked_joints,
+        "pose": pose,
+        "base_sensors": base_sensors,
+        "actuator_config": actuator_config,
+        "armature": armature,
+        "exclude": exclude,
+        "fuse": fuse,
+        "mesh_dir": mesh_dir,
+        "force": force,
+    }
+    options = make_options(
+        Options,
+        choices,
         file=name if mjcf.has_suffix(name) else "",
-        cutter=partial(cut_meshes, gltf_up=_get_gltf_up(robot)) if decompose else None,
-        keep_locked_joints=keep_locked_joints,
-        pose=pose or {},
+        cutter=make_cutter(robot),
         state=state,
-        base_sensors=base_sensors,
-        actuator_config=None if actuator_config is None else Path(actuator_config),
-        armature=armature,
-        exclude=exclude,
-        fuse=fuse,
         overlap=measure_overlap,
     )
     written = mjcf.write(robot, options)
@@ -254,8 +256,10 @@ def measure_overlap(
     return measure_triangle_penetration(robot, link_poses(robot, positions), one, other)
 
 
-def _get_gltf_up(robot: Robot) -> GltfUp:
-    return "y" if robot.source is None else robot.source.gltf_up
+def make_cutter(robot: Robot) -> Cutter:
+    """Return the function that decomposes meshes of a robot, with the up axis of its glTF files."""
+    axes: GltfUp = "y" if robot.source is None else robot.source.gltf_up
+    return partial(cut_meshes, gltf_up=axes)
 
 
 def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut | str]:

@@ -37,16 +37,19 @@ def export_urdf(
         overwrite: Whether to replace files not written by urdftool.
 
     Raises:
+        ConfigError: An option has a value that is not allowed.
         ModelError: The robot has errors that prevent writing it; ``notes`` lists the others.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
+    from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.registry import format_named
     from ..formats.urdf.options import Options
 
     is_file = output is not None and Path(output).suffix.lower() == ".urdf"
     file = Path(output).name if output is not None and is_file else ""
-    options = Options(frames, force, file, mesh_dir, hardware, srdf)
+    choices = {"frames": frames, "hardware": hardware, "mesh_dir": mesh_dir, "force": force}
+    options = make_options(Options, choices, file=file, srdf=srdf)
     urdf = format_named("urdf")
     written = urdf.write(robot, options)
     written.checks = finish_export(

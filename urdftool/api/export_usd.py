@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from ..formats.written import Written
 from ..model.elements import Robot
 
 if TYPE_CHECKING:
-    from ..formats.common.inertia_repair import FixInertia
+    from ..formats.common.option import Base, FixInertia
+    from ..formats.usd.options import Approximation, Layers, Target
 
 
 def export_usd(
     robot: Robot,
     output: str | Path | None = None,
     *,
-    target: Literal["both", "newton", "isaac"] = "both",
-    layers: Literal["single", "payload"] = "single",
-    base: Literal["auto", "fixed", "free"] = "auto",
+    target: Target = "both",
+    layers: Layers = "single",
+    base: Base = "auto",
     srdf: str | Path | None = None,
     self_collision: bool | None = None,
     actuator_config: str | Path | None = None,
-    approximation: Literal["hull", "mesh"] = "hull",
+    approximation: Approximation = "hull",
     decompose: bool = False,
     fix_inertia: FixInertia = "none",
     force: bool = False,
@@ -50,33 +50,34 @@ def export_usd(
         overwrite: Whether to replace files not written by urdftool.
 
     Raises:
+        ConfigError: An option has a value that is not allowed.
         MissingDependency: usd-core is not installed.
         ModelError: The robot has errors that prevent writing it; ``notes`` lists the others.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
     from ..extras import require
+    from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.registry import format_named
-
-    require("export_usd", "pxr")
     from ..formats.usd.options import Options
-    from .export import cut_meshes
+    from .export import make_cutter
 
+    choices = {
+        "target": target,
+        "layers": layers,
+        "base": base,
+        "srdf": srdf,
+        "self_collision": self_collision,
+        "actuator_config": actuator_config,
+        "approximation": approximation,
+        "decompose": decompose,
+        "fix_inertia": fix_inertia,
+        "force": force,
+    }
     usd = format_named("usd")
-    axes = "y" if robot.source is None else robot.source.gltf_up
-    options = Options(
-        target,
-        base,
-        layers,
-        None if srdf is None else Path(srdf),
-        self_collision,
-        None if actuator_config is None else Path(actuator_config),
-        approximation,
-        partial(cut_meshes, gltf_up=axes) if decompose else None,
-        fix_inertia,
-        force,
-        Path(output).name if output is not None and usd.has_suffix(output) else "",
-    )
+    file = Path(output).name if output is not None and usd.has_suffix(output) else ""
+    options = make_options(Options, choices, file=file, cutter=make_cutter(robot))
+    require("export_usd", "pxr")
     if output is not None and options.file and not overwrite:
         from ..formats.usd.files import check_replaced
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ..console import Console
-from .export_options import add_fix_inertia_option, make_export_options
+from ..formats.common.option import make_options
+from ..formats.sdf.options import MODEL, Options, get_folder_and_file
+from .export_options import add_declared_options, add_output_option, make_export_options
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
 from .read_other import read_any
-
-if TYPE_CHECKING:
-    from ..formats.sdf.options import Options
-
 
 _GROUPS = {
     "Output": "output world uri mesh_dir overwrite style",
@@ -28,56 +26,11 @@ _GROUPS = {
 
 @click.command("sdf", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
-@click.option(
-    "-o",
-    "--output",
-    metavar="OUT",
-    help="Output folder, or .sdf, .xml or .world file.  [default: standard output]",
-)
-@click.option(
-    "--target",
-    type=click.Choice(("gz", "gazebo-classic")),
-    default="gz",
-    show_default=True,
-    help="Target simulator.",
-)
-@click.option(
-    "--sdf-version",
-    "version",
-    type=click.Choice(("1.6", "1.7", "1.9", "1.10", "1.11", "1.12")),
-    metavar="VERSION",
-    help="SDF version: 1.9 to 1.12 for gz, 1.6 or 1.7 for gazebo-classic.  [default: 1.11 for gz, "
-    "1.7 for gazebo-classic]",
-)
-@click.option(
-    "--fixed-joints",
-    type=click.Choice(("keep", "lump")),
-    metavar="METHOD",
-    help="Fixed joints: keep, or lump their links into one.  [default: keep for gz, lump for "
-    "gazebo-classic]",
-)
-@click.option(
-    "--uri",
-    type=click.Choice(("relative", "model", "package", "file")),
-    metavar="FORM",
-    help="Form of mesh URIs: relative, model, package or file; meshes are copied for relative and "
-    "model only.",
-)
-@click.option("--world", is_flag=True, help="Write a world with the model, a ground and a sun.")
-@click.option(
-    "--actuator-config",
-    metavar="FILE",
-    type=Path,
-    help='TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
-    "the same file as for export mjcf.",
-)
-@add_fix_inertia_option
+@add_output_option(".sdf, .xml or .world")
+@add_declared_options(Options)
 @make_export_options(
-    mesh_dir="meshes",
-    verify=(
-        "Read the result and compare it with IN: tree, masses, limits, base, contacts, friction, "
-        "flags, springs, sensors, plugins, visuals."
-    ),
+    "Read the result and compare it with IN: tree, masses, limits, base, contacts, friction, "
+    "flags, springs, sensors, plugins, visuals."
 )
 @add_gltf_option
 @add_package_options
@@ -110,7 +63,10 @@ def command(
     from .export_report import run_export
 
     place = output or "-"
-    options = _make_options(place, choices)
+    if place == "-" and not choices["uri"]:
+        choices["uri"] = "file"  # standard output has no folder for relative URIs
+    folder, file = get_folder_and_file(MODEL if place == "-" else place)
+    options = make_options(Options, choices, folder=folder, file=file)
     model = weld_base(read_any(console, robot, package, package_path, quiet=True))
     report_gltf_axes(console, model)
     return run_export(
@@ -124,26 +80,4 @@ def command(
         overwrite=overwrite,
         as_json=style == "json",
         more_checks=partial(check_plugins, target=options.target),
-    )
-
-
-def _make_options(output: str, choices: dict[str, Any]) -> Options:
-    """Make the options of the writer from those of the command line and the output path."""
-    from ..formats.sdf.options import MODEL, VERSIONS, Options, get_folder_and_file
-
-    target, version = choices["target"], choices.pop("version") or ""
-    if version and version not in VERSIONS[target]:
-        known = ", ".join(VERSIONS[target])
-        raise click.UsageError(f"{target} supports SDF {known}, not {version}")
-    folder, file = get_folder_and_file(MODEL if output == "-" else output)
-    config = choices.pop("actuator_config")
-    choices = {name: value or "" if value is None else value for name, value in choices.items()}
-    if output == "-" and not choices["uri"]:
-        choices["uri"] = "file"  # standard output has no folder for relative URIs
-    return Options(
-        version=version,
-        folder=folder,
-        file=file,
-        actuator_config=config,
-        **choices,
     )

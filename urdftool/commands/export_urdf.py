@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
 from ..console import Console
-from .export_options import make_export_options
+from ..formats.common.option import make_options
+from ..formats.urdf.options import Options
+from .export_options import add_declared_options, add_output_option, make_export_options
 from .grouped_help import GroupedCommand
 from .options import add_gltf_option, add_package_options, add_robot_argument
 
@@ -17,35 +20,21 @@ _GROUPS = {
     "Verification": "verified strict force",
 }
 
+_FRAMES = {
+    "type": click.Choice(("keep", "none")),
+    "is_flag": False,
+    "default": "keep",
+    "show_default": True,
+}
+
 
 @click.command("urdf", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
-@click.option(
-    "-o",
-    "--output",
-    metavar="OUT",
-    help="Output folder, or .urdf file.  [default: standard output]",
-)
-@click.option(
-    "--frames",
-    type=click.Choice(("keep", "none")),
-    default="keep",
-    show_default=True,
-    help="Sites and frames: keep as links without mass, or none.",
-)
-@click.option(
-    "--hardware",
-    metavar="PLUGIN",
-    default="mock_components/GenericSystem",
-    show_default=True,
-    help="Hardware plugin in <ros2_control>, which holds the actuators; none drops them.",
-)
+@add_output_option(".urdf")
+@add_declared_options(Options, frames=_FRAMES)
 @make_export_options(
-    mesh_dir="meshes",
-    verify=(
-        "Read the result and compare it with IN as urdftool verify does: tree, frames, limits, "
-        "masses, shapes."
-    ),
+    "Read the result and compare it with IN as urdftool verify does: tree, frames, limits, "
+    "masses, shapes."
 )
 @add_gltf_option
 @add_package_options
@@ -55,16 +44,13 @@ def command(
     /,
     robot: tuple[str, dict[str, str]],
     output: str | None,
-    frames: str,
-    hardware: str,
-    mesh_dir: str,
     package: dict[str, Path],
     package_path: tuple[str, ...],
     overwrite: bool,
     strict: bool,
     verified: bool,
-    force: bool,
     style: str,
+    **choices: Any,
 ) -> int:
     """Convert the robot IN, in SDF, MJCF or USD, to URDF.
 
@@ -78,20 +64,16 @@ def command(
         urdftool export urdf model.sdf -o model.urdf
     """  # noqa: D301 -- click reads the escape
     from ..formats.registry import format_named
-    from ..formats.urdf.options import Options
     from .export_report import run_export
     from .read_other import read_any
 
     place = output or "-"
-    file = Path(place).name if place == "-" or Path(place).suffix.lower() == ".urdf" else ""
-    options = Options(
-        frames == "keep",
-        force,
-        "robot.urdf" if place == "-" else file,
-        mesh_dir,
-        "" if hardware == "none" else hardware,
-        srdf=place != "-",
-    )
+    file = Path(place).name if Path(place).suffix.lower() == ".urdf" else ""
+    choices["frames"] = choices["frames"] == "keep"
+    if choices["hardware"] == "none":
+        choices["hardware"] = ""
+    file = "robot.urdf" if place == "-" else file
+    options = make_options(Options, choices, file=file, srdf=place != "-")
     model = read_any(console, robot, package, package_path)
     return run_export(
         console,

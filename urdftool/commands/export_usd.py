@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
 
 from ..console import Console
-from .export_options import add_fix_inertia_option, make_export_options
+from ..formats.common.option import make_options
+from ..formats.usd.options import Options
+from .export_options import add_declared_options, add_output_option, make_export_options
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
@@ -24,27 +25,8 @@ _GROUPS = {
 
 @click.command("usd", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
-@click.option(
-    "-o",
-    "--output",
-    metavar="OUT",
-    help="Output folder, or .usda (text), .usdc (binary) or .usdz (package) file.  "
-    "[default: standard output]",
-)
-@click.option(
-    "--target",
-    type=click.Choice(("both", "newton", "isaac")),
-    default="both",
-    show_default=True,
-    help="Simulator: newton omits attributes of PhysX, isaac adds the schemas of Isaac Sim.",
-)
-@click.option(
-    "--layers",
-    type=click.Choice(("single", "payload")),
-    default="single",
-    show_default=True,
-    help="One layer, or a payload with one layer each for geometry, materials and physics.",
-)
+@add_output_option(".usda (text), .usdc (binary) or .usdz (package)")
+@add_declared_options(Options)
 @click.option(
     "--isaaclab",
     metavar="FILE",
@@ -58,47 +40,9 @@ _GROUPS = {
     show_default=True,
     help="Major version of Isaac Lab; versions differ in names and in the order of quaternions.",
 )
-@click.option(
-    "--base",
-    type=click.Choice(("auto", "fixed", "free")),
-    default="auto",
-    show_default=True,
-    help="Base of the robot; auto: free for robots with legs or driven wheels, or if the file "
-    "defines it so.",
-)
-@click.option(
-    "--srdf",
-    metavar="FILE",
-    type=Path,
-    help="SRDF file with disabled collisions and virtual joint.",
-)
-@click.option(
-    "--self-collision/--no-self-collision",
-    default=None,
-    help="Whether links collide with each other.  [default: with --srdf or <self_collide>]",
-)
-@click.option(
-    "--actuator-config",
-    metavar="FILE",
-    type=Path,
-    help="TOML file with kp, kd, armature, damping, friction and force-range under "
-    '[joints."NAME or PATTERN"].',
-)
-@click.option(
-    "--approximation",
-    type=click.Choice(("hull", "mesh")),
-    default="hull",
-    show_default=True,
-    help="Collision geometry of a mesh: its convex hull, or its triangles.",
-)
-@click.option("--decompose", is_flag=True, help="Decompose collision meshes into convex pieces.")
-@add_fix_inertia_option
 @make_export_options(
-    mesh_dir="",
-    verify=(
-        "Read the result back, with Newton too if it is installed, and compare it with IN: tree, "
-        "masses, inertia, frames, limits, drives, friction, mimic, shapes, contacts."
-    ),
+    "Read the result back, with Newton too if it is installed, and compare it with IN: tree, "
+    "masses, inertia, frames, limits, drives, friction, mimic, shapes, contacts."
 )
 @add_gltf_option
 @add_package_options
@@ -112,7 +56,6 @@ def command(
     package_path: tuple[str, ...],
     isaaclab: Path | None,
     isaaclab_version: str,
-    decompose: bool,
     overwrite: bool,
     strict: bool,
     verified: bool,
@@ -128,23 +71,17 @@ def command(
         urdftool export usd panda.urdf -o panda.usdc --verify
         urdftool export usd quadruped.urdf.xacro -o q/ --base free --target isaac
     """  # noqa: D301 -- click's mark for lines it must not wrap
-    from ..api.export import cut_meshes
+    from ..api.export import make_cutter
     from ..extras import require
     from ..formats.registry import format_named
     from .export_report import run_export
 
     require("'urdftool export usd'", "pxr")
-    from ..formats.usd.options import Options
-
     usd, place = format_named("usd"), output or "-"
     model = read_any(console, robot, package, package_path, quiet=True)
     report_gltf_axes(console, model)
-    axes = "y" if model.source is None else model.source.gltf_up
-    options = Options(
-        file=Path(place).name if usd.has_suffix(place) else "",
-        cutter=partial(cut_meshes, gltf_up=axes) if decompose else None,
-        **choices,
-    )
+    file = Path(place).name if usd.has_suffix(place) else ""
+    options = make_options(Options, choices, file=file, cutter=make_cutter(model))
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
     if options.file and not overwrite:

@@ -234,7 +234,7 @@ def test_a_mesh_is_cut_into_pieces(write, mesh):
         shape("collision", mesh("flat.stl")),
     ]
     path = write("r.urdf", robot(link("a", INERTIAL + "".join(shapes))))
-    written = export(path, cutter=cutter)
+    written = export(path, decompose=True, cutter=cutter)
     assert [file.name for file in asked] == ["two_cubes.stl"]  # a cube is its hull
     collisions = [
         geom.get("mesh") for geom in tree(written).iter("geom") if geom.get("class") == "collision"
@@ -247,7 +247,9 @@ def test_a_mesh_is_cut_into_pieces(write, mesh):
 
 def test_a_mesh_that_cannot_be_cut_stays_whole(write, mesh):
     path = write("r.urdf", robot(link("a", shape("collision", mesh("two_cubes.stl")))))
-    written = export(path, cutter=lambda paths: dict.fromkeys(paths, "it took too long"))
+    written = export(
+        path, decompose=True, cutter=lambda paths: dict.fromkeys(paths, "it took too long")
+    )
     assert assets(written) == [{"file": "two_cubes.stl"}]
     assert any("it took too long" in loss.message for loss in written.losses)
 

@@ -456,7 +456,7 @@ def test_collision_meshes_are_decomposed_into_scaled_pieces(stage, write):
     def cutter(paths):
         return {path: Cut([piece, piece], 0.01) for path in paths}
 
-    made, written = stage(link("a", 1, shapes), cutter=cutter)
+    made, written = stage(link("a", 1, shapes), decompose=True, cutter=cutter)
     prims = made.GetPrimAtPath("/r/a/collisions/mesh").GetChildren()
     assert [prim.GetName() for prim in prims] == ["mesh_0", "mesh_1"]
     assert {value(prim, "physics:approximation") for prim in prims} == {"convexHull"}

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
 
 from ...diagnostic import Severity
 from ...model.drives import drive_plugins
 from ...model.settings import is_set
 from ...model.world import WORLD
 from ..written import Written
+from .option import Base
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
 from .standing import explain_free_base
-
-Base = Literal["auto", "fixed", "free"]
 
 
 def decide_base(

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ...geometry.mesh import Faces, Points
+if TYPE_CHECKING:
+    from ...geometry.mesh import Faces, Points
 
 
 @dataclass(frozen=True)

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
 
 from ...mechanics.repair import compute_box_tensor, compute_sphere_tensor
 from ...mechanics.spatial_inertia import SpatialInertia
 from ...mechanics.tensor import SymmetricTensor
 from ...model.elements import Vector
-
-FixInertia = Literal["none", "lift", "balance", "box"]
-"""Reject it; the nearest consistent tensor; a sphere's of the same mean; a box's of its size."""
-
-REPAIRS: tuple[FixInertia, ...] = ("none", "lift", "balance", "box")
+from .option import FixInertia
 
 
 def repair_tensor(

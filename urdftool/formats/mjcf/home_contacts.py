@@ -217,7 +217,7 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
     )
     count = f"{len(pairs)} pairs of links overlap" if len(pairs) > 1 else "2 links overlap"
     hints = []
-    if hulls and options.cutter is None:
+    if hulls and not options.decompose:
         hints.append("--decompose collides such meshes as convex pieces")
     if authored:
         hints.append("'urdftool collision --check' shows where the geometry is too large")

@@ -25,7 +25,8 @@ from ...mechanics.tensor import (
 )
 from ...model.elements import ZERO
 from ...model.pose import IDENTITY, transpose
-from ..common.inertia_repair import FixInertia, repair_tensor
+from ..common.inertia_repair import repair_tensor
+from ..common.option import FixInertia
 from ..defects import make_defect
 from ..written import Written
 from . import inertia as tensors

@@ -70,7 +70,7 @@ def create_mesh_assets(
                 made[job] = result
             else:
                 wrong.extend(_report_unreadable(uses, job, result))
-    if options.cutter is not None:
+    if options.decompose and options.cutter is not None:
         _cut(options.cutter, uses, made, written)
     _report_notes(uses, made, written)
     files = _Files(written, options.mesh_dir)

@@ -5,12 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 from ...model.elements import Robot
-from ..common.base import Base
 from ..common.cut import Cutter
-from ..common.inertia_repair import FixInertia
+from ..common.option import (
+    BASE,
+    DECOMPOSE,
+    FIX_INERTIA,
+    FORCE,
+    MESH_FOLDER,
+    Base,
+    FixInertia,
+    check_options,
+    declare,
+)
 
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Exclude = Literal["touching", "adjacent", "none"]
@@ -27,48 +36,103 @@ class Options:
     """Options of an MJCF export.
 
     Attributes:
-        actuators: Kind of actuators; ``auto`` uses transmissions, ros2_control and drive plugins.
-        base: Whether the root is fixed; ``auto`` uses the description, then what supports the
-            robot.
-        scene: Also write a scene with floor and light around the robot.
-        srdf: A MoveIt SRDF, for disabled collisions, group states and virtual joint.
-        fix_inertia: Repair method for physically inconsistent tensors.
-        force: Continue in spite of defects of the source if a robot remains.
-        mesh_dir: Folder of the meshes, relative to the model.
         file: Name of the model file; empty for the robot's name, with ``scene.xml`` next to it.
-        cutter: Decomposes collision meshes that are not convex; None leaves them whole.
-        keep_locked_joints: Keep a joint with equal limits, held by an equality, instead of welding
-            its link.
-        pose: Joint positions by name [rad, m] at home.
-        base_sensors: Add velocity, gyro, accelerometer and orientation sensors of a free base.
+        cutter: Decomposes collision meshes that are not convex, for ``decompose``.
         state: SRDF group state for the home configuration; empty for the likeliest.
-        actuator_config: TOML file with gains, armature and damping of joints.
-        exclude: Pairs of links that never collide: ``adjacent`` for those that a joint connects,
-            ``touching`` also for those that overlap at home in MuJoCo.
-        fuse: Merge each rigidly attached link into its parent, and keep its frame as a site.
         overlap: Measures authored geometry, to distinguish overlaps of convex hulls; None skips the
             search for overlaps unless ``exclude`` requires it.
-        armature: Rotor inertia [kg·m² or kg] of every joint for which the file sets none.
     """
 
-    actuators: Actuators = "auto"
-    base: Base = "auto"
-    scene: bool = False
-    srdf: Path | None = None
-    fix_inertia: FixInertia = "none"
-    force: bool = False
-    mesh_dir: str = "assets"
+    actuators: Actuators = field(
+        default="auto",
+        metadata=declare(
+            "Actuators: none, position, velocity or motor for all joints, or auto (from "
+            "transmissions, ros2_control and drive plugins).",
+            words=get_args(Actuators),
+            metavar="KIND",
+        ),
+    )
+    base: Base = field(default="auto", metadata=BASE)
+    scene: bool = field(
+        default=False, metadata=declare("Also write scene.xml with a floor and a light.", kind=bool)
+    )
+    srdf: Path | None = field(
+        default=None,
+        metadata=declare(
+            "SRDF file with disabled collisions and group states for the home position.",
+            kind=Path,
+            metavar="FILE",
+        ),
+    )
+    fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
+    force: bool = field(default=False, metadata=FORCE)
+    mesh_dir: str = field(default="assets", metadata=MESH_FOLDER)
     file: str = ""
+    decompose: bool = field(default=False, metadata=DECOMPOSE)
     cutter: Cutter | None = None
-    keep_locked_joints: bool = False
-    pose: Mapping[str, float] = field(default_factory=dict)
+    keep_locked_joints: bool = field(
+        default=False,
+        metadata=declare(
+            "Keep joints with lower = upper, held by an equality (default: weld their links).",
+            kind=bool,
+        ),
+    )
+    pose: Mapping[str, float] = field(
+        default_factory=dict,
+        metadata=declare(
+            "Home position of a joint [rad or m], or name of an SRDF group state. Repeatable.",
+            kind=dict,
+            metavar="JOINT=VALUE|NAME",
+        ),
+    )
     state: str = ""
-    base_sensors: bool = False
-    actuator_config: Path | None = None
-    armature: float | None = None
-    exclude: Exclude = "adjacent"
-    fuse: bool = False
+    base_sensors: bool = field(
+        default=False,
+        metadata=declare(
+            "Add missing sensors of a free base: linear velocity, gyro, accelerometer, "
+            "orientation.",
+            kind=bool,
+        ),
+    )
+    actuator_config: Path | None = field(
+        default=None,
+        metadata=declare(
+            "TOML file with kp, kd, armature, damping, friction, force-range and type under "
+            '[joints."NAME or PATTERN"].',
+            kind=Path,
+            metavar="FILE",
+        ),
+    )
+    armature: float | None = field(
+        default=None,
+        metadata=declare(
+            "Rotor inertia reflected at every joint [kg·m², or kg for prismatic joints].",
+            kind=float,
+            metavar="VALUE",
+            minimum=0,
+        ),
+    )
+    exclude: Exclude = field(
+        default="adjacent",
+        metadata=declare(
+            "Link pairs without contacts: adjacent (joined by a joint), touching (also those that "
+            "overlap at home), or none (only those of --srdf).",
+            words=get_args(Exclude),
+            metavar="PAIRS",
+            offered="touching",  # compiles the model to find them
+        ),
+    )
+    fuse: bool = field(
+        default=False,
+        metadata=declare(
+            "Merge links of fixed joints into their parents; their frames become sites.", kind=bool
+        ),
+    )
     overlap: Overlap | None = None
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if a value is not allowed."""
+        check_options(self)
 
     @property
     def input_files(self) -> tuple[Path, ...]:

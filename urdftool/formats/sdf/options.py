@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal, get_args
 
-from ..common.inertia_repair import FixInertia
+from ...errors import ConfigError
+from ..common.option import (
+    FIX_INERTIA,
+    FORCE,
+    MESH_FOLDER,
+    FixInertia,
+    check_options,
+    declare,
+)
 from ..registry import format_named
+
+Target = Literal["gz", "gazebo-classic"]
+FixedJoints = Literal["", "keep", "lump"]
+Uri = Literal["", "relative", "model", "package", "file"]
 
 VERSIONS: dict[str, tuple[str, ...]] = {
     "gz": ("1.9", "1.10", "1.11", "1.12"),
@@ -39,34 +52,73 @@ def get_folder_and_file(output: str | Path) -> tuple[str, str]:
 
 @dataclass(frozen=True)
 class Options:
-    """Options of an export to SDF.
+    """Options of an export to SDF; an empty word is the target's default.
 
     Attributes:
-        target: ``gz`` or ``gazebo-classic``.
-        version: SDF version; empty for the target's default.
-        fixed_joints: ``keep`` or ``lump``; empty for the target's default.
-        uri: Style of mesh URIs: ``relative``, ``model``, ``package`` or ``file``; empty for the
-            target's default.
-        world: Whether to write a world around the robot.
-        force: Whether to continue in spite of defects of the source.
         folder: Name of the output folder, which is the model's in ``model://`` URIs.
         file: Name of the output file; empty for a folder.
-        mesh_dir: Folder of the meshes, relative to the output.
-        fix_inertia: Repair method for physically inconsistent tensors.
-        actuator_config: TOML file with damping, friction and force range of joints.
     """
 
-    target: str = "gz"
-    version: str = ""
-    fixed_joints: str = ""
-    uri: str = ""
-    world: bool = False
-    force: bool = False
+    target: Target = field(
+        default="gz", metadata=declare("Target simulator.", words=get_args(Target))
+    )
+    version: str = field(
+        default="",
+        metadata=declare(
+            "SDF version: 1.9 to 1.12 for gz, 1.6 or 1.7 for gazebo-classic.  [default: 1.11 for "
+            "gz, 1.7 for gazebo-classic]",
+            words=tuple(RELEASES),
+            flag="sdf-version",
+            metavar="VERSION",
+        ),
+    )
+    fixed_joints: FixedJoints = field(
+        default="",
+        metadata=declare(
+            "Fixed joints: keep, or lump their links into one.  [default: keep for gz, lump for "
+            "gazebo-classic]",
+            words=get_args(FixedJoints)[1:],
+            metavar="METHOD",
+        ),
+    )
+    uri: Uri = field(
+        default="",
+        metadata=declare(
+            "Form of mesh URIs: relative, model, package or file; meshes are copied for relative "
+            "and model only.",
+            words=get_args(Uri)[1:],
+            metavar="FORM",
+        ),
+    )
+    world: bool = field(
+        default=False,
+        metadata=declare("Write a world with the model, a ground and a sun.", kind=bool),
+    )
+    force: bool = field(default=False, metadata=FORCE)
     folder: str = ""
     file: str = ""
-    mesh_dir: str = "meshes"
-    fix_inertia: FixInertia = "none"
-    actuator_config: Path | None = None
+    mesh_dir: str = field(default="meshes", metadata=MESH_FOLDER)
+    fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
+    actuator_config: Path | None = field(
+        default=None,
+        metadata=declare(
+            'TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
+            "the same file as for export mjcf.",
+            kind=Path,
+            metavar="FILE",
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        """Check the values.
+
+        Raises:
+            ConfigError: One is not allowed, or the target does not read the version.
+        """
+        check_options(self)
+        if self.version and self.version not in VERSIONS[self.target]:
+            known = ", ".join(VERSIONS[self.target])
+            raise ConfigError(f"'{self.target}' does not read SDF {self.version}; it reads {known}")
 
     @property
     def classic(self) -> bool:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+
+from ..common.option import FORCE, MESH_FOLDER, check_options, declare
 
 HARDWARE = "mock_components/GenericSystem"
 """Plugin of ros2_control without hardware, whose states follow the commands."""
@@ -14,20 +16,29 @@ class Options:
     """Options of an export to URDF.
 
     Attributes:
-        frames: Whether sites and frames become links without mass.
-        force: Whether to continue in spite of defects of the source.
         file: Name of the output file; empty for a folder.
-        mesh_dir: Folder of the meshes, relative to the output.
-        hardware: Plugin of the hardware in ``<ros2_control>``; empty to write no such block.
         srdf: Whether to write an SRDF file next to the URDF if the robot has content for it.
     """
 
-    frames: bool = True
-    force: bool = False
+    frames: bool = field(
+        default=True,
+        metadata=declare("Sites and frames: keep as links without mass, or none.", kind=bool),
+    )
+    force: bool = field(default=False, metadata=FORCE)
     file: str = ""
-    mesh_dir: str = "meshes"
-    hardware: str = HARDWARE
+    mesh_dir: str = field(default="meshes", metadata=MESH_FOLDER)
+    hardware: str = field(
+        default=HARDWARE,
+        metadata=declare(
+            "Hardware plugin in <ros2_control>, which holds the actuators; none drops them.",
+            metavar="PLUGIN",
+        ),
+    )
     srdf: bool = True
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if a value is not allowed."""
+        check_options(self)
 
     @property
     def input_files(self) -> tuple[Path, ...]:

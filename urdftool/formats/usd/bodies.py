@@ -16,7 +16,8 @@ from ...model.elements import BALL_TYPES, Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose, compute_norm, make_pose
 from ...model.start import start_positions
-from ..common.base import Base, decide_base
+from ..common.base import decide_base
+from ..common.option import Base
 from ..common.rigid_tree import group_rigid_links
 from ..common.shape_box import ShapeBoxes
 from ..written import Written

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
-from ..common.base import Base
 from ..common.cut import Cutter
-from ..common.inertia_repair import FixInertia
+from ..common.option import (
+    BASE,
+    DECOMPOSE,
+    FIX_INERTIA,
+    FORCE,
+    Base,
+    FixInertia,
+    check_options,
+    declare,
+)
 
 Target = Literal["both", "newton", "isaac"]
 Layers = Literal["single", "payload"]
@@ -22,32 +30,63 @@ class Options:
     """Options of an export to USD.
 
     Attributes:
-        target: Simulator whose attributes are written; ``both`` for one stage for all.
-        base: Whether the root is fixed to the world; ``auto`` uses the description.
-        layers: ``single`` writes one layer; ``payload`` writes a layer that loads others, one each
-            for geometry, materials and physics.
-        srdf: A MoveIt SRDF, for pairs of links that never collide.
-        self_collision: Whether links of the robot collide with each other; None if an SRDF is
-            given or the description requests it.
-        actuator_config: TOML file with gains, armature, damping, friction and force range.
-        approximation: Collision geometry of a mesh: its convex hull, or its triangles.
-        cutter: Decomposes collision meshes into convex pieces; None leaves them whole.
-        fix_inertia: Repair method for physically inconsistent tensors.
-        force: Continue in spite of defects of the source if a robot remains.
+        cutter: Decomposes collision meshes into convex pieces, for ``decompose``.
         file: Name of the stage; empty for the robot's name with ``.usda``.
     """
 
-    target: Target = "both"
-    base: Base = "auto"
-    layers: Layers = "single"
-    srdf: Path | None = None
-    self_collision: bool | None = None
-    actuator_config: Path | None = None
-    approximation: Approximation = "hull"
+    target: Target = field(
+        default="both",
+        metadata=declare(
+            "Simulator: newton omits attributes of PhysX, isaac adds the schemas of Isaac Sim.",
+            words=get_args(Target),
+        ),
+    )
+    base: Base = field(default="auto", metadata=BASE)
+    layers: Layers = field(
+        default="single",
+        metadata=declare(
+            "One layer, or a payload with one layer each for geometry, materials and physics.",
+            words=get_args(Layers),
+        ),
+    )
+    srdf: Path | None = field(
+        default=None,
+        metadata=declare(
+            "SRDF file with disabled collisions and virtual joint.", kind=Path, metavar="FILE"
+        ),
+    )
+    self_collision: bool | None = field(
+        default=None,
+        metadata=declare(
+            "Whether links collide with each other.  [default: with --srdf or <self_collide>]",
+            kind=bool,
+        ),
+    )
+    actuator_config: Path | None = field(
+        default=None,
+        metadata=declare(
+            "TOML file with kp, kd, armature, damping, friction and force-range under "
+            '[joints."NAME or PATTERN"].',
+            kind=Path,
+            metavar="FILE",
+        ),
+    )
+    approximation: Approximation = field(
+        default="hull",
+        metadata=declare(
+            "Collision geometry of a mesh: its convex hull, or its triangles.",
+            words=get_args(Approximation),
+        ),
+    )
+    decompose: bool = field(default=False, metadata=DECOMPOSE)
     cutter: Cutter | None = None
-    fix_inertia: FixInertia = "none"
-    force: bool = False
+    fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
+    force: bool = field(default=False, metadata=FORCE)
     file: str = ""
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if a value is not allowed."""
+        check_options(self)
 
     @property
     def input_files(self) -> tuple[Path, ...]:

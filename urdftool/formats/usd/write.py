@@ -74,7 +74,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     found += [*wrong, *meshes.load(robot)]
     refuse(found, force=options.force)
     written.losses += found
-    if options.cutter is not None:
+    if options.decompose and options.cutter is not None:
         meshes.cut(robot, options.cutter)
 
     links = LinkWriter(builder, bodies, names)
