@@ -641,17 +641,12 @@ def test_forms_that_run_code_are_seen():
 BLOCKS = re.compile(r"robot\.(gazebo|extensions)\b")
 
 OPEN_BLOCKS = {
-    *("bundle/collect.py", "graph/detailed.py", "info/counts.py", "lint/targets.py"),
     *(f"formats/mjcf/{name}.py" for name in ("gazebo", "light", "loops", "sensor")),
     *(f"formats/mjcf/verify_{name}.py" for name in ("loops", "sensors", "source")),
-    "formats/usd/unexpressed.py",
     *(f"formats/sdf/{name}.py" for name in ("body_sensors", "extensions", "model", "plan")),
     "formats/sdf/raw_sdf.py",
     *(f"formats/sdf/verify/{name}.py" for name in ("blocks", "compare", "excuses", "sensing")),
     "formats/sdf/verify/source.py",
-    *("rules/name/frames.py", "rules/xml/reference.py", "rules/renaming.py"),
-    *("rules/joint/mimic.py", "rules/joint/range.py", "simulation/checks/joints.py"),
-    *("rules/control/ros2_control_simulated.py", "rules/control/transmission_joints.py"),
 }
 """Modules that open ``<gazebo>`` blocks themselves; what a block means belongs into the model.
 

@@ -19,6 +19,7 @@ from ..formats.common.asset_filter import explain_invalid_mesh, is_companion, is
 from ..formats.common.assets import find_file
 from ..formats.common.missing_files import create_missing_mesh, explain_missing_file
 from ..model.elements import Link, Material, Mesh, Part, Robot
+from ..model.references import list_blocks
 from ..refusal import make_defect
 from ..source.document import Element
 from ..source.location import Place
@@ -97,9 +98,8 @@ def collect(robot: Robot) -> Collection:
                 asset.collides |= not is_visual
     for material in _list_materials(robot):
         _add_texture(robot, material, found, known)
-    for block in robot.gazebo:
-        if block.xml is not None:
-            _add_gazebo_files(robot, block.xml, found, known)
+    for _, block in list_blocks(robot):
+        _add_gazebo_files(robot, block, found, known)
     return found
 
 

@@ -8,11 +8,11 @@ from ..control_characters import escape_controls
 from ..model.elements import (
     Collision,
     ControlComponent,
-    GazeboExtension,
     Geometry,
     Joint,
     Link,
     Mesh,
+    Plugin,
     Robot,
     Ros2Control,
     Sensor,
@@ -20,6 +20,8 @@ from ..model.elements import (
     UnknownShape,
     Visual,
 )
+from ..model.mechanism import Camera, MountedSensor
+from ..model.references import list_blocks
 from ..model.shapes import get_shape_name
 from .figure import Edge, Figure, Node
 from .formatting import format_numbers, number
@@ -204,18 +206,24 @@ def add_attached(
     """
     tops = [*robot.tree.roots, *robot.links]
     top = links.get(tops[0].name) if tops else None
-    for block in robot.gazebo:
-        name = block.reference
+    parts = _group_parts(robot)
+    for name, element in list_blocks(robot):
         holder = top if name is None else links.get(name) or joints.get(name)
-        if holder is None and (block.sensors or block.plugins):
-            element = block.element
+        if holder is None and parts.get(id(element)):
             missing = Node(f"missing:{name}", "missing", name or "", elements=[element])
             missing.faults.append("missing link or joint")
             holder = figure.add(missing).key
         if holder is not None:
             if name is not None:
-                figure.nodes[holder].elements.append(block.element)
-            _attach_block(figure, block, holder)
+                figure.nodes[holder].elements.append(element)
+            for node in parts.get(id(element), []):
+                _attach(figure, node, holder)
+    mounted: list[MountedSensor | Camera] = [*robot.mounted_sensors, *robot.cameras]
+    for sensor in mounted if robot.xml is None else ():
+        joint = sensor.joint if isinstance(sensor, MountedSensor) else ""
+        holder = joints.get(joint) or links.get(sensor.link) or top
+        if holder is not None:
+            _attach(figure, _make_sensor_node(sensor, []), holder)
     for control in robot.ros2_controls:
         _attach_control(figure, control, top, links, joints)
 
@@ -226,26 +234,27 @@ def _attach(figure: Figure, node: Node, holder: str) -> Node:
     return node
 
 
-def _attach_block(figure: Figure, block: GazeboExtension, holder: str) -> None:
-    for sensor in block.sensors:
-        _attach(figure, _make_sensor_node(sensor), holder)
-    for plugin in block.plugins:
+def _group_parts(robot: Robot) -> dict[int, list[Node]]:
+    """Return nodes of the sensors, then the plugins, of a URDF by the identity of their parent."""
+    nodes: dict[int, list[Node]] = {}
+    for sensor in robot.sensors:
+        node = _make_sensor_node(sensor, sensor.plugins)
+        nodes.setdefault(id(sensor.element.parent), []).append(node)
+    for plugin in robot.plugins:
         node = Node(f"plugin:{plugin.name}", "plugin", plugin.name, elements=[plugin.element])
         node.facts = {"filename": plugin.filename}
         node.lines.append(escape_controls(plugin.filename) or "no library")
-        _attach(figure, node, holder)
+        nodes.setdefault(id(plugin.element.parent), []).append(node)
+    return nodes
 
 
-def _make_sensor_node(sensor: Sensor) -> Node:
-    node = Node(f"sensor:{sensor.name}", "sensor", sensor.name, elements=[sensor.element])
-    node.facts = {
-        "type": sensor.type,
-        "plugins": [plugin.filename for plugin in sensor.plugins],
-    }
+def _make_sensor_node(sensor: Sensor | MountedSensor | Camera, plugins: list[Plugin]) -> Node:
+    node = Node(f"sensor:{sensor.name}", "sensor", sensor.name, elements=sensor.sources)
+    node.facts = {"type": sensor.type, "plugins": [plugin.filename for plugin in plugins]}
     node.lines.append(
         f"{escape_controls(sensor.type)} sensor" if sensor.type else "sensor without a type"
     )
-    node.lines += [escape_controls(plugin.filename) for plugin in sensor.plugins]
+    node.lines += [escape_controls(plugin.filename) for plugin in plugins]
     return node
 
 

@@ -112,11 +112,7 @@ def _compute_depth(robot: Robot) -> int:
 
 
 def _collect_plugins(robot: Robot) -> list[Named]:
-    return [
-        Named(plugin.name, plugin.filename, block.reference)
-        for block in robot.gazebo
-        for plugin in (*block.plugins, *(p for sensor in block.sensors for p in sensor.plugins))
-    ]
+    return [Named(plugin.name, plugin.filename, plugin.reference) for plugin in robot.plugins]
 
 
 def _collect_sensors(robot: Robot) -> list[Named]:

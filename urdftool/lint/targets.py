@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ..model.elements import Robot
 from ..model.gazebo_plugins import is_for_gz
+from ..model.references import list_blocks
 from ..source.comments import remove_comments
 from ..source.description import Description
 from ..workspace import Workspace, memoize_by_workspace
@@ -54,7 +55,7 @@ def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
                 targets.add("gazebo-classic")
     if any(joint.hardware_interfaces for t in robot.transmissions for joint in t.joints):
         targets.add("ros1")
-    if robot.gazebo and not targets & {"gz", "gazebo-classic"}:
+    if list_blocks(robot) and not targets & {"gz", "gazebo-classic"}:
         targets.add("gz" if "ros2" in targets else "gazebo-classic")
     if robot.element.find_child("mujoco") is not None:
         targets.add("mujoco")

@@ -309,19 +309,31 @@ class Transmission(Part):
 
 @dataclass(slots=True)
 class Plugin(Part):
-    """``<plugin>`` of Gazebo; ``filename`` is its library."""
+    """``<plugin>`` of Gazebo.
+
+    Attributes:
+        filename: Its library.
+        reference: Link or joint that its ``<gazebo>`` block names; None is the robot.
+    """
 
     name: str = ""
     filename: str = ""
+    reference: str | None = None
 
 
 @dataclass(slots=True)
 class Sensor(Part):
-    """``<sensor>`` of Gazebo, with its plugins."""
+    """``<sensor>`` of Gazebo, as it is written in a ``<gazebo>`` block.
+
+    Attributes:
+        plugins: Plugins in it.
+        reference: Link or joint that the block names; None is the robot.
+    """
 
     name: str = ""
     type: str = ""
     plugins: list[Plugin] = field(default_factory=list)
+    reference: str | None = None
 
 
 @dataclass(slots=True)
@@ -460,6 +472,11 @@ class Robot(RobotConversions, Part):
         for block in self.gazebo:
             found.setdefault(block.reference, []).append(block)
         return found
+
+    @cached_property
+    def sensors(self) -> list[Sensor]:
+        """Return all ``<sensor>`` elements of ``<gazebo>`` blocks, as they are written."""
+        return [sensor for block in self.gazebo for sensor in block.sensors]
 
     @cached_property
     def plugins(self) -> list[Plugin]:

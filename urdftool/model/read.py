@@ -269,20 +269,27 @@ def _list_texts(element: Element, tag: str) -> list[str]:
 
 
 def _read_gazebo(element: Element) -> GazeboExtension:
+    reference = element.get("reference")
     return GazeboExtension(
         element,
-        element.get("reference"),
+        reference,
         [
-            Sensor(e, e.get("name") or "", (e.get("type") or "").strip(), _read_plugins(e))
+            Sensor(
+                e,
+                e.get("name") or "",
+                (e.get("type") or "").strip(),
+                _read_plugins(e, reference),
+                reference,
+            )
             for e in element.list_children("sensor")
         ],
-        _read_plugins(element),
+        _read_plugins(element, reference),
     )
 
 
-def _read_plugins(element: Element) -> list[Plugin]:
+def _read_plugins(element: Element, reference: str | None) -> list[Plugin]:
     return [
-        Plugin(e, e.get("name") or "", (e.get("filename") or "").strip())
+        Plugin(e, e.get("name") or "", (e.get("filename") or "").strip(), reference)
         for e in element.list_children("plugin")
     ]
 

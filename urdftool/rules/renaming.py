@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from ..diagnostic import Severity
 from ..model.elements import Joint, Link, Robot
+from ..model.references import has_block
 from ..source.document import Element
 from .fix import Change, FixContext, Proposal, set_attribute, set_text, unsafe
 from .rule import Problem
@@ -32,7 +33,7 @@ def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal |
         return None
     if not new or new == old or new in robot.link or new in robot.joint:
         return None
-    if old in robot.link and old in robot.joint and robot.extensions.get(old):
+    if old in robot.link and old in robot.joint and has_block(robot, old):
         return None  # it is unknown whether the link or the joint is meant
     kind = "link" if isinstance(part, Link) else "joint"
     namings = (find_link_references if kind == "link" else find_joint_references)(

@@ -56,8 +56,9 @@ def _list_parts(robot: Robot) -> Iterator[tuple[str, str, Part, str]]:
         yield "transmission", f"transmission '{transmission.name}'", transmission, ""
     for control in robot.ros2_controls:
         yield "ros2-control", f"<ros2_control> '{control.name}'", control, ""
-    for block in robot.gazebo:
-        for plugin in block.plugins:
+    inside = {id(plugin) for sensor in robot.sensors for plugin in sensor.plugins}
+    for plugin in robot.plugins:
+        if id(plugin) not in inside:
             yield "plugin", f"plugin '{plugin.filename or plugin.name}'", plugin, ""
-        for sensor in block.sensors:
-            yield "sensor", f"sensor '{sensor.name}' of type {sensor.type}", sensor, ""
+    for sensor in robot.sensors:
+        yield "sensor", f"sensor '{sensor.name}' of type {sensor.type}", sensor, ""

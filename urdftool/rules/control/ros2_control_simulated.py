@@ -233,7 +233,7 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
 
     The simulated hardware stops with an exception if a name is not in its table.
     """
-    imus = {s.name for block in robot.gazebo for s in block.sensors if s.type == "imu"}
+    imus = {sensor.name for sensor in robot.sensors if sensor.type == "imu"}
     for control in robot.ros2_controls:
         if not (control.plugin or "").startswith(_GZ):
             continue
@@ -273,7 +273,7 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
     The simulated hardware finds sensors by name: the ``<sensor>`` in the ``<gazebo>`` block must
     have the same name.
     """
-    known = [sensor.name for block in robot.gazebo for sensor in block.sensors]
+    known = [sensor.name for sensor in robot.sensors]
     for control in robot.ros2_controls:
         if not (control.plugin or "").startswith(_GZ):
             continue

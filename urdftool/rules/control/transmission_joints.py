@@ -146,20 +146,17 @@ def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
 
 def _find_loop_joints(robot: Robot) -> Iterator[str]:
     """Yield the joints of loops that a ``<joint>`` in a ``<gazebo>`` block closes."""
-    for block in robot.gazebo:
-        for joint in () if block.reference else block.element.list_children("joint"):
-            sides = []
-            for end in (joint.find_child("parent"), joint.find_child("child")):
-                name = end.text.strip() if end is not None else ""
-                if name not in robot.link and name != "world":
-                    yield from robot.joint  # the joints of the loop are unknown
-                sides.append(
-                    {name, *robot.tree.list_ancestors(name)} if name in robot.link else set()
-                )
-            for name in sides[0] ^ sides[1]:
-                above = robot.tree.get_parent_joint(name)
-                if above is not None:
-                    yield above.name
+    if any(one.kind == "closed loop" for one in robot.rejected_settings):
+        yield from robot.joint  # the joints of the loop are unknown
+    for closure in robot.closures:
+        sides = [
+            {end, *robot.tree.list_ancestors(end)} if end in robot.link else set()
+            for end in (closure.parent, closure.child)
+        ]
+        for name in sides[0] ^ sides[1]:
+            above = robot.tree.get_parent_joint(name)
+            if above is not None:
+                yield above.name
 
 
 @rule(

@@ -414,13 +414,7 @@ def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
 
 def _find_joints_above_loops(robot: Robot) -> set[str]:
     """Get the names of mimic joints above an end of an SDF joint, which closes a loop."""
-    ends = {
-        end.text.strip()
-        for block in robot.gazebo
-        for joint in block.element.list_children("joint")
-        for end in (joint.find_child("parent"), joint.find_child("child"))
-        if end is not None
-    }
+    ends = {end for closure in robot.closures for end in (closure.parent, closure.child)}
     found = set()
     for joint, _ in _iterate_mimic_joints(robot) if ends else ():
         below = {joint.child, *robot.tree.list_descendants(joint.child)}

@@ -7,6 +7,7 @@ from bisect import bisect_left
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Link, Robot
+from ...model.references import has_block
 from ..fix import (
     FixContext,
     Proposal,
@@ -163,7 +164,7 @@ def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
     driven = {part.name for t in robot.transmissions for part in t.joints}
     driven |= {part.name for control in robot.ros2_controls for part in control.joints}
     driven |= {other.mimic.joint for other in robot.joints if other.mimic is not None}
-    if joint.name in driven or robot.extensions.get(joint.name):
+    if joint.name in driven or has_block(robot, joint.name):
         return None
     return unsafe("make it fixed", set_attribute(joint.element, "type", "fixed"))
 

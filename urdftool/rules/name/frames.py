@@ -101,22 +101,21 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
     Consumers of images expect z forward. In the camera's frame, which looks along x, point clouds
     are rotated. Write the optical frame as the frame of the sensor.
     """
-    for block in robot.gazebo:
-        for sensor in block.sensors:
-            if sensor.type not in _CAMERAS or block.reference is None:
-                continue
-            joints = robot.tree.get_child_joints(block.reference)
-            frames = {joint.child for joint in joints if _is_at(joint, sensor)}
-            optical = next((name for name in sorted(frames) if "_optical" in name), None)
-            written = _get_frames(sensor)
-            if optical is None or not written or any("optical" in text for text in written):
-                continue
-            yield Problem(
-                sensor.element,
-                f"camera '{sensor.name}' publishes in frame '{written[0]}', but images require the "
-                f"optical frame; write '{optical}'",
-                data={"frame": written[0], "optical_frame": optical},
-            )
+    for sensor in robot.sensors:
+        if sensor.type not in _CAMERAS or sensor.reference is None:
+            continue
+        joints = robot.tree.get_child_joints(sensor.reference)
+        frames = {joint.child for joint in joints if _is_at(joint, sensor)}
+        optical = next((name for name in sorted(frames) if "_optical" in name), None)
+        written = _get_frames(sensor)
+        if optical is None or not written or any("optical" in text for text in written):
+            continue
+        yield Problem(
+            sensor.element,
+            f"camera '{sensor.name}' publishes in frame '{written[0]}', but images require the "
+            f"optical frame; write '{optical}'",
+            data={"frame": written[0], "optical_frame": optical},
+        )
 
 
 @camera_sensor_not_optical.fix(UNSAFE)
@@ -154,13 +153,13 @@ def optical_frame_has_sensor_body(robot: Robot) -> Iterator[Problem]:
     Cameras in Gazebo look along x, so the sensor belongs to the camera's link. The optical frame
     must have neither geometry nor sensors.
     """
+    with_sensor = {sensor.reference for sensor in robot.sensors}
     for link in robot.links:
         if "_optical" not in link.name:
             continue
-        blocks = robot.extensions.get(link.name, [])
         if link.visuals or link.collisions:
             what = "geometry"
-        elif any(block.sensors for block in blocks):
+        elif link.name in with_sensor:
             what = "a sensor"
         else:
             continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
+from ...model.references import list_blocks
 from ...source.document import Element
 from ..fix import FixContext, Proposal, find_attribute, safe, substitute, unsafe
 from ..rule import BOTH, ERROR, Problem, rule
@@ -33,7 +34,7 @@ def padded_reference(robot: Robot) -> Iterator[Problem]:
             references.append((joint.child_element, "link"))
         if joint.mimic is not None:
             references.append((joint.mimic.element, "joint"))
-    references += [(block.element, "reference") for block in robot.gazebo]
+    references += [(element, "reference") for _, element in list_blocks(robot)]
     names = {*robot.link, *robot.joint}
     used = {element.attributes.get(attribute) for element, attribute in references}
     for element, attribute in references:

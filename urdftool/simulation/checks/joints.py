@@ -48,33 +48,25 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
             name,
             rule="zero-outside-limits",
         )
+    if robot.xml is None or not recording.capabilities.closes_loops:
+        yield from _report_open_loops(robot)
+
+
+def _report_open_loops(robot: Robot) -> Iterator[Fault]:
+    """Report closures of the tree; an engine closes those in ``<gazebo>`` of a URDF, if any."""
     for closure in robot.closures:
+        what = f"'{closure.name or closure.type}'"
+        if robot.xml is not None:
+            what = f"joint {what} in <gazebo>"
         yield Fault(
             "loop-open",
             Severity.INFO,
-            f"'{closure.name or closure.type}' closes a kinematic loop and is not simulated; the "
-            "joints of the loop are held separately",
+            f"{what} closes a kinematic loop and is not simulated; the joints of the loop are held "
+            "separately",
             closure.place,
             "joint",
             closure.name,
         )
-    if not recording.capabilities.closes_loops:
-        yield from _open_loops(robot)
-
-
-def _open_loops(robot: Robot) -> Iterator[Fault]:
-    """Report joints of SDF in ``<gazebo>`` that would close a loop of the URDF tree."""
-    for block in robot.gazebo:
-        for element in () if block.reference else block.element.list_children("joint"):
-            yield Fault(
-                "loop-open",
-                Severity.INFO,
-                f"joint '{element.get('name') or ''}' in <gazebo> closes a kinematic loop and is "
-                "not simulated; the joints of the loop are held separately",
-                element.place,
-                "joint",
-                element.get("name") or "",
-            )
 
 
 def _make_joint(robot: Robot, name: str) -> Joint:
