@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,7 +31,7 @@ _GROUPS = {
     "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
     "Rules": "select extend_select ignore target baseline write_baseline",
     "Output": "style whole output_file statistics fail_on exit_zero",
-    "Input": "no_expand",
+    "Input": "no_expand list_robots changed_since",
     "Performance": "jobs",
 }
 
@@ -108,6 +110,17 @@ _GROUPS = {
 @add_jobs_option
 @add_cache_options
 @click.option("--explain", metavar="RULE", help="Print the documentation of a rule and exit.")
+@click.option(
+    "--list",
+    "list_robots",
+    is_flag=True,
+    help="Print the robots, their variants and the files that they include, and exit.",
+)
+@click.option(
+    "--changed-since",
+    metavar="REV",
+    help="Check only robots to which files belong that changed since a revision of git.",
+)
 @click.option("--list-rules", is_flag=True, help="Print all rules and exit.")
 @add_gltf_option
 @add_package_options
@@ -137,6 +150,8 @@ def command(
     no_cache: bool,
     explain: str | None,
     list_rules: bool,
+    list_robots: bool,
+    changed_since: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
@@ -161,7 +176,7 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..formats.detect import read_other_format
     from ..formats.search import find_other_descriptions
-    from ..lint.discover import explain_nothing_found, find_descriptions
+    from ..lint.discover import explain_nothing_found
     from ..lint.options import Options
     from ..lint.outcome import Report
     from ..lint.parallel import check_files
@@ -169,6 +184,13 @@ def command(
     from ..lint.skipped import add_skipped_parts, exclude_files
     from ..workspace import Workspace
     from .lint_report import OutputOptions, report
+    from .lint_repository import (
+        find_repository,
+        list_robot_files,
+        print_list,
+        select_changed,
+        summarize_robots,
+    )
 
     if explain or list_rules:
         return _show_rules(console, explain, style)
@@ -176,11 +198,21 @@ def command(
     if not paths:
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
     other = find_other_descriptions(paths)
-    files = find_descriptions([*paths, *other.files])
+    folders = [path for path in paths if os.path.isdir(path)]
+    workspace = Workspace()
+    options = Options(Settings(), arguments, package, package_path, config=console.config)
+    options.workspace = workspace
+    found = find_repository(paths, options)
+    files = list_robot_files([*paths, *other.files], found)
     if not files and not other.skipped:
         raise click.UsageError(explain_nothing_found(paths))
-    workspace = Workspace()
     files, excluded = exclude_files(files, paths, console.config, workspace)
+    if changed_since is not None:
+        files = select_changed(console, files, found, changed_since, folders or ["."])
+    if list_robots:
+        print_list(files, found)
+        return 0
+    options.variants = {real: robot.variants for real, robot in found.robots.items()}
     settings = Settings(
         select=check_selectors(select) if select else None,
         extend_select=check_selectors(extend_select),
@@ -192,8 +224,7 @@ def command(
         if given and not (fix or diff):
             raise click.UsageError(f"{option} requires --fix or --diff")
     folder = choose_cache_folder("lint", cache_dir, no_cache or no_expand)
-    options = Options(settings, arguments, package, package_path, console.config)
-    options.gltf_up, options.workspace = console.gltf_up, workspace
+    options.settings, options.gltf_up = settings, console.gltf_up
     options.read_other = read_other_format
     if folder is not None:
         from ..lint.cache import Cache
@@ -206,6 +237,8 @@ def command(
         style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline
     )
     output.paths, output.whole = paths, whole
+    if folders:
+        output.ending = partial(summarize_robots, found, options)
     if fix or diff:
         from .lint_fix import Kinds, fix_files
 
@@ -213,7 +246,8 @@ def command(
         return fix_files(
             console, files, options, settings, output, jobs=jobs, kinds=kinds, diff=diff
         )
-    reports = add_skipped_parts(check_files(files, options, jobs), paths)
+    belonging = {file for real in found.robots for file in found.list_files(real)}
+    reports = add_skipped_parts(check_files(files, options, jobs), paths, belonging)
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]
     return report(console, [*reports, *skipped, *excluded], settings, output)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -37,6 +37,7 @@ class OutputOptions:
         to_stderr: Write the findings to stderr, because the fixed description goes to stdout.
         paths: Files and folders of the command line.
         whole: Print all findings, without the limit per rule family.
+        ending: Function that returns the last line for the reports of a run.
     """
 
     style: str | None
@@ -49,6 +50,7 @@ class OutputOptions:
     to_stderr: bool = False
     paths: Sequence[str] = ()
     whole: bool = False
+    ending: Callable[[Sequence[Report]], str] | None = None
 
 
 def report(
@@ -96,6 +98,8 @@ def report(
         people = style in ("full", "concise") and not output.statistics
         for line in format_advice(outcome.findings) if people else ():
             console.print_note(line)
+    if output.ending is not None:
+        console.print_note(output.ending(outcome.reports))
     if broken:
         return broken
     worst = max((f.severity for f in outcome.findings), default=None)

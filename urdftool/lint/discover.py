@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator
 from ..source.packages import Packages
 
 ENDINGS = (".urdf", ".urdf.xacro")
+IGNORED = frozenset(("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"))
+"""Files by which colcon, ament and catkin ignore a folder, such as ``install``."""
 _HEAD = 16_384
 
 
@@ -58,10 +60,13 @@ def _has_name(path: str) -> bool:
 def list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
     """Yield the files below a folder by their ending.
 
-    Hidden folders are skipped; so are devices, pipes, and links out of the project of the folder,
-    which came with the files.
+    Hidden folders are skipped, and those that builds of ROS ignore; so are devices, pipes, and
+    links out of the project of the folder, which came with the files.
     """
     for root, folders, files in os.walk(folder):
+        if root != folder and not IGNORED.isdisjoint(files):
+            folders.clear()
+            continue
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(files):
             path = os.path.normpath(os.path.join(root, name))

@@ -43,6 +43,7 @@ class Options:
             returns None for URDF; None reads every file as URDF.
         gltf_up: Up axis of glTF meshes; None uses the configuration.
         workspace: Access to the files of the run.
+        variants: Sets of xacro arguments that launch files pass, by resolved path of the robot.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -57,6 +58,7 @@ class Options:
     read_other: ReadOther | None = None
     gltf_up: GltfUp | None = None
     workspace: Workspace = field(default_factory=Workspace)
+    variants: Mapping[str, list[dict[str, str]]] = field(default_factory=dict)
 
     def get_key(
         self, cache: Cache, path: str | Path, configuration: Configuration, settings: Settings

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -112,11 +113,12 @@ def _list_checks(path: str | Path, options: Options) -> list[_Question]:
     """Return the checks of a description: one for each set of xacro arguments."""
     configuration = find_configuration(path, options.config, options.workspace)
     settings = read_settings(path, configuration, options.settings)
-    each = [options]
-    if options.expand and configuration.lint.get("variants") is not None:
-        variants = get_variants(path, configuration)
-        if variants and not options.arguments:
-            each = [replace(options, arguments=variant) for variant in variants]
+    variants: list[dict[str, str]] = []
+    if options.expand and not options.arguments:
+        variants = get_variants(path, configuration) or options.variants.get(
+            os.path.realpath(path), []
+        )
+    each = [replace(options, arguments=variant) for variant in variants] or [options]
     return [(path, chosen, configuration, settings) for chosen in each]
 
 

@@ -20,7 +20,7 @@ from ..suggestions import find_nearest as nearest_name
 from ..suggestions import suggest_name
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
-_KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "exclude")
+_KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "robots", "exclude")
 _LEVELS = ("off", "info", "warning", "error")
 
 

@@ -16,7 +16,6 @@ from .discover import list_parts
 from .outcome import Report
 
 _NAMES = 3
-_DEFINITIONS = frozenset(f"xacro:{word}" for word in ("macro", "property", "arg", "include"))
 
 
 def explain_no_links(description: Description) -> str:
@@ -35,14 +34,17 @@ def explain_no_links(description: Description) -> str:
     return f"{what}, without a link; lint the robot that includes it"
 
 
-def add_skipped_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Report]:
+def add_skipped_parts(
+    reports: Iterable[Report], paths: Iterable[str], belonging: Collection[str] = ()
+) -> Iterator[Report]:
     """Yield the reports, then a skipped report for each unread ``.xacro`` file of named folders.
 
     Args:
         reports: Reports of descriptions.
         paths: Files and folders named by the user.
+        belonging: Resolved paths of files that a robot includes, which may have stopped earlier.
     """
-    read: set[str] = set()
+    read: set[str] = set(belonging)
     for report in reports:
         read.update(os.path.realpath(path) for path in (report.path, *report.files))
         yield report
@@ -57,12 +59,12 @@ def _explain_skipped(path: str) -> str:
         root = parse(read_file(path)).root
     except SourceError as error:
         return error.message
-    calls = (tag for tag in (child.tag for child in root.children) if tag.startswith("xacro:"))
-    if root.find_child("link") or any(call not in _DEFINITIONS for call in calls):
+    if root.find_child("link") is not None and not root.get("name"):
         return (
-            "may be a robot, since it has links or calls macros; give the file itself to check it"
+            "has links, but its <robot> has no name, and none of the robots includes it; name it "
+            "in lint.robots of the configuration if it is a robot"
         )
-    return "a part that none of the checked descriptions includes"
+    return "a part that none of the robots includes"
 
 
 def exclude_files(

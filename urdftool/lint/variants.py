@@ -41,6 +41,19 @@ def get_variants(file: str | Path, configuration: Configuration) -> list[dict[st
     return found
 
 
+def list_variant_files(configuration: Configuration) -> list[str]:
+    """Return the files of ``lint.variants``, relative to the configuration.
+
+    Raises:
+        ConfigError: A variant has an unknown key or an invalid value.
+    """
+    table = configuration.lint.get("variants", [])
+    if not isinstance(table, list):
+        return []
+    each = (_read(variant, number, configuration.path) for number, variant in enumerate(table, 1))
+    return list(dict.fromkeys(name for name, _ in each))
+
+
 def _read(variant: Any, number: int, path: str | None) -> tuple[str, dict[str, str]]:
     where = f"lint.variants {number}"
     for key in variant if isinstance(variant, dict) else ():

@@ -1,0 +1,191 @@
+"""All robots of a folder: by name, content, configuration, launch files and CMake."""
+
+import subprocess
+
+import pytest
+
+HEAD = '<robot name="{}" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+MACRO = '<xacro:macro name="leg" params="n"><link name="${n}"/></xacro:macro>'
+WRONG = (
+    '<link name="b"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+    '<axis xyz="0 0 0"/></joint>'
+)
+ONLY = ("--select", "zero-axis", "--format", "concise")
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A package with a part, two robots that include it, and a robot by its name."""
+    monkeypatch.chdir(tmp_path)
+    files = {
+        "package.xml": "<package><name>arm</name></package>",
+        "urdf/leg.xacro": HEAD.format("leg") + MACRO + "</robot>",
+        "urdf/one.xacro": HEAD.format("one")
+        + '<xacro:include filename="leg.xacro"/><xacro:leg n="a"/></robot>',
+        "urdf/two.xacro": HEAD.format("two")
+        + '<xacro:arg name="wrong" default="false"/>'
+        + '<xacro:include filename="$(find arm)/urdf/leg.xacro"/><xacro:leg n="a"/>'
+        + f'<xacro:if value="$(arg wrong)">{WRONG}</xacro:if></robot>',
+        "three.urdf": '<robot name="three"><link name="a"/></robot>',
+        "urdf/part.xacro": HEAD.format("part").replace(' name="part"', "")
+        + '<link name="x"/></robot>',
+    }
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)
+    return tmp_path
+
+
+def last(result):
+    return result.err.splitlines()[-1]
+
+
+def listed(urdftool, *words):
+    return [
+        line for line in urdftool("lint", ".", "--list", *words).out.splitlines() if line[0] != " "
+    ]
+
+
+def test_robots_by_name_and_content(package, urdftool):
+    result = urdftool("lint", ".", *ONLY)
+    assert result.code == 0
+    assert last(result) == ("checked 3 robots (3 variants), 1 file belongs to them, 0 not checked")
+    assert "urdf/part.xacro: skipped, has links, but its <robot> has no name" in result.err
+
+
+def test_list(package, urdftool):
+    result = urdftool("lint", ".", "--list")
+    assert (result.code, result.err) == (0, "")
+    assert result.out.splitlines() == [
+        "three.urdf  (by its name)",
+        "urdf/one.xacro  (its <robot> has a name and links, and no file includes it)",
+        "  includes urdf/leg.xacro",
+        "urdf/two.xacro  (its <robot> has a name and links, and no file includes it)",
+        "  includes urdf/leg.xacro",
+        "urdf/part.xacro  (no robot includes it)",
+    ]
+
+
+def test_a_file_of_the_configuration_is_a_robot(package, urdftool):
+    (package / "urdftool.toml").write_text('[lint]\nrobots = ["urdf/part.xacro"]\n')
+    assert "urdf/part.xacro  (named by ./urdftool.toml)" in " ".join(listed(urdftool)).replace(
+        str(package), "."
+    )
+    (package / "urdftool.toml").write_text('[[lint.variants]]\nfile = "urdf/part.xacro"\n')
+    assert any("urdf/part.xacro  (named by" in line for line in listed(urdftool))
+    (package / "urdftool.toml").write_text('[lint]\nrobots = ["urdf/none.xacro"]\n')
+    result = urdftool("lint", ".")
+    assert result.code == 2
+    assert "lint.robots: file urdf/none.xacro does not exist" in result.err
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        (
+            "launch/arm.launch.py",
+            'Command(["xacro ", FindPackageShare("arm"), "/urdf/two.xacro", " wrong:=true"])',
+        ),
+        (
+            "launch/arm.launch",
+            '<launch><param command="xacro $(find arm)/urdf/two.xacro wrong:=true"/></launch>',
+        ),
+        ("CMakeLists.txt", "xacro_add_xacro_file(urdf/two.xacro two.urdf REMAP wrong:=true)"),
+    ],
+)
+def test_arguments_of_launch_files_are_variants(package, urdftool, name, text):
+    (package / name).parent.mkdir(exist_ok=True)
+    (package / name).write_text(text)
+    result = urdftool("lint", ".", *ONLY)
+    assert result.code == 1
+    assert "[zero-axis]" in result.out
+    assert "  with wrong=true" in urdftool("lint", ".", "--list").out
+
+
+def test_two_launch_files_are_two_variants(package, urdftool):
+    for name, value in (("a", "true"), ("b", "false")):
+        (package / f"{name}.launch.py").write_text(
+            f'Command(["xacro ", FindPackageShare("arm"), "/urdf/two.xacro wrong:={value}"])'
+        )
+    result = urdftool("lint", ".", *ONLY)
+    assert "checked 3 robots (4 variants)" in last(result)
+    assert "wrong=true" in result.out
+
+
+def test_a_launch_file_that_computes_its_path_is_said(package, urdftool):
+    (package / "a.launch.py").write_text('Command(["xacro ", choose(), "/two.xacro"])')
+    result = urdftool("lint", ".", "--list")
+    assert "paths of descriptions that are computed, and not followed: a.launch.py:1" in result.err
+
+
+def test_a_robot_that_is_not_checked_fails_and_is_named(package, urdftool):
+    (package / "urdf/leg.xacro").write_text(HEAD.format("leg") + "<oops></robot>")
+    result = urdftool("lint", ".", *ONLY)
+    assert result.code == 2
+    assert last(result).endswith("2 not checked: urdf/one.xacro, urdf/two.xacro")
+    assert "urdf/leg.xacro: skipped" not in result.err  # it belongs to robots that stopped
+
+
+def test_a_file_that_is_not_well_formed_fails(package, urdftool):
+    (package / "urdf/broken.xacro").write_text("<robot>")
+    assert urdftool("lint", ".", *ONLY).code == 2
+    (package / "urdftool.toml").write_text('[lint]\nexclude = ["urdf/broken.xacro"]\n')
+    assert urdftool("lint", ".", *ONLY).code == 0
+
+
+@pytest.mark.parametrize("mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"])
+def test_folders_that_builds_ignore_are_skipped(package, urdftool, mark):
+    folder = package / "install"
+    folder.mkdir()
+    (folder / "copy.urdf").write_text((package / "three.urdf").read_text())
+    assert any("install/copy.urdf" in line for line in listed(urdftool))
+    (folder / mark).touch()
+    assert not any("install/copy.urdf" in line for line in listed(urdftool))
+
+
+def test_files_that_include_each_other_end(package, urdftool):
+    for one, other in (("a", "b"), ("b", "a")):
+        (package / f"urdf/{one}.xacro").write_text(
+            HEAD.format(one)
+            + f'<xacro:include filename="{other}.xacro"/><link name="{one}"/></robot>'
+        )
+    assert urdftool("lint", ".", "--list").code == 0
+
+
+@pytest.fixture
+def committed(package):
+    def git(*words):
+        subprocess.run(
+            ["git", "-c", "user.name=a", "-c", "user.email=a@b.c", *words],
+            cwd=package, check=True, capture_output=True,
+        )  # fmt: skip
+
+    git("init", "-q")
+    git("add", ".")
+    git("commit", "-qm", "all")
+    return package
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("urdf/leg.xacro", ["urdf/one.xacro", "urdf/two.xacro"]),
+        ("urdf/one.xacro", ["urdf/one.xacro"]),
+        ("urdf/part.xacro", []),
+        ("package.xml", ["three.urdf", "urdf/one.xacro", "urdf/two.xacro"]),
+    ],
+)
+def test_changed_files_concern_the_robots_that_include_them(committed, urdftool, name, expected):
+    path = committed / name
+    path.write_text(path.read_text().replace("</", " </", 1))
+    lines = listed(urdftool, "--changed-since", "HEAD")
+    assert [line.partition("  ")[0] for line in lines if "no robot" not in line] == expected
+
+
+def test_changed_since_needs_a_revision(committed, urdftool):
+    for words, said in ((["v9"], "git knows no revision 'v9'"), (["--output=x"], "not a revision")):
+        result = urdftool("lint", ".", f"--changed-since={words[0]}")
+        assert result.code == 2
+        assert said in result.err
+    assert not (committed / "x").exists()

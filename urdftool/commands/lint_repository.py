@@ -1,0 +1,115 @@
+"""The robots of the folders given to ``urdftool lint``: which are checked, and which are listed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from ..console import Console
+from ..report.counted import format_count
+
+if TYPE_CHECKING:
+    from ..lint.options import Options
+    from ..lint.outcome import Report
+    from ..lint.repository import Repository
+
+_MOST_NAMES = 5
+
+
+def find_repository(paths: Sequence[str], options: Options) -> Repository:
+    """Find the robots below the folders of the command line."""
+    from ..lint.repository import find_robots
+
+    return find_robots(
+        [path for path in paths if os.path.isdir(path)],
+        config=options.config,
+        packages=options.packages,
+        package_paths=options.package_paths,
+        workspace=options.workspace,
+    )
+
+
+def list_robot_files(paths: Sequence[str], found: Repository) -> list[str]:
+    """Return the files to check, each once: named files, and the robots below named folders."""
+    files: dict[str, str] = {}
+    for path in paths:
+        if path == "-" or not os.path.isdir(path):
+            files.setdefault(path if path == "-" else os.path.realpath(path), path)
+            continue
+        inside = os.path.realpath(path) + os.sep
+        below = (item for item in found.robots.items() if item[0].startswith(inside))
+        for real, robot in sorted(below, key=lambda item: item[1].path):
+            files.setdefault(real, robot.path)
+    return list(files.values())
+
+
+def select_changed(
+    console: Console, files: Sequence[str], found: Repository, revision: str, folders: Sequence[str]
+) -> list[str]:
+    """Return the files that changes since a revision of git concern.
+
+    Raises:
+        UrdftoolError: Git cannot tell what changed.
+    """
+    from ..lint.changes import list_changed_files, select_concerned
+
+    changed = {path for folder in folders for path in list_changed_files(folder, revision)}
+    kept = select_concerned(files, found, changed)
+    console.print_note(
+        f"{format_count(len(changed), 'file')} changed since {revision}: "
+        f"{len(kept)} of {format_count(len(files), 'robot')} concerned"
+    )
+    return kept
+
+
+def print_list(files: Sequence[str], found: Repository) -> None:
+    """Print each robot with the reason, its variants, and the files that it includes."""
+    from ..lint.variants import label
+
+    shown = {os.path.realpath(path) for path in files}
+    lines = []
+    for path in files:
+        real = os.path.realpath(path)
+        robot = found.robots.get(real)
+        lines.append(f"{path}  ({robot.why})" if robot else path)
+        for variant in robot.variants if robot else ():
+            lines.append(f"  with {label(variant)}")
+        for name, place in robot.computed.items() if robot else ():
+            lines.append(f"  {name}:= is computed in {place}, so its default is used")
+        for other in sorted(found.list_files(real) - {real}):
+            lines.append(f"  includes {found.paths.get(other, other)}")
+        if found.list_files(real) & found.computes:
+            lines.append("  includes files by computed names, which are not listed")
+    belonging = {file for real in found.robots for file in found.list_files(real)}
+    others = [path for real, path in found.paths.items() if real not in belonging | shown]
+    lines += [f"{path}  (no robot includes it)" for path in sorted(others)]
+    click.echo("".join(f"{line}\n" for line in lines), nl=False)
+    _print_unknown(found)
+
+
+def _print_unknown(found: Repository) -> None:
+    if found.unknown:
+        places = ", ".join(found.unknown[:_MOST_NAMES])
+        more = len(found.unknown) - _MOST_NAMES
+        places += f" and {more} more" if more > 0 else ""
+        click.echo(f"paths of descriptions that are computed, and not followed: {places}", err=True)
+
+
+def summarize_robots(found: Repository, options: Options, reports: Collection[Report]) -> str:
+    """Return ``checked 3 robots (4 variants), 12 files belong to them, 0 not checked``."""
+    checked = [report.path for report in reports if report.checked]
+    missing = [report.path for report in reports if report.not_checked]
+    reals = {os.path.realpath(path) for path in checked}
+    read = {os.path.realpath(path) for report in reports if report.checked for path in report.files}
+    belonging = (read | {path for real in reals for path in found.list_files(real)}) - reals
+    variants = sum(len(options.variants.get(real, ())) or 1 for real in reals)
+    names = ", ".join(missing[:_MOST_NAMES])
+    more = f" and {len(missing) - _MOST_NAMES} more" if len(missing) > _MOST_NAMES else ""
+    return (
+        f"checked {format_count(len(checked), 'robot')} ({format_count(variants, 'variant')}), "
+        f"{format_count(len(belonging), 'file')} {'belong' if len(belonging) != 1 else 'belongs'} "
+        f"to them, {len(missing)} not checked" + (f": {names}{more}" if missing else "")
+    )

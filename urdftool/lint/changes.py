@@ -1,0 +1,90 @@
+"""The robots that changed files of a git repository concern."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterable, Sequence
+from pathlib import Path
+
+from ..errors import SourceError
+from ..git_command import run_git
+from ..source.packages import find_own_package
+from .repository import Repository
+
+_DESCRIPTIONS = (".urdf", ".xacro")
+
+
+def list_changed_files(folder: str, revision: str) -> set[str]:
+    """Return the resolved paths of files that differ from a revision, and of new files.
+
+    Args:
+        folder: A folder of the repository.
+        revision: A commit, branch or tag.
+
+    Raises:
+        SourceError: The folder is in no repository, or there is no such revision.
+    """
+    if revision.startswith("-"):
+        raise SourceError(f"'{revision}' is not a revision of git")
+    try:
+        top = run_git(folder, "rev-parse", "--show-toplevel")
+        if top.returncode:
+            raise SourceError(
+                "is in no git repository, which --changed-since requires", path=folder
+            )
+        root = os.fsdecode(top.stdout.rstrip(b"\n"))
+        known = run_git(root, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
+        if known.returncode:
+            raise SourceError(f"git knows no revision '{revision}'", path=root)
+        commit = os.fsdecode(known.stdout.strip())
+        changed = run_git(root, "diff", "--name-only", "-z", "--no-ext-diff", commit, "--")
+        added = run_git(root, "ls-files", "--others", "--exclude-standard", "-z")
+    except OSError:
+        raise SourceError("git is not installed, which --changed-since requires") from None
+    names = [name for name in (changed.stdout + added.stdout).split(b"\0") if name]
+    return {os.path.realpath(os.path.join(root, os.fsdecode(name))) for name in names}
+
+
+def select_concerned(
+    files: Sequence[str], found: Repository, changed: Collection[str]
+) -> list[str]:
+    """Return the robots that changed files concern.
+
+    A description concerns the robots that include it; another file, such as a mesh or a manifest,
+    those of its package and those whose files contain its name.
+
+    Args:
+        files: Robots.
+        found: Who includes whom.
+        changed: Resolved paths of the changed files.
+    """
+    others = [path for path in changed if not path.endswith(_DESCRIPTIONS)]
+    packages = {find_own_package(Path(path)) for path in others} - {None}
+    names = [os.fsencode(os.path.basename(path)) for path in others]
+    including = set(found.select(changed))
+    kept = []
+    for path in files:
+        real = os.path.realpath(path)
+        parts = found.list_files(real)
+        if (
+            real in including
+            or not parts.isdisjoint(changed)
+            or find_own_package(Path(real)) in packages
+            or _contains_any(parts, names)
+        ):
+            kept.append(path)
+    return kept
+
+
+def _contains_any(paths: Iterable[str], names: Sequence[bytes]) -> bool:
+    """Tell whether one of the files contains one of the names."""
+    if not names:
+        return False
+    for path in paths:
+        try:
+            data = Path(path).read_bytes()
+        except OSError:
+            continue
+        if any(name in data for name in names):
+            return True
+    return False
