@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..lint.options import Options
     from ..lint.outcome import Report
     from ..lint.repository import Repository
+    from ..workspace import Workspace
 
 _MOST_NAMES = 5
 
@@ -47,7 +48,12 @@ def list_robot_files(paths: Sequence[str], found: Repository) -> list[str]:
 
 
 def select_changed(
-    console: Console, files: Sequence[str], found: Repository, revision: str, folders: Sequence[str]
+    console: Console,
+    files: Sequence[str],
+    found: Repository,
+    revision: str,
+    folders: Sequence[str],
+    workspace: Workspace,
 ) -> list[str]:
     """Return the files that changes since a revision of git concern.
 
@@ -57,7 +63,7 @@ def select_changed(
     from ..lint.changes import list_changed_files, select_concerned
 
     changed = {path for folder in folders for path in list_changed_files(folder, revision)}
-    kept = select_concerned(files, found, changed)
+    kept = select_concerned(files, found, changed, workspace)
     console.print_note(
         f"{format_count(len(changed), 'file')} changed since {revision}: "
         f"{len(kept)} of {format_count(len(files), 'robot')} concerned"

@@ -6,9 +6,11 @@ import os
 from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 
-from ..errors import SourceError
+from ..errors import SourceError, UrdftoolError
 from ..git_command import run_git
+from ..source.document import read_file
 from ..source.packages import find_own_package
+from ..workspace import Workspace
 from .repository import Repository
 
 _DESCRIPTIONS = (".urdf", ".xacro")
@@ -46,7 +48,7 @@ def list_changed_files(folder: str, revision: str) -> set[str]:
 
 
 def select_concerned(
-    files: Sequence[str], found: Repository, changed: Collection[str]
+    files: Sequence[str], found: Repository, changed: Collection[str], workspace: Workspace
 ) -> list[str]:
     """Return the robots that changed files concern.
 
@@ -57,6 +59,7 @@ def select_concerned(
         files: Robots.
         found: Who includes whom.
         changed: Resolved paths of the changed files.
+        workspace: Access to files.
     """
     others = [path for path in changed if not path.endswith(_DESCRIPTIONS)]
     packages = {find_own_package(Path(path)) for path in others} - {None}
@@ -70,20 +73,20 @@ def select_concerned(
             real in including
             or not parts.isdisjoint(changed)
             or find_own_package(Path(real)) in packages
-            or _contains_any(parts, names)
+            or _contains_any(parts, names, workspace)
         ):
             kept.append(path)
     return kept
 
 
-def _contains_any(paths: Iterable[str], names: Sequence[bytes]) -> bool:
+def _contains_any(paths: Iterable[str], names: Sequence[bytes], workspace: Workspace) -> bool:
     """Tell whether one of the files contains one of the names."""
     if not names:
         return False
     for path in paths:
         try:
-            data = Path(path).read_bytes()
-        except OSError:
+            data = read_file(path, workspace).data
+        except UrdftoolError:
             continue
         if any(name in data for name in names):
             return True
