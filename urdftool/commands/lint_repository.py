@@ -117,5 +117,6 @@ def summarize_robots(found: Repository, options: Options, reports: Collection[Re
     return (
         f"checked {format_count(len(checked), 'robot')} ({format_count(variants, 'variant')}), "
         f"{format_count(len(belonging), 'file')} {'belong' if len(belonging) != 1 else 'belongs'} "
-        f"to them, {len(missing)} not checked" + (f": {names}{more}" if missing else "")
+        f"to {'it' if len(checked) == 1 else 'them'}, {len(missing)} not checked"
+        + (f": {names}{more}" if missing else "")
     )
