@@ -28,7 +28,7 @@ MENU = {
     "How-to": (
         *("adopting", "building", "howto/two-wheels", "howto/cad-to-simulation"),
         *("howto/collision-fleet", "howto/classic-to-gz", "howto/mujoco-scene"),
-        *("howto/mujoco-to-ros", "howto/untrusted-input"),
+        *("howto/mujoco-to-ros", "howto/moveit-without-ros", "howto/untrusted-input"),
     ),
     "Reference": (
         *("rules/index", "configuration", "formats/commands", "formats/urdf", "formats/sdf"),

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
+
+_END = re.compile(r"(.+?) (fixed|revolute|prismatic|continuous|planar|floating)((?: \S+)*)")
 
 INERTIAL = (
     '<inertial><origin xyz="0 0 0.1"/><mass value="1"/>'
@@ -31,7 +34,9 @@ def write_urdf(lines: str, name: str = "robot", bare: Collection[str] = (), more
     for line in filter(None, map(str.strip, lines.splitlines())):
         joint, _, rest = line.partition(": ")
         parent, _, rest = rest.partition(" > ")
-        child, kind, *options = rest.split(" ")
+        match = _END.fullmatch(rest)
+        assert match is not None, line
+        child, kind, options = match[1], match[2], match[3].split()
         links |= {parent: None, child: None}
         joints.append(_write_joint(joint, parent, child, kind, options))
     written = [

@@ -18,14 +18,18 @@ from .options import (
 )
 from .progress import Progress
 from .srdf_groups import add_group_option, report_groups
+from .srdf_moveit import add_moveit_options, write_package
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
+    from ..model.semantic import SemanticDescription
+    from ..srdf.groups import GivenGroup
     from ..srdf.verdicts import Verdicts
 
 _GROUPS = {
     "Pairs": "visual default",
     "Content": "given_groups",
+    "MoveIt": "moveit distribution",
     "Output": "style output",
     "Performance": "boxes time_limit jobs",
 }
@@ -54,6 +58,7 @@ _STYLES = ("srdf", "mjcf", "curobo", "pyroki", "usd", "table", "json")
 )
 @make_output_option("Output file.  [default: standard output]")
 @add_group_option
+@add_moveit_options
 @click.option(
     "--boxes",
     type=click.IntRange(1),
@@ -89,6 +94,7 @@ def command(
         urdftool srdf arm.urdf.xacro -o arm.srdf
         urdftool srdf arm.urdf.xacro --group manipulator=base_link:flange
         urdftool srdf arm.urdf --format table
+        urdftool srdf arm.urdf.xacro --moveit arm_moveit_config
     """  # noqa: D301 -- click reads the escape
     from ..output import check_targets, write_result
     from ..srdf.groups import find_groups
@@ -99,10 +105,41 @@ def command(
     inputs = [file.path for file in model.source.files] if model.source else []
     check_targets([values["output"]], inputs=inputs)
     find_groups(model, values["given_groups"])  # an error of a group comes before the proof
+    if values["moveit"] is not None:
+        return write_moveit(console, model, values, package, package_path)
     verdicts = decide_pairs(console, model, values)
     text = format_result(console, model, verdicts, values)
     write_result(text, values["output"], inputs=inputs)
     return 0
+
+
+def write_moveit(
+    console: Console,
+    robot: Robot,
+    values: dict[str, Any],
+    packages: dict[str, Path],
+    package_paths: tuple[str, ...],
+) -> int:
+    """Write a MoveIt package, and return the exit code.
+
+    Args:
+        console: Output for messages.
+        robot: Robot.
+        values: Values of the options.
+        packages: Folders of ROS packages by name.
+        package_paths: Folders that contain ROS packages.
+    """
+    if values["output"] is not None or values["style"] != "srdf":
+        raise click.UsageError("--moveit writes files to its package; leave out --output, --format")
+    folder, given = values["moveit"], values["given_groups"]
+
+    def make_srdf() -> tuple[SemanticDescription, str]:
+        return make_content(console, robot, decide_pairs(console, robot, values), given)
+
+    distribution = values["distribution"]
+    return write_package(
+        console, robot, folder, distribution, make_srdf, given, packages, package_paths
+    )
 
 
 def decide_pairs(console: Console, robot: Robot, values: dict[str, Any]) -> Verdicts:
@@ -162,9 +199,8 @@ def format_result(
         values: Values of the options.
     """
     from ..report import srdf as report
-    from ..srdf.content import list_comments, list_disabled, make_semantic
+    from ..srdf.content import list_disabled
     from ..srdf.other_formats import FORMATS
-    from ..srdf.write import format_srdf
 
     style = values["style"]
     if style == "table":
@@ -173,6 +209,16 @@ def format_result(
         return report.to_json(verdicts)
     if style in FORMATS:
         return FORMATS[style](robot, list_disabled(verdicts))
-    content = make_semantic(robot, verdicts, values["given_groups"])
+    return make_content(console, robot, verdicts, values["given_groups"])[1]
+
+
+def make_content(
+    console: Console, robot: Robot, verdicts: Verdicts, given: tuple[GivenGroup, ...]
+) -> tuple[SemanticDescription, str]:
+    """Make the content of an SRDF and its text, and print its groups."""
+    from ..srdf.content import list_comments, make_semantic
+    from ..srdf.write import format_srdf
+
+    content = make_semantic(robot, verdicts, given)
     report_groups(console, content)
-    return format_srdf(content, tuple(list_comments(robot, verdicts)))
+    return content, format_srdf(content, tuple(list_comments(robot, verdicts)))

@@ -23,7 +23,12 @@ from .controllers import (
     read_moveit_controllers,
     read_ros2_controllers,
 )
-from .description_files import list_uncontrolled_joints, make_description, make_mock_hardware
+from .description_files import (
+    complete_mock_hardware,
+    list_mock_joints,
+    make_description,
+    make_mock_hardware,
+)
 from .launch_files import make_launch_files
 from .package_files import (
     make_assistant_settings,
@@ -104,13 +109,13 @@ class PackageFiles:
             data = file.data.rstrip() + b"\n" + format_yaml(tree).encode()
             self.files.append(PackageFile(path, data.lstrip(), file.data, list(tree)))
         else:
-            self.add_edits(path, root, complete(root, tree))
+            self.add_edits(path, root.file, complete(root, tree))
 
-    def add_edits(self, path: str, root: Node, edits: Iterable[tuple[str, Edit]]) -> None:
+    def add_edits(self, path: str, file: SourceFile, edits: Iterable[tuple[str, Edit]]) -> None:
         """Add an existing file with edits, each with what it adds."""
         found = list(edits)
-        data = apply(root.file, [edit for _, edit in found])
-        self.files.append(PackageFile(path, data, root.file.data, [what for what, _ in found]))
+        data = apply(file, [edit for _, edit in found])
+        self.files.append(PackageFile(path, data, file.data, [what for what, _ in found]))
 
 
 def _is_blank(file: SourceFile) -> bool:
@@ -131,8 +136,8 @@ def make_package(configuration: Configuration, files: PackageFiles) -> None:
     files.add_text(".setup_assistant", make_assistant_settings(configuration))
     stem = f"config/{configuration.stem}"
     files.add_text(f"{stem}.urdf.xacro", make_description(configuration))
-    if list_uncontrolled_joints(configuration):
-        files.add_text(f"{stem}.ros2_control.xacro", make_mock_hardware(configuration))
+    if list_mock_joints(configuration):
+        _add_mock_hardware(configuration, files, f"{stem}.ros2_control.xacro")
         positions = make_initial_positions(configuration)
         files.add_parameters(
             "config/initial_positions.yaml", positions, "Where mock hardware starts"
@@ -142,6 +147,14 @@ def make_package(configuration: Configuration, files: PackageFiles) -> None:
     files.add_text("config/moveit.rviz", make_rviz(configuration))
     for path, text in make_launch_files(configuration):
         files.add_text(path, text)
+
+
+def _add_mock_hardware(configuration: Configuration, files: PackageFiles, path: str) -> None:
+    file = files.read(path)
+    if file is None:
+        files.add_text(path, make_mock_hardware(configuration))
+    else:
+        files.add_edits(path, file, complete_mock_hardware(configuration, file))
 
 
 def _add_parameter_files(configuration: Configuration, files: PackageFiles) -> None:
@@ -184,7 +197,7 @@ def _add_controllers(files: PackageFiles, controllers: list[PlannedController]) 
     if moveit is None:
         files.add_parameters(_MOVEIT, make_moveit_controllers(controllers))
     else:
-        files.add_edits(_MOVEIT, moveit, _complete_moveit(moveit, controllers))
+        files.add_edits(_MOVEIT, moveit.file, _complete_moveit(moveit, controllers))
 
 
 def _complete_moveit(
