@@ -189,3 +189,14 @@ def test_changed_since_needs_a_revision(committed, urdftool):
         assert result.code == 2
         assert said in result.err
     assert not (committed / "x").exists()
+
+
+@pytest.mark.parametrize("prefix", ["package://arm/", "file://$(find arm)/", "$(find arm)/"])
+def test_a_mesh_that_does_not_exist_is_found_in_each_way_of_writing(package, urdftool, prefix):
+    (package / "urdf/one.xacro").write_text(
+        HEAD.format("one") + '<link name="a"><visual><geometry>'
+        f'<mesh filename="{prefix}meshes/gone.stl"/></geometry></visual></link></robot>'
+    )
+    result = urdftool("lint", ".", "--select", "mesh-not-found", "--format", "concise")
+    assert result.code == 1
+    assert "mesh file of link 'a' does not exist" in result.out

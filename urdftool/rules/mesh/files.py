@@ -55,7 +55,7 @@ def mesh_not_found(
     missing: dict[Path, list[MeshUse]] = {}
     yield from _report_refused(get_mesh_uses(robot, description))
     for use in get_mesh_uses(robot, description):
-        if use.path is None or use.exists or use.is_absolute:
+        if use.path is None or use.exists or use.is_fixed_path:
             continue
         if (
             find_malformation(use)

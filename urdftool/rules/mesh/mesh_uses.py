@@ -63,6 +63,11 @@ class MeshUse:
         return _ABSOLUTE.match(self.uri) is not None
 
     @property
+    def is_fixed_path(self) -> bool:
+        """Whether an absolute path is written as such; ``$(find NAME)`` depends on the machine."""
+        return self.is_absolute and "$" not in self.written
+
+    @property
     def written(self) -> str:
         """The ``filename`` as written in the source, with its xacro expressions."""
         place = self.mesh.locate_attribute("filename")

@@ -41,7 +41,7 @@ def absolute_path(
     seen: set[str] = set()
     lost: dict[str, list[MeshUse]] = {}
     for use in get_mesh_uses(robot, description):
-        if not use.is_absolute or use.uri in seen or "$" in use.written:
+        if not use.is_fixed_path or use.uri in seen:
             continue
         seen.add(use.uri)
         if use.exists:
@@ -99,7 +99,7 @@ def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
         changes = change_uses(problem, context, change)
     else:
         uses = get_mesh_uses(context.robot, context.description)
-        lost = [use for use in uses if use.is_absolute and not use.exists]
+        lost = [use for use in uses if use.is_fixed_path and not use.exists]
         changes = list(filter(None, [change(use) for use in lost if _get_folder(use) == folder]))
     return unsafe("write a package:// URI", *changes) if changes else None
 
