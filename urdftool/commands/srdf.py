@@ -17,6 +17,7 @@ from .options import (
     make_output_option,
 )
 from .progress import Progress
+from .srdf_existing import add_existing_options, check, read_existing, update
 from .srdf_groups import add_group_option, report_groups
 from .srdf_moveit import add_moveit_options, write_package
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from ..srdf.verdicts import Verdicts
 
 _GROUPS = {
+    "Existing SRDF": "check update",
     "Pairs": "visual default",
     "Content": "given_groups",
     "MoveIt": "moveit distribution",
@@ -59,6 +61,7 @@ _STYLES = ("srdf", "mjcf", "curobo", "pyroki", "usd", "table", "json")
 @make_output_option("Output file.  [default: standard output]")
 @add_group_option
 @add_moveit_options
+@add_existing_options
 @click.option(
     "--boxes",
     type=click.IntRange(1),
@@ -93,6 +96,7 @@ def command(
     \b
         urdftool srdf arm.urdf.xacro -o arm.srdf
         urdftool srdf arm.urdf.xacro --group manipulator=base_link:flange
+        urdftool srdf arm.urdf.xacro --check arm.srdf
         urdftool srdf arm.urdf --format table
         urdftool srdf arm.urdf.xacro --moveit arm_moveit_config
     """  # noqa: D301 -- click reads the escape
@@ -103,11 +107,15 @@ def command(
     console, (path, arguments) = ctx.obj, robot
     model = load_tolerant(console, path, arguments, package, package_path)
     inputs = [file.path for file in model.source.files] if model.source else []
+    existing = read_existing(console, model, arguments, values)
     check_targets([values["output"]], inputs=inputs)
     find_groups(model, values["given_groups"])  # an error of a group comes before the proof
     if values["moveit"] is not None:
         return write_moveit(console, model, values, package, package_path)
     verdicts = decide_pairs(console, model, values)
+    if existing is not None:
+        run = check if values["check"] else update
+        return run(console, model, existing, verdicts, values)
     text = format_result(console, model, verdicts, values)
     write_result(text, values["output"], inputs=inputs)
     return 0

@@ -17,6 +17,8 @@ from ..geometry.mesh import Array, Faces, Points
 THICKNESS = 1e-5
 """Thickness that flat pieces get on both sides [m]; it only enlarges them."""
 
+_MEASURED = 1_000_000  # points times faces of a hull
+
 _STEPS = 30  # of the search for the nearest point of a hull
 
 
@@ -93,16 +95,24 @@ def make_hull(points: Points, inflation: float = 0.0) -> Piece:
 
 
 def _bound_hull(points: Points, hull: Any, inflation: float) -> Piece:
-    """Inflate a hull by what rounding has cut off its points."""
+    """Inflate a hull by what rounding has cut off its points.
+
+    That is measured; for very many points, the bound of :func:`compute_convex_hull` times ten is
+    taken.
+    """
     corners, faces = extract_hull_surface(hull)
+    extent = float(np.ptp(points, axis=0).max())
+    if len(points) * len(faces) > _MEASURED:
+        return Piece(corners, faces, inflation + 1e-6 * extent)
     a, b, c = corners[faces].swapaxes(0, 1)
     normals = np.cross(b - a, c - a)
     length = np.linalg.norm(normals, axis=1)
     valid = length > 1e-14
     normals = normals[valid] / length[valid, None]
-    outside = points @ normals.T - (normals * a[valid]).sum(axis=1)
-    lost = points[(outside > 0).any(axis=1)] if outside.size else points[:0]
-    return Piece(corners, faces, inflation + _bound_distance(lost, corners))
+    tolerance = 1e-9 * extent
+    outside = points @ normals.T > (normals * a[valid]).sum(axis=1) + tolerance
+    lost = _bound_distance(points[outside.any(axis=1)], corners)
+    return Piece(corners, faces, inflation + lost + 100 * tolerance)
 
 
 def _bound_distance(points: Points, hull: Points) -> float:
