@@ -363,6 +363,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "moveit-controller-unknown-joint",
         ),
         "adjacent": ("adjacent-pair-not-disabled",),
+        "pairs": ("disabled-pair-can-touch", "adjacent-through-bare-link", "pair-never-touches"),
     },
     "name": {
         "spelling": (
@@ -608,6 +609,8 @@ FIXES: dict[str, FixTraits] = {
     "moveit-parameter-type": FixTraits(SAFE),
     "moveit-controller-incomplete": FixTraits(UNSAFE),
     "adjacent-pair-not-disabled": FixTraits(UNSAFE),
+    "disabled-pair-can-touch": FixTraits(UNSAFE),
+    "adjacent-through-bare-link": FixTraits(UNSAFE),
     "invalid-frame-name": FixTraits(UNSAFE, renames=True),
     "not-portable-identifier": FixTraits(UNSAFE, renames=True),
     "name-style": FixTraits(UNSAFE, renames=True),

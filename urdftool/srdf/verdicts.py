@@ -42,6 +42,7 @@ class Options:
         jobs: Number of processes; None for one per core.
         only: Pairs to decide; None for all.
         default: Whether pairs that touch at the default pose have the verdict ``default``.
+        search: Whether contacts of the pairs that the boxes leave open are searched.
     """
 
     boxes: int = BOXES
@@ -50,6 +51,7 @@ class Options:
     jobs: int | None = None
     only: frozenset[frozenset[str]] | None = None
     default: bool = False
+    search: bool = True
 
 
 @dataclass(frozen=True)
@@ -242,7 +244,8 @@ def _prove(task: _Task, options: Options) -> list[Verdict]:
     seed = zlib.crc32(" ".join(map(" ".join, task.names)).encode())
     prover = Prover(task.chain, task.a, task.b, list(task.pairs), seed)
     result = prover.run(options.boxes)
-    search(prover, result.outcomes)
+    if options.search:
+        search(prover, result.outcomes)
     if options.default:
         resting = {key for key in task.pairs if _touches_at_rest(prover, key)}
     else:

@@ -1,0 +1,136 @@
+"""Rules on pairs of links that an SRDF disables, or could disable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...model.semantic import read_semantic
+from ...source.description import Description
+from ...source.document import Element
+from ...srdf.content import format_positions
+from ...srdf.existing import BARE, REFUTED, Judgement, judge
+from ...srdf.verdicts import CAN_TOUCH, NEVER, Options, decide
+from ..fix import FixContext, Proposal, remove_element, unsafe
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..words import join_some
+from .semantic import get_srdf_documents
+
+_ON = ("moveit",)
+
+BOXES = 1000
+"""Boxes for each two bodies in lint, which is to be fast; chosen, no source."""
+
+
+def _judge_disabled(robot: Robot, description: Description) -> list[Judgement]:
+    """Judge the disabled pairs of the SRDF files, with few boxes."""
+
+    def compute() -> list[Judgement]:
+        contents = [read_semantic(d.root) for d in get_srdf_documents(robot, description)]
+        pairs = frozenset(pair.links for content in contents for pair in content.disabled)
+        if not pairs:
+            return []
+        options = Options(boxes=BOXES, jobs=1, only=pairs, search=False)
+        verdicts = decide(robot, options)
+        return [found for content in contents for found in judge(content, robot, verdicts)]
+
+    return robot.memo.get("disabled pairs", compute)
+
+
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "plans motions in which the two links collide",
+    },
+)
+def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The SRDF disables a pair of links that touch at some joint positions.
+
+    MoveIt does not check the pair, so a planned motion may drive the links into each other. The
+    message has joint positions within the limits at which the collision geometry of both is in
+    contact. MoveIt's Setup Assistant disables pairs that it never saw in contact at random poses.
+    Pairs with the reason ``User``, ``Default`` or ``Always`` are intended. Links that are disabled
+    as ``Adjacent`` without a common joint are findings of adjacent-through-bare-link. Requires
+    python-fcl.
+    """
+    for found in _judge_disabled(robot, description):
+        if found.code == REFUTED and found.verdict is not None:
+            pair = found.pair
+            reason = f" as {pair.reason}" if pair.reason else ""
+            yield Problem(
+                pair,
+                f"links '{pair.link1}' and '{pair.link2}' are disabled{reason}, but touch at "
+                f"{format_positions(found.verdict.positions)}",
+                at=pair.element,
+                data={"positions": dict(found.verdict.positions)},
+            )
+
+
+@rule(
+    WARNING,
+    on=_ON,
+    effects={
+        "moveit": "does not check the two links against each other",
+    },
+)
+def adjacent_through_bare_link(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The SRDF disables two links as adjacent, but no joint connects them.
+
+    MoveIt's Setup Assistant lets a link without geometry connect all its neighbors with each other.
+    So two arms on a bare torso are adjacent, and two fingers on a bare palm, and are not checked
+    against each other. Links that are proved never to touch are no finding. Requires python-fcl.
+    """
+    for found in _judge_disabled(robot, description):
+        if found.code == BARE and found.verdict is not None:
+            pair, verdict = found.pair, found.verdict
+            touching = ""
+            if verdict.kind == CAN_TOUCH:
+                touching = f", and they touch at {format_positions(verdict.positions)}"
+            yield Problem(
+                pair,
+                f"links '{pair.link1}' and '{pair.link2}' are disabled as Adjacent, but no joint "
+                f"connects them{touching}",
+                at=pair.element,
+                data={"positions": dict(verdict.positions)},
+            )
+
+
+@disabled_pair_can_touch.fix(UNSAFE)
+@adjacent_through_bare_link.fix(UNSAFE)
+def enable_pair(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the pair, so that MoveIt checks it."""
+    pair = problem.at
+    return unsafe("check the pair", remove_element(pair)) if isinstance(pair, Element) else None
+
+
+@rule(
+    INFO,
+    on=_ON,
+    default=False,
+    effects={
+        "moveit": "checks the pair at each state, which takes time",
+    },
+)
+def pair_never_touches(robot: Robot, description: Description) -> Iterator[Problem]:
+    """Links that never touch are not disabled in the SRDF.
+
+    A proof shows that the links touch at no joint positions within the limits. The rule is not
+    enabled by default, because the proof takes seconds; ``urdftool srdf --update`` adds the pairs.
+    Requires python-fcl.
+    """
+    for document in get_srdf_documents(robot, description):
+        content = read_semantic(document.root)
+        disabled = {pair.links for pair in content.disabled}
+        verdicts = decide(robot, Options(boxes=BOXES, jobs=1, search=False))
+        names = [
+            f"'{verdict.link1}' and '{verdict.link2}'"
+            for verdict in verdicts.pairs
+            if verdict.kind == NEVER and verdict.links not in disabled
+        ]
+        if names:
+            yield Problem(
+                document.root,
+                f"links that never touch are not disabled: {join_some(names, 'pairs')}",
+                data={"pairs": len(names)},
+            )
