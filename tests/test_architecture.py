@@ -348,8 +348,6 @@ OPENERS = {
     "formats/mjcf/verify_looks.py": CHECKED,
     "formats/mjcf/write.py": "lists SRDF files, which the workspace opens",
     "formats/sdf/page.py": OWN,
-    "formats/sdf/verify/reader.py": OUTPUTS,
-    "formats/sdf/verify/source.py": CHECKED,
     "formats/usd/files.py": OUTPUTS,
     "compare/mesh_measure.py": CHECKED,
     "compare/names.py": NAMED,
@@ -645,8 +643,7 @@ OPEN_BLOCKS = {
     *(f"formats/mjcf/verify_{name}.py" for name in ("loops", "sensors", "source")),
     *(f"formats/sdf/{name}.py" for name in ("body_sensors", "extensions", "model", "plan")),
     "formats/sdf/raw_sdf.py",
-    *(f"formats/sdf/verify/{name}.py" for name in ("blocks", "compare", "excuses", "sensing")),
-    "formats/sdf/verify/source.py",
+    *(f"formats/sdf/verify/{name}.py" for name in ("blocks", "declared_losses", "sensing")),
 }
 """Modules that open ``<gazebo>`` blocks themselves; what a block means belongs into the model.
 

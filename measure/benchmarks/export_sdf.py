@@ -25,7 +25,7 @@ from sdf_engines import Source, State, Target
 from urdftool.compare.check import is_faithful
 from urdftool.errors import UrdftoolError
 from urdftool.formats.sdf.options import Options
-from urdftool.formats.sdf.verify.compare import Pair, compare, pair_of
+from urdftool.formats.sdf.verify.compare import Pair, compare, read_pair
 from urdftool.formats.sdf.verify.loader import run_loads
 from urdftool.formats.sdf.write import write
 from urdftool.model.elements import Robot
@@ -63,7 +63,7 @@ def measure(path: Path, mode: str, folder: Path) -> dict[str, bool | str]:
     row["written"] = True
     place = folder / "robot.sdf"
     place.write_bytes(written.files["robot.sdf"])  # type: ignore[arg-type]
-    pair = pair_of(robot, written, place, options)
+    pair = read_pair(robot, written, place, options)
     own = compare(pair)
     row["shapes"] = all(c.verdict == "equal" for c in own if c.name in ("collisions", "visuals"))
     row["own"] = all(check.verdict == "equal" for check in own)

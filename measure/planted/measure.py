@@ -16,7 +16,7 @@ from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.mjcf.verify import verify
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.formats.sdf.options import Options as SdfOptions
-from urdftool.formats.sdf.verify.compare import compare, pair_of
+from urdftool.formats.sdf.verify.compare import compare, read_pair
 from urdftool.formats.sdf.write import write as write_sdf
 from urdftool.formats.written import Written
 from urdftool.model.elements import Robot
@@ -75,7 +75,7 @@ def differing(form: str, planted: Planted | None) -> list[Check]:
         if form == "mjcf":
             checks = verify(robot, written, place, written, MJCF)
         else:
-            checks = compare(pair_of(robot, written, place, SDF))
+            checks = compare(read_pair(robot, written, place, SDF))
     return [check for check in checks if check.verdict == "differs"]
 
 

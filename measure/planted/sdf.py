@@ -38,11 +38,13 @@ CHANGES = (
     ),
     Planted(
         "fixed joint lost",
-        "base",
+        "tree",
         both(drop(_in(JOINT, "caster_mount")), _place("caster", "0.25 0 -0.12 0 0 0")),
     ),
-    Planted("link kinematic", "base", add(_in(LINK, "upper_arm"), "<kinematic>true</kinematic>")),
-    Planted("model with wind", "base", add(MODEL, "<enable_wind>true</enable_wind>")),
+    Planted(
+        "link kinematic", "link flags", add(_in(LINK, "upper_arm"), "<kinematic>true</kinematic>")
+    ),
+    Planted("model with wind", "link flags", add(MODEL, "<enable_wind>true</enable_wind>")),
     Planted(
         "joint lost",
         "tree",
@@ -55,7 +57,7 @@ CHANGES = (
     Planted("leader of mimic", "tree", put("//mimic", "joint", "elbow")),
     Planted(
         "joint added",
-        "tree",
+        "other elements",
         add(
             MODEL,
             "<joint name='more' type='revolute'><parent>caster</parent><child>forearm</child>"
@@ -80,23 +82,23 @@ CHANGES = (
     ),
     Planted(
         "axis the other way round",
-        "frames",
+        "axes",
         say(_in(JOINT, "left_wheel_joint") + "/axis/xyz", "0 0 -1"),
     ),
-    Planted("mass by 0.01 %", "whole", say(_in(LINK, "upper_arm") + "/inertial/mass", "2.50025")),
+    Planted("mass by 0.01 %", "mass", say(_in(LINK, "upper_arm") + "/inertial/mass", "2.50025")),
     Planted(
         "center of mass by 1 µm",
-        "whole",
+        "center of mass",
         say(_in(LINK, "forearm") + "/inertial/pose", "0 0 0.150001 0 0 0"),
     ),
     Planted(
         "product of inertia lost",
-        "whole",
+        "inertia",
         say(_in(LINK, "base_link") + "/inertial/inertia/ixy", "0"),
     ),
     Planted(
         "moment of inertia of a wheel",
-        "mass matrix",
+        "inertia",
         say(_in(LINK, "left_wheel") + "/inertial/inertia/izz", "0.00401"),
     ),
     Planted(
@@ -114,9 +116,11 @@ CHANGES = (
         "effort without bound", "limits", say(_in(JOINT, "elbow") + "/axis/limit/effort", "-1")
     ),
     Planted("velocity by 1 %", "limits", say(_in(JOINT, "elbow") + "/axis/limit/velocity", "4.04")),
-    Planted("damping lost", "limits", drop(_in(JOINT, "elbow") + "/axis/dynamics/damping")),
+    Planted("damping lost", "joint physics", drop(_in(JOINT, "elbow") + "/axis/dynamics/damping")),
     Planted(
-        "friction of a joint", "limits", say(_in(JOINT, "elbow") + "/axis/dynamics/friction", "0.2")
+        "friction of a joint",
+        "joint physics",
+        say(_in(JOINT, "elbow") + "/axis/dynamics/friction", "0.2"),
     ),
     Planted(
         "spring lost",
@@ -147,7 +151,7 @@ CHANGES = (
         drop(_in(JOINT, "elbow") + "/physics/provide_feedback"),
     ),
     Planted(
-        "second axis", "joint physics", add(_in(JOINT, "elbow"), "<axis2><xyz>0 0 1</xyz></axis2>")
+        "second axis", "other elements", add(_in(JOINT, "elbow"), "<axis2><xyz>0 0 1</xyz></axis2>")
     ),
     Planted("gravity flag lost", "link flags", drop(_in(LINK, "upper_arm") + "/gravity")),
     Planted(
@@ -194,7 +198,7 @@ CHANGES = (
     ),
     Planted(
         "collision that touches nothing",
-        "contact",
+        "surface",
         add(
             _in(SOLID, "caster") + "/surface",
             "<contact><collide_bitmask>0</collide_bitmask></contact>",
@@ -202,7 +206,7 @@ CHANGES = (
     ),
     Planted(
         "collision of another category",
-        "contact",
+        "surface",
         add(
             _in(SOLID, "caster") + "/surface",
             "<contact><category_bitmask>2</category_bitmask></contact>",
@@ -210,16 +214,16 @@ CHANGES = (
     ),
     Planted(
         "collision without force",
-        "contact",
+        "surface",
         add(
             _in(SOLID, "caster") + "/surface",
             "<contact><collide_without_contact>true</collide_without_contact></contact>",
         ),
     ),
-    Planted("self_collide lost", "contact", drop(_in(LINK, "base_link") + "/self_collide")),
+    Planted("self_collide lost", "link flags", drop(_in(LINK, "base_link") + "/self_collide")),
     Planted(
         "self_collide of another link",
-        "contact",
+        "link flags",
         add(_in(LINK, "forearm"), "<self_collide>true</self_collide>"),
     ),
     Planted("friction lost", "surface", drop(_in(SOLID, "left_wheel") + "//mu")),
@@ -249,13 +253,15 @@ CHANGES = (
     Planted("visual moved", "visuals", say(_in(SEEN, "forearm") + "/pose", "0 0 0.16 0 0 0")),
     Planted(
         "color by 1 %",
-        "colours",
+        "colors",
         say(_in(SEEN, "left_wheel") + "/material/diffuse", "0.606 0.62 0.65 1"),
     ),
-    Planted("texture lost", "colours", drop(_in(SEEN, "base_link") + "//pbr")),
+    Planted("texture lost", "textures", drop(_in(SEEN, "base_link") + "//pbr")),
     Planted("ambient lost", "looks", drop(_in(SEEN, "left_wheel") + "/material/ambient")),
     Planted("transparency lost", "looks", drop(_in(SEEN, "caster") + "/transparency")),
-    Planted("color of Gazebo", "looks", say(_in(SEEN, "forearm") + "/material/diffuse", "1 0 0 1")),
+    Planted(
+        "color of Gazebo", "colors", say(_in(SEEN, "forearm") + "/material/diffuse", "1 0 0 1")
+    ),
     Planted("metal for a texture", "looks", say(_in(SEEN, "base_link") + "//metalness", "1")),
     Planted(
         "glow", "looks", add(_in(SEEN, "left_wheel") + "/material", "<emissive>1 1 1 1</emissive>")

@@ -22,7 +22,7 @@ READERS = [path for path in MODULES if path.stem == "read" or path.stem.startswi
 OPEN = (
     *("check", "mechanics", "written", "common.losses", "common.directory", "verify", "detect"),
     *("common.actuator_config", "common.force_fallbacks"),
-    *("sdf.options", "sdf.write", "sdf.verify"),
+    *("sdf.options", "sdf.write", "sdf.verify", "sdf.read"),
     *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),
     *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
 )

@@ -14,7 +14,6 @@ EXCEPTIONS: tuple[tuple[str, str, str], ...] = (
     (r"docs/rules/renamed-rule\.md", r"-in-millimetres", "an old name of a rule"),
     (r"lint/fix_run\.py", r"Mended", "an old name of a class"),
     (r"commands/(?:collision|export)\.md|report/collision\.py", r"\"centre\"|^colours ", "in JSON"),
-    (r"sdf/verify/shapes\.py|docs/commands/export\.md", r"colours", "a row that --verify prints"),
     (r"CHANGELOG", r".", "keeps what was printed"),
     (r"commands/simulate|simulation/checks|docs/", r"--limp", "an option that users know"),
     (r"checks/final_state|report/simulate\.py", r"``centre``|\"centre\"", "an old name in JSON"),

@@ -7,6 +7,14 @@ import math
 import numpy as np
 
 from ..mechanics.reference import Array
+from ..model.pose import Pose
+
+
+def make_matrix(pose: Pose) -> Array:
+    """Return a pose as a matrix, 4 × 4."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.translation
+    return matrix
 
 
 def invert(pose: Array) -> Array:

@@ -13,13 +13,20 @@ from typing import Literal, NamedTuple, Protocol
 
 from ..diagnostic import Severity
 from ..errors import ModelError
+from ..mechanics.reference import Array
 from ..model.elements import Joint, Link, Robot
+from ..model.kinematics import link_poses
+from ..model.mechanism import Base
+from ..model.pose import make_pose
+from ..model.provenance import NOWHERE
 from ..model.world import WORLD
 from .check import Check
 from .compare import compare_robots
 from .difference import Comparison, Difference
+from .frames import describe_pose, make_matrix
 from .mesh_measure import MeshMeasures
 from .names import NameMap
+from .pair import add_presence
 from .rows import GLOBAL_ROWS, ROWS, Row
 
 Extent = Literal["part", "body", "below", "robot"]
@@ -33,6 +40,11 @@ _MOTION = frozenset(
     ("tree", "frames", "axes", "mass", "center of mass", "inertia", "base", "joint physics")
 )
 """Rows on which the rows of the whole robot depend."""
+
+TOLERANCE_OF_POSE = 1e-9
+"""Largest difference of the poses of two models [m, rad] that counts as equal; chosen, above the
+rounding errors of angles.
+"""
 
 _SHOWN = 9
 """Digits of the numbers in a difference; chosen, above the strictest tolerance of 1e-9."""
@@ -102,6 +114,7 @@ def prove(
     *,
     rows: Sequence[Row] = ROWS,
     meshes: MeshMeasures | None = None,
+    has_frames: bool = False,
 ) -> list[Check]:
     """Compare an export, which was read back, with its source.
 
@@ -111,6 +124,7 @@ def prove(
         claims: Declared losses and new names.
         rows: Properties to compare, with the tolerances of the format.
         meshes: Meshes that have been measured before.
+        has_frames: Whether each link of the source must be a link or a frame of the result.
 
     Returns:
         A row for each property, also for those that could not be compared, and one for what the
@@ -121,7 +135,50 @@ def prove(
         comparison = compare_robots(one, two, rows=rows, names=claims.names, meshes=meshes)
     except ModelError as error:
         return [Check("tree", "links and joints", 0.0, differing=[error.message])]
+    if has_frames:
+        _add_missing_links(one, two, comparison, claims)
+    _compare_pose(source, result, claims.names, comparison)
     return [*make_checks(one, comparison, claims), *_list_unread(comparison, claims)]
+
+
+def _add_missing_links(
+    source: Robot, result: Robot, comparison: Comparison, claims: Claims
+) -> None:
+    """Record the links that are neither links nor frames of the result."""
+    present = {*result.link, *(frame.name for frame in result.frames)}
+    for link in source.links:
+        new = comparison.links.get(link.name, claims.names.links.get(link.name, link.name))
+        if new not in present and link.name != WORLD:
+            add_presence(comparison, "frames", "link", "frame", 0, link, link.name, link.name)
+
+
+def _compare_pose(source: Robot, result: Robot, names: NameMap, comparison: Comparison) -> None:
+    """Compare the poses of the robots in their worlds, at a link that both have."""
+    if source.base is None or result.base is None:
+        return
+    here, there = (
+        _compute_world_poses(source, source.base),
+        _compute_world_poses(result, result.base),
+    )
+    shared = [(x, y) for x in here if (y := names.links.get(x, x)) in there]
+    if not shared:
+        return
+    x, y = shared[0]
+    amount = max(abs(a - b) for a, b in zip(here[x].flat, there[y].flat, strict=True))
+    if amount > TOLERANCE_OF_POSE:
+        texts = describe_pose(here[x]), describe_pose(there[y])
+        places, what = (source.link[x].place, NOWHERE), "pose in the world"
+        comparison.add(Difference("base", "link", (x, y), what, texts, "m, rad", amount, places))
+
+
+def _compute_world_poses(robot: Robot, base: Base) -> dict[str, Array]:
+    """Return the poses of links and frames in the world with all joints at zero, 4 × 4."""
+    origin = make_pose(base.origin)
+    found = {name: origin @ pose for name, pose in link_poses(robot).items()}
+    for frame in robot.frames:
+        if frame.name not in found and frame.link in found:
+            found[frame.name] = found[frame.link] @ make_pose(frame.origin)
+    return {name: make_matrix(pose) for name, pose in found.items()}
 
 
 def join_trees(robot: Robot) -> Robot:
@@ -133,7 +190,10 @@ def join_trees(robot: Robot) -> Robot:
     if len(robot.tree.roots) < 2:
         return robot
     links = robot.links if WORLD in robot.link else [Link(robot.provenance, WORLD), *robot.links]
-    joints = [Joint(None, f"{name}_floating", "floating", WORLD, name) for name in roots]
+    origin = None if robot.base is None else robot.base.origin
+    joints = [
+        Joint(None, f"{name}_floating", "floating", WORLD, name, origin=origin) for name in roots
+    ]
     return replace(robot, links=links, joints=[*robot.joints, *joints], base=None)
 
 

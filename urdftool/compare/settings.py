@@ -20,7 +20,7 @@ def compare_surfaces(
     parts: tuple[Part, Part],
 ) -> None:
     """Compare friction and contact of two collisions of links."""
-    _compare(pair, comparison, "surface", "link", names, SURFACE, settings, parts)
+    compare_settings(pair, comparison, "surface", "link", names, SURFACE, settings, parts)
 
 
 def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
@@ -29,7 +29,7 @@ def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
     settings = robots[0].settings, robots[1].settings
     rows = [row for row in OF_ROBOT if row.name != "static"]
     names = robots[0].name, robots[1].name
-    _compare(pair, comparison, "link flags", "robot", names, rows, settings, robots)
+    compare_settings(pair, comparison, "link flags", "robot", names, rows, settings, robots)
 
 
 def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
@@ -37,7 +37,7 @@ def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
     for x, y in pair.match_members(match.one, match.two):
         links = pair.a.robot.link[x], pair.b.robot.link[y]
         settings = links[0].settings, links[1].settings
-        _compare(pair, comparison, "link flags", "link", (x, y), OF_LINKS, settings, links)
+        compare_settings(pair, comparison, "link flags", "link", (x, y), OF_LINKS, settings, links)
 
 
 def compare_joint_settings(
@@ -49,7 +49,7 @@ def compare_joint_settings(
     names = one.name, two.name
     sprung = one.spring is not None or two.spring is not None
     rows = [row for row in OF_JOINTS if sprung or row.name != "spring_reference"]
-    _compare(pair, comparison, "joint physics", "joint", names, rows, settings, (one, two))
+    compare_settings(pair, comparison, "joint physics", "joint", names, rows, settings, (one, two))
 
 
 def _turn(settings: Settings, sign: float) -> Settings:
@@ -60,7 +60,7 @@ def _turn(settings: Settings, sign: float) -> Settings:
     return settings | {"spring_reference": type(rest)(rest.provenance, -rest.content)}
 
 
-def _compare(
+def compare_settings(
     pair: Pair,
     comparison: Comparison,
     row: str,
@@ -70,6 +70,18 @@ def _compare(
     settings: tuple[Settings, Settings],
     owners: tuple[Part, Part],
 ) -> None:
+    """Compare the values of the rows of a table that two parts have.
+
+    Args:
+        pair: Both robots.
+        comparison: Where differences are recorded.
+        row: Row of the comparison.
+        kind: ``link``, ``joint`` or ``robot``.
+        names: Names of the parts.
+        rows: Rows of the table.
+        settings: Values of the parts.
+        owners: Parts whose place is that of a missing value.
+    """
     if row not in comparison.tolerances:
         return
     for setting in rows:

@@ -25,10 +25,12 @@ from ..model.elements import (
     Visual,
 )
 from ..model.gazebo_colors import get_rgba
+from ..model.gltf_axes import is_gltf
 from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import describe_pose, format_vector, invert, measure_largest
+from .looks import compare_looks
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
 from .settings import compare_surfaces
@@ -69,8 +71,8 @@ class _Comparing:
 def compare_shapes(pair: Pair, match: Match, comparison: Comparison) -> None:
     """Compare collisions and visuals of two bodies, as sets."""
     for row, kind in (("collisions", "collision"), ("visuals", "visual")):
-        depending = {"visuals": "colors", "collisions": "surface"}[row]
-        if comparison.tolerances.keys().isdisjoint((row, depending)):
+        depending = {"visuals": ("colors", "looks", "textures"), "collisions": ("surface",)}[row]
+        if comparison.tolerances.keys().isdisjoint((row, *depending)):
             continue
         one = _list_shapes(pair.a, match.one, kind, np.eye(4))
         two = _list_shapes(pair.b, match.two, kind, match.frame)
@@ -156,7 +158,9 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
     one, two = _as_mesh(x), _as_mesh(y)
     meshes, robots = state.pair.meshes, (state.pair.a.robot, state.pair.b.robot)
     files = meshes.find(robots[0], one), meshes.find(robots[1], two)
-    if files[0] is not None and files[1] is not None and one.scale == two.scale:
+    same_axes = not is_gltf(x.shape) or _get_up(robots[0]) == _get_up(robots[1])
+    is_scaled = one.scale != two.scale or not same_axes
+    if files[0] is not None and files[1] is not None and not is_scaled:
         if meshes.get_digest(files[0]) == meshes.get_digest(files[1]):
             distance = measure_largest(invert(x.pose) @ y.pose)
             if distance <= state.tolerance:
@@ -165,8 +169,14 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
     if measures is None:
         state.comparison.record_not_comparable("meshes whose file is missing or unreadable")
         same = one.filename.rpartition("/")[2] == two.filename.rpartition("/")[2]
+        same = same and np.allclose(one.scale, two.scale)
         return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
     return _round_off(measures)
+
+
+def _get_up(robot: Robot) -> str | None:
+    """Return the axis that readers of a robot make the upward axis of glTF."""
+    return None if robot.source is None else robot.source.gltf_up
 
 
 def _as_mesh(placed: Placed) -> Mesh:
@@ -351,19 +361,29 @@ def _compare_surfaces(state: _Comparing, x: Placed, y: Placed) -> None:
 
 
 def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
+    if state.row != "visuals":
+        return
+    has_color = _compare_color(state, x, y)
+    if isinstance(x.shape, Visual) and isinstance(y.shape, Visual):
+        links, shapes = (x.link, y.link), (x.shape, y.shape)
+        compare_looks(state.pair, state.comparison, links, shapes, has_color=has_color)
+
+
+def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
+    """Compare the colors of two visuals; return whether both have one."""
     robots = state.pair.a.robot, state.pair.b.robot
-    if state.row != "visuals" or any(
+    if any(
         _has_own_colors(state, robot, placed.geometry)
         for robot, placed in zip(robots, (x, y), strict=True)
     ):
-        return
+        return False
     colors = [
-        (get_rgba(placed.link.gazebo_material) if "sdf" in state.pair.formats else None)
+        (_find_gazebo_color(placed) if "sdf" in state.pair.formats else None)
         or _find_color(robot, placed.shape)
         for robot, placed in zip(robots, (x, y), strict=True)
-    ]  # Gazebo shows its own material instead of that of URDF
+    ]
     if colors[0] is None or colors[1] is None:
-        return
+        return False
     amount = float(np.abs(np.array(colors[0]) - np.array(colors[1])).max())
     state.comparison.add(
         Difference(
@@ -377,6 +397,15 @@ def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
             (locate(x.shape, x.link), locate(y.shape, y.link)),
         )
     )
+    return True
+
+
+def _find_gazebo_color(placed: Placed) -> tuple[float, ...] | None:
+    """Return the color that Gazebo shows instead of that of URDF; None without one."""
+    diffuse = placed.shape.appearance.get("diffuse") if isinstance(placed.shape, Visual) else None
+    if diffuse is not None and isinstance(diffuse.content, tuple):
+        return diffuse.content
+    return get_rgba(placed.link.gazebo_material)
 
 
 def _has_own_colors(state: _Comparing, robot: Robot, geometry: Geometry) -> bool:

@@ -104,12 +104,19 @@ class Material(Part):
 
 @dataclass(slots=True)
 class Visual(Part):
-    """Visual geometry of a link."""
+    """Visual geometry of a link.
+
+    Attributes:
+        appearance: Settings of ``appearance.APPEARANCE`` in addition to the material.
+        script: Material of an Ogre script that its reader does not know.
+    """
 
     name: str | None = None
     origin: Origin | None = None
     geometry: Geometry | None = None
     material: Material | None = None
+    appearance: Settings = field(default_factory=dict)
+    script: str = ""
 
 
 @dataclass(slots=True)

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from ..source.document import Element
+from .appearance import add_appearance
 from .blocks import add_blocks
 from .elements import (
     Actuator,
@@ -82,6 +83,7 @@ def read_robot(root: Element) -> Robot:
             reader(child)
     add_settings(robot)
     add_blocks(robot)
+    add_appearance(robot)
     return robot
 
 

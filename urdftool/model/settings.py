@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..source.document import Element
 from .numbers import number, parse_numbers
-from .part import Part, Vector
+from .part import Part
 
 if TYPE_CHECKING:
     from .elements import Robot
 
-Content = float | bool | Vector | str
+Content = float | bool | tuple[float, ...] | str
 
 
 class Setting(NamedTuple):
@@ -31,8 +31,8 @@ class Setting(NamedTuple):
 
     Attributes:
         name: Name in the model.
-        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``flag`` or
-            ``text``.
+        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``color`` (red,
+            green, blue, and alpha, 1 by default), ``flag`` or ``text``.
         unit: Unit of the value; empty for none.
         path: Path of the SDF element below the collision, link or joint.
         default: What SDF's specification says where it is not written.
@@ -89,6 +89,9 @@ SURFACE = (
     Setting("contact_erp", "number", "", _CONTACT + "soft_erp", 0.2),
     Setting("collide_bitmask", "count", "", "surface/contact/collide_bitmask", 65535.0),
     Setting("category_bitmask", "count", "", "surface/contact/category_bitmask", 65535.0),
+    Setting("without_contact", "flag", "", "surface/contact/collide_without_contact", False),
+    Setting("bitmask_without_contact", "count", "",
+            "surface/contact/collide_without_contact_bitmask", 1.0),
     Setting("max_contacts", "count", "", "max_contacts", 10.0, ("maxContacts",)),
     Setting("laser_retro", "number", "", "laser_retro", 0.0, ("laserRetro",),
             note="for gz in each visual too, where its lidar looks"),
@@ -112,6 +115,8 @@ OF_JOINTS = (
             ("springStiffness",), mjcf="joint stiffness"),
     Setting("spring_reference", "number", "rad or m", "axis/dynamics/spring_reference", 0.0,
             ("springReference",), mjcf="joint springref"),
+    Setting("limit_stiffness", "number", "N·m/rad or N/m", "axis/limit/stiffness", 1e8),
+    Setting("limit_dissipation", "number", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0),
     Setting("stop_cfm", "number", "", _LIMIT + "cfm", 0.0, ("stopCfm",)),
     Setting("stop_erp", "number", "", _LIMIT + "erp", 0.2, ("stopErp",)),
     Setting("fudge_factor", "number", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",)),
@@ -250,7 +255,9 @@ def parse(kind: str, text: str) -> Content | None:
     if kind == "text":
         return text
     if kind == "vector":
-        return parse_numbers(text, 3)  # type: ignore[return-value]
+        return parse_numbers(text, 3)
+    if kind == "color":
+        return parse_numbers(text, 4) or parse_numbers(f"{text} 1", 4)
     value = number(text)
     if kind == "count" and value is not None and not (value >= 0 and value.is_integer()):
         return None
@@ -263,6 +270,7 @@ def describe_kind(kind: str) -> str:
         "number": "a finite number",
         "count": "a whole number",
         "vector": "three finite numbers",
+        "color": "three or four finite numbers",
         "flag": "true or false",
         "text": "a text",
     }[kind]

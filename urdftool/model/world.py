@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .elements import Joint, Link, Robot
+from .mechanism import Base
+from .numbers import parse_numbers
+from .part import ZERO, Origin
+from .pose import get_origin_at, make_pose
+from .settings import get_text, is_set
 
 WORLD = "world"
 """Link name by which simulators identify the world."""
@@ -53,3 +58,52 @@ def weld_base(robot: Robot) -> Robot:
         joints=[joint, *robot.joints],
         base=None,
     )
+
+
+def find_model_origin(robot: Robot) -> Origin | None:
+    """Return the pose of the whole robot in the world of Gazebo; None for the identity.
+
+    A base of another format has it; in URDF ``<pose>`` in ``<gazebo>`` counts, the last of
+    several, before ``<origin>`` of ``<robot>``.
+    """
+    if robot.base is not None:
+        return robot.base.origin
+    poses = [
+        element
+        for block in robot.extensions.get(None, [])
+        for element in block.element.list_children("pose")
+    ]
+    for element in reversed(poses):
+        six = parse_numbers(get_text(element), 6)
+        if six is not None:
+            return Origin(element, six[:3], six[3:])  # type: ignore[arg-type]
+    element_ = robot.find_child_xml("origin")
+    if element_ is None:
+        return None
+    xyz, rpy = (parse_numbers(element_.get(name), 3) or ZERO for name in ("xyz", "rpy"))
+    return Origin(element_, xyz, rpy)  # type: ignore[arg-type]
+
+
+def add_gazebo_base(robot: Robot) -> Robot:
+    """Return a URDF with the base that it has in Gazebo: free, unless it is static or anchored.
+
+    Args:
+        robot: Any robot; it is not modified.
+    """
+    if robot.base is not None:
+        return robot
+    origin = find_model_origin(robot)
+    if not any(root.name == WORLD for root in robot.tree.roots):
+        return replace(
+            robot, base=Base(robot.provenance, not is_set(robot.settings, "static"), origin)
+        )
+    if origin is None:
+        return robot
+    pose = make_pose(origin)
+    joints = [
+        replace(joint, origin=get_origin_at(pose @ make_pose(joint.origin), origin.provenance))
+        if joint.parent == WORLD
+        else joint
+        for joint in robot.joints
+    ]
+    return replace(robot, joints=joints)

@@ -7,7 +7,7 @@ import pytest
 
 from urdftool.compare.check import is_faithful
 from urdftool.formats.sdf.options import Options
-from urdftool.formats.sdf.verify.compare import compare, pair_of
+from urdftool.formats.sdf.verify.compare import compare, read_pair
 from urdftool.formats.sdf.write import write
 from urdftool.model.load import load
 
@@ -44,7 +44,7 @@ def test_all_are_the_same_robots(choices, allowed, tmp_path):
         written = write(robot, options)
         place = tmp_path / "m.sdf"
         place.write_bytes(written.files["m.sdf"])
-        checks = compare(pair_of(robot, written, place, options))
+        checks = compare(read_pair(robot, written, place, options))
         assert is_faithful(checks), (path, [check.differing for check in checks])
         if any(check.verdict != "equal" for check in checks):
             other.append(path.stem)

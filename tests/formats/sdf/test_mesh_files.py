@@ -5,7 +5,7 @@ import pytest
 from tests.assets import DAE, make_png, make_stl
 from urdftool.formats.common.directory import is_ours, write_export
 from urdftool.formats.sdf.options import Options
-from urdftool.formats.sdf.verify.compare import compare, pair_of
+from urdftool.formats.sdf.verify.compare import compare, read_pair
 from urdftool.formats.sdf.write import write as export
 from urdftool.model.load import load
 
@@ -140,9 +140,9 @@ def test_textures_are_verified(write, tmp_path, target, spoiled):
         (name,) = [name for name in written.files if name.endswith(".png")]
         written.files[name] = b"other"
     write_export(tmp_path / "out", written, single=False)
-    pair = pair_of(robot, written, tmp_path / "out" / "model.sdf", options)
-    colours = next(check for check in compare(pair) if check.name == "colours")
-    assert colours.verdict == ("differs" if spoiled else "equal")
+    pair = read_pair(robot, written, tmp_path / "out" / "model.sdf", options)
+    textures = next(check for check in compare(pair) if check.name == "textures")
+    assert textures.verdict == ("differs" if spoiled else "equal")
 
 
 def test_a_uri_with_too_many_slashes_is_understood(write):

@@ -12,10 +12,10 @@ import pytest
 from tests.conftest import CORPUS
 from urdftool.compare.check import is_faithful
 from urdftool.formats.sdf.options import Options
-from urdftool.formats.sdf.verify.compare import compare, pair_of
-from urdftool.formats.sdf.verify.mechanism import rotate_by_angles
+from urdftool.formats.sdf.verify.compare import compare, read_pair
 from urdftool.formats.sdf.write import write
 from urdftool.model.load import load
+from urdftool.model.pose import rotation_from_rpy
 
 from .robots import named, names, tree
 
@@ -41,7 +41,7 @@ def mass_of(model, name):
             [i["ixz"], i["iyz"], i["izz"]],
         ]
     )
-    turn = rotate_by_angles(pose[3:])
+    turn = rotation_from_rpy(pose[3:])
     return float(inertial.findtext("mass")), pose[:3], turn @ tensor @ turn.T
 
 
@@ -75,7 +75,7 @@ def test_reduction(case, visuals, collisions):
         got_mass, got_center, got_tensor = mass_of(model, name)
         xx, yy, zz = moments
         xy, xz, yz = products
-        turn = rotate_by_angles(rpy)
+        turn = rotation_from_rpy(rpy)
         tensor = turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T
         assert got_mass == pytest.approx(mass)
         assert got_center == pytest.approx(center, abs=1e-5)
@@ -228,5 +228,5 @@ def test_every_case_is_the_same_robot(path, choices, tmp_path):
     written = write(robot, options)
     place = tmp_path / "m.sdf"
     place.write_bytes(written.files["m.sdf"])
-    checks = compare(pair_of(robot, written, place, options))
+    checks = compare(read_pair(robot, written, place, options))
     assert is_faithful(checks), [check.differing for check in checks]

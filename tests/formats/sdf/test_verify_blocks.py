@@ -7,7 +7,7 @@ import pytest
 from urdftool.compare.check import is_faithful
 from urdftool.formats.common.directory import write_directory
 from urdftool.formats.sdf.options import Options
-from urdftool.formats.sdf.verify.compare import compare, pair_of, verify
+from urdftool.formats.sdf.verify.compare import compare, read_pair, verify
 from urdftool.formats.sdf.write import write
 
 from .robots import BOX, gazebo, inertial, joint, link, robot
@@ -85,7 +85,7 @@ def checks_of(source, folder, change=lambda text: text, **choices):
     text = change(written.text)
     written.files[written.main] = text.encode()
     write_directory(folder / "m", written.files, main=written.main)
-    pair = pair_of(source, written, folder / "m" / written.main, options)
+    pair = read_pair(source, written, folder / "m" / written.main, options)
     return {check.name: check for check in compare(pair)}
 
 

@@ -63,6 +63,7 @@ def read(
     robot = Robot(Written(top.element.place), top.name, format="sdf")
     robot.settings = read_sdf_settings(top.element, OF_ROBOT)
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
+    robot.source.gltf_up = "z"  # Gazebo keeps the axes of the file
     _fill(Context(robot, losses, file.path), top)
     found = losses.make_findings()
     robot.unread = found

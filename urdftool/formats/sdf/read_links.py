@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ...diagnostic import Severity
 from ...errors import ModelError
+from ...model.appearance import read_sdf_appearance
 from ...model.blocks import add_parts
 from ...model.elements import (
     Box,
@@ -19,7 +20,6 @@ from ...model.elements import (
     Inertia,
     Inertial,
     Link,
-    Material,
     Mesh,
     Plane,
     Robot,
@@ -34,11 +34,11 @@ from ...model.sensors import read_sensor
 from ...model.settings import OF_LINKS, SURFACE, read_sdf_settings
 from ...source.document import Element
 from ..reading import Losses
+from .read_materials import read_material
 from .read_scope import Scope
 from .read_values import number, read_numbers, read_pose, read_text, read_vector
 
 _TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
-_MATERIAL = Severity.INFO
 
 
 @dataclass
@@ -124,8 +124,14 @@ def _read_visual(
         return []
     written = Written(element.place)
     origin = get_origin_at(_compute_pose(context, scope, prefix, link, element) @ turn, written)
-    material = _read_material(context, element)
-    return [Visual(written, element.get("name"), origin, geometry, material)]
+    material, script = read_material(context.robot, element)
+    visual = Visual(written, element.get("name"), origin, geometry, material)
+    visual.appearance, visual.script = read_sdf_appearance(element), script
+    if script:
+        context.record_loss(
+            "material-script", "scripts of materials are not read", element, Severity.INFO
+        )
+    return [visual]
 
 
 def _read_collision(
@@ -197,28 +203,6 @@ def _read_mesh(context: Context, element: Element, written: Written) -> Geometry
     if "://" not in uri and element.file.path != context.main:
         uri = os.path.join(os.path.dirname(os.path.abspath(element.file.path)), uri)
     return Mesh(written, uri, read_vector(element, "scale", (1.0, 1.0, 1.0)))
-
-
-def _read_material(context: Context, holder: Element) -> Material | None:
-    element = holder.find_child("material")
-    if element is None:
-        return None
-    diffuse = element.find_child("diffuse") or element.find_child("ambient")
-    color = None
-    if diffuse is not None:
-        values = [*map(float, diffuse.text.split()), 1.0][:4]
-        r, g, b, a = values if len(values) == 4 else read_numbers(diffuse, 4)
-        color = r, g, b, a
-    script = element.find_child("script")
-    if script is not None:
-        context.record_loss(
-            "material-script", "scripts of materials are not read", holder, _MATERIAL
-        )
-    pbr = element.find_child("pbr")
-    maps = [] if pbr is None else [e.text.strip() for e in pbr.walk() if e.tag == "albedo_map"]
-    if color is None and not maps:
-        return None
-    return Material(Written(element.place), "", color, maps[0] if maps else None)
 
 
 def _add_sensor(

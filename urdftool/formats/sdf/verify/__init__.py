@@ -1,6 +1,6 @@
-"""Comparison of an export with its source, without code of the exporter.
+"""Comparison of an export with its source.
 
-``source`` and ``reader`` create a ``Mechanism`` from the robot and from the exported file,
-``dynamics`` computes kinematics and dynamics of both, ``compare`` runs the checks, and ``loader``
-runs Gazebo's own reader.
+``compare`` reads the file back and compares two robots; ``sensors``, ``plugins`` and ``elements``
+compare what the robot does not hold yet, by elements. ``world`` compares the world around the
+model, ``loader`` runs Gazebo's own reader.
 """

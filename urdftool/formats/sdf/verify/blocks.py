@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from ....model.elements import Collision, Joint, Link, Robot
-from ....model.settings import (
-    JOINT_TAGS,
-    LUMPING_TAGS,
-    OF_JOINTS,
-    SURFACE,
-    Setting,
-    Settings,
-)
+from ....model.elements import Joint, Link, Robot
+from ....model.settings import JOINT_TAGS, LUMPING_TAGS
 from ....source.document import Element
-from .facts import Facts, get_facts
 
 NOWHERE = frozenset(("canonicalBody",))
 
@@ -41,32 +33,3 @@ def list_elements_of_whole(robot: Robot) -> Iterator[Element]:
     for block in robot.gazebo:
         if not block.element.get("reference"):
             yield from block.element.children
-
-
-def get_settings_facts(settings: Settings, rows: Iterable[Setting]) -> Facts:
-    """Return the values of settings by their paths in SDF."""
-    facts: Facts = {}
-    for row in rows:
-        if row.name in settings:
-            content = settings[row.name].content
-            value = content if isinstance(content, tuple) else (float(content),)
-            facts.update({path: value for path in (row.path, row.also) if path})
-    return facts
-
-
-def get_expected_surface(robot: Robot, link: Link, collision: Collision) -> Facts:
-    """Return the properties of a collision of a link, other than its shape."""
-    facts: Facts = {}
-    for element in list_elements(robot, link):
-        if element.tag == "collision":
-            facts.update(get_facts(element))
-    return facts | get_settings_facts(collision.surface, SURFACE)
-
-
-def get_expected_joint_physics(robot: Robot, joint: Joint) -> Facts:
-    """Return the properties of a joint, other than its own axis and limits."""
-    facts: Facts = {}
-    for element in list_elements(robot, joint):
-        if element.tag in ("physics", "axis", "axis2"):
-            facts.update({f"{element.tag}/{p}": v for p, v in get_facts(element).items()})
-    return facts | get_settings_facts(joint.settings, OF_JOINTS)

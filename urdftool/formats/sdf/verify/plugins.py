@@ -23,7 +23,7 @@ from ....model.read import number
 from ....source.document import Element
 from .blocks import list_elements, list_elements_of_whole
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
-from .mechanism import Array, make_pose, rotate_by_angles
+from .frames import Array, make_pose_of_six
 from .sensing import get_sensed_part
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def compare_plugins(pair: Pair) -> Check:
         left.remove(alike[0])
         if owner != wanted.owner:
             # sensors with the same name in one link are renamed
-            renamed = pair.excuses.declared.has_any("lossy-name")
+            renamed = pair.declared.has_any("lossy-name")
             known = renamed and owner.startswith(f"{wanted.owner}_")
             check.compare(np.inf, f"{about} is in '{owner}'", known=known)
         if wanted.name and element.get("name") != wanted.name:
@@ -177,7 +177,7 @@ def _offset(facts: Facts) -> Array:
     for word in ("xyzOffset", "rpyOffset"):
         value = facts.pop(word, (0.0, 0.0, 0.0))
         six += value if not isinstance(value, str) and len(value) == 3 else (0.0, 0.0, 0.0)
-    return make_pose(rotate_by_angles(six[3:]), six[:3])
+    return make_pose_of_six(six)
 
 
 def _is_mimic(pair: Pair, element: Element) -> bool:

@@ -12,7 +12,7 @@ from ....model.gazebo_plugins import get_library
 from ....model.read import number, parse_numbers
 from ....source.document import Element
 from .facts import Facts
-from .mechanism import Array, make_pose, rotate_by_angles
+from .frames import Array, make_pose_of_six
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -63,8 +63,7 @@ def get_sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
     if not joints:
         return pair.robot.link.get(name) if pair.place(name) is not None else None
     joint = pair.robot.joint.get(name)
-    made = {one.name for one in pair.made.joints}
-    return joint if joint is not None and pair.get_joint(name) in made else None
+    return joint if joint is not None and pair.get_joint(name) in pair.joints else None
 
 
 def list_sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
@@ -86,7 +85,7 @@ def offset_of(plugin: Element) -> Array:
         child = plugin.find_child(f"{word}Offset") or plugin.find_child(f"{word}_offset")
         three = parse_numbers(child.text, 3) if child is not None else None
         six += three or (0.0, 0.0, 0.0)
-    return make_pose(rotate_by_angles(six[3:]), six[:3]) if any(six) else np.eye(4)
+    return make_pose_of_six(six) if any(six) else np.eye(4)
 
 
 def get_noise(plugin: Element) -> Facts:

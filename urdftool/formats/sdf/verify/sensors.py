@@ -9,18 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....compare.check import Check
-from ....model.elements import Joint, Link
+from ....model.elements import Joint, Link, Robot
 from ....model.gazebo_plugins import SENSOR_PLUGINS, get_library
+from ....model.kinematics import link_poses
 from ....model.read import number, parse_numbers
+from ....model.world import WORLD
 from ....source.document import Element
 from .blocks import list_elements
-from .dynamics import compute_poses
-from .excuses import BLOCKS
+from .declared_losses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
-from .mechanism import Array, invert_pose, make_pose, rotate_by_angles
-from .reader import read_pose
+from .frames import Array, invert_pose, make_pose, make_pose_of_six, read_pose
 from .sensing import SENSING, get_noise, list_sensing_plugins, offset_of
-from .source import get_base
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -63,17 +62,10 @@ def compare_sensors(pair: Pair) -> Check:
     """Compare every sensor."""
     check = Check("sensors", "link or joint, pose, type, rate, topic, parameters", EXACT)
     left = list(_list_written(pair))
-    order = pair.made.sort_joints()
-    there = compute_poses(pair.made, {}, order)
-    root = get_base(pair.robot)
-    base = np.eye(4)
-    if root is not None:
-        body, inside = pair.made.frames.get(pair.link(root), ("world", np.eye(4)))
-        base = invert_pose(there[body] @ inside)
-    here = compute_poses(pair.source, {}, pair.source.sort_joints())
+    base, here = _compute_base(pair), _compute_poses(pair.robot)
     for sensor in list_expected_sensors(pair):
         part = sensor.part
-        known = pair.excuses.declared.has_for(RESTING, part.name)
+        known = pair.declared.has_for(RESTING, part.name)
         about = f"sensor '{sensor.name}' of '{part.name}'"
         element = _find(pair, sensor, left)
         if element is None:
@@ -89,11 +81,13 @@ def compare_sensors(pair: Pair) -> Check:
             held = pair.place(part.name)
             if held is None or held[0] != element[0]:
                 check.compare(np.inf, f"{about} is on '{element[0]}'", known=known)
-            place = base @ there[element[0]] @ pair.where.get_local(element[0], element[1])
-            off = float(np.abs(place - here[part.name] @ sensor.pose).max())
-            check.compare(
-                off, f"{about} is at another pose", known=known or part.name in pair.excuses.frames
+            place = (
+                base
+                @ pair.where.get_pose(element[0])
+                @ pair.where.get_local(element[0], element[1])
             )
+            off = float(np.abs(place - here[part.name] @ sensor.pose).max())
+            check.compare(off, f"{about} is at another pose", known=known)
         else:
             off = float(np.abs(read_pose(element[1]) - sensor.pose).max())
             check.compare(off, f"{about} is at another pose", known=known)
@@ -102,6 +96,18 @@ def compare_sensors(pair: Pair) -> Check:
             np.inf, f"sensor '{element.get('name')}' of '{owner}' is not in the description"
         )
     return check
+
+
+def _compute_base(pair: Pair) -> Array:
+    """Return the pose of the model in the first root of the source; the identity for the world."""
+    names = [root.name for root in pair.robot.tree.roots]
+    held = pair.place(names[0]) if names and WORLD not in names else None
+    return np.eye(4) if held is None else invert_pose(pair.where.get_pose(held[0]) @ held[1])
+
+
+def _compute_poses(robot: Robot) -> dict[str, Array]:
+    """Return the poses of links with all joints at zero, 4 × 4."""
+    return {n: make_pose(p.rotation, p.translation) for n, p in link_poses(robot).items()}
 
 
 def _list_written(pair: Pair) -> Iterator[tuple[str, Any]]:
@@ -163,8 +169,7 @@ def _get_of_plugin(pair: Pair, plugin: Element, part: Link | Joint) -> Expected:
 
 
 def _is_joint(pair: Pair, joint: Joint) -> bool:
-    name = pair.get_joint(joint.name)
-    return any(made.name == name for made in pair.made.joints)
+    return pair.get_joint(joint.name) in pair.joints
 
 
 def _list_expected(pair: Pair, part: Link | Joint, element: Element) -> Iterator[Expected]:
@@ -201,10 +206,10 @@ def get_pose_of_element(pair: Pair, part: Link | Joint, element: Element) -> Arr
     """Return the pose of an element of a block in the frame of its link."""
     child = element.find_child("pose")
     values = parse_numbers(child.text, 6) if child is not None else None
-    pose = make_pose(rotate_by_angles(values[3:]), values[:3]) if values is not None else np.eye(4)
+    pose = make_pose_of_six(values) if values is not None else np.eye(4)
     frame = child.get("relative_to") if child is not None else None
-    if frame and isinstance(part, Link) and frame in pair.source.frames:
-        placed = compute_poses(pair.source, {}, pair.source.sort_joints())
+    if frame and isinstance(part, Link) and frame in pair.robot.link:
+        placed = _compute_poses(pair.robot)
         pose = invert_pose(placed[part.name]) @ placed[frame] @ pose
     return pose
 

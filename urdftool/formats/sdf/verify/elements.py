@@ -1,4 +1,4 @@
-"""Comparison of other elements: lights, projectors, batteries, nested models, loop joints."""
+"""Comparison of copied elements: lights, projectors, batteries, nested models, loop joints."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....compare.check import Check
+from ....model.appearance import APPEARANCE
 from ....model.elements import Joint, Link
-from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS
+from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS, OF_JOINTS, SURFACE
 from ....source.document import Element
 from .blocks import NOWHERE, list_elements, list_elements_of_whole
-from .excuses import BLOCKS
-from .facts import EXACT, Facts, compare_facts, get_facts
-from .mechanism import invert_pose
+from .declared_losses import BLOCKS, MOTION
+from .facts import EXACT, Facts, compare_facts, format_value, get_facts
+from .frames import invert_pose
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -28,13 +29,30 @@ OTHER_ROWS = frozenset(
 """Tags that other rows compare, or that SDF does not have."""
 
 
-def compare_others(pair: Pair) -> Check:
+PLACED = ("collision", "visual", "joint")
+"""Elements whose values are compared, except those of the robot."""
+
+TABLES = {"collision": SURFACE, "visual": APPEARANCE, "joint": OF_JOINTS}
+"""Values that the robot holds."""
+
+CHILDREN = frozenset(("parent", "child", "sensor", "plugin"))
+"""Children that other rows compare."""
+
+ELSEWHERE = (
+    *("material/pbr/metal/albedo_map", "material/script/", "axis/mimic", "axis/xyz"),
+    *(f"axis/limit/{name}" for name in ("lower", "upper", "effort", "velocity")),
+    *("axis/dynamics/damping", "axis/dynamics/friction"),
+)
+"""Beginnings of paths that other rows compare."""
+
+
+def compare_elements(pair: Pair) -> Check:
     """Compare the elements of blocks that are copied unchanged."""
     check = Check("other elements", "lights, projectors, batteries, and what else is copied", EXACT)
     left = list(_list_written(pair))
     for owner, name, element in _list_expected(pair):
         about = f"<{element.tag}> of '{name}'" if name else f"<{element.tag}>"
-        known = pair.excuses.declared.has_for(BLOCKS, name)
+        known = pair.declared.has_for(BLOCKS, name)
         alike = [one for one in left if one[0] == owner and one[1].tag == element.tag]
         wanted = get_facts(element, without=("pose",))
         alike.sort(key=lambda one: _get_unlike(one[1], wanted))
@@ -42,7 +60,7 @@ def compare_others(pair: Pair) -> Check:
             check.compare(
                 np.inf,
                 f"{about} is missing",
-                known=known or pair.excuses.declared.has_for(BLOCKS, ""),
+                known=known or pair.declared.has_for(BLOCKS, ""),
             )
             continue
         left.remove(alike[0])
@@ -52,6 +70,8 @@ def compare_others(pair: Pair) -> Check:
     for owner, element in left:
         check.compare(np.inf, f"<{element.tag}> of '{owner}' is not in the description")
     _compare_loops(pair, check)
+    for kind in PLACED:
+        _compare_rest(pair, check, kind)
     return check
 
 
@@ -76,7 +96,6 @@ def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
     for element in list_elements_of_whole(pair.robot):
         if element.tag not in OTHER_ROWS:
             yield "", "", element
-    joints = {joint.name for joint in pair.made.joints}
     parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
     for part in parts:
         if isinstance(part, Link):
@@ -86,7 +105,7 @@ def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
             owner = held[0]
         else:
             owner = pair.get_joint(part.name)
-            if owner not in joints or part.name in pair.robot.link:
+            if owner not in pair.joints or part.name in pair.robot.link:
                 continue
         for element in list_elements(pair.robot, part):
             if element.tag not in OTHER_ROWS:
@@ -109,7 +128,7 @@ def _compare_pose(
     child = found.find("pose")
     if (
         link is None
-        or owner not in pair.made.bodies
+        or owner not in pair.bodies
         or (child is None and not element.find_child("pose"))
     ):
         return
@@ -129,8 +148,9 @@ def _compare_loops(pair: Pair, check: Check) -> None:
         if block.tag != "joint":
             continue
         name = block.get("name") or ""
-        known = pair.excuses.declared.has_for(BLOCKS, "")
+        known = pair.declared.has_for(BLOCKS, "")
         names = [n for n in elements if n not in own and (n == name or n.startswith(f"{name}_"))]
+        own |= set(names[:1])
         if not names:
             check.compare(np.inf, f"joint '{name}' of a loop is missing", known=known)
             continue
@@ -152,3 +172,74 @@ def _compare_loops(pair: Pair, check: Check) -> None:
             found = (made.findtext(end) or "").strip()
             if held is not None and found not in (text, held[0], pair.link(text)):
                 check.compare(np.inf, f"{end} of joint '{name}' of a loop is '{found}'")
+    for name in elements.keys() - own:
+        known = pair.declared.has_for(MOTION, name.removesuffix("_x"), name.removesuffix("_y"))
+        check.compare(np.inf, f"joint '{name}' is not in the description", known=known)
+
+
+def _compare_rest(pair: Pair, check: Check, kind: str) -> None:
+    """Compare the values of all collisions, visuals or joints that the robot does not hold."""
+    held = {path for row in TABLES[kind] for path in (row.path, row.also)}
+    found = {
+        (owner, path, value)
+        for owner, element in _list_nodes(pair, kind)
+        for path, value in get_facts(element, without=("geometry", "pose", *CHILDREN)).items()
+        if path not in held and not path.startswith(ELSEWHERE)
+    }
+    expected = {
+        (owner, path, value): name
+        for name, owner, facts in _list_raw(pair, kind)
+        for path, value in facts.items()
+        if path not in held and not path.startswith(ELSEWHERE)
+    }
+    for item in found ^ expected.keys():
+        owner, path, value = item
+        known = pair.declared.has_for(BLOCKS, expected.get(item, owner))
+        what = "not in the description" if item in found else "missing"
+        text = f"{kind} of '{owner}': {path} {format_value(value)} is {what}"
+        check.compare(np.inf, text, known=known)
+
+
+def _list_nodes(pair: Pair, kind: str) -> Iterator[tuple[str, Any]]:
+    """Yield elements of the file with the name of their link or joint."""
+    if kind == "joint":
+        own = {pair.get_joint(joint.name) for joint in pair.robot.joints}
+        for node in pair.where.model.findall("joint"):
+            if node.get("name") in own:
+                yield node.get("name", ""), node
+        return
+    for link in pair.where.model.findall("link"):
+        for node in link.findall(kind):
+            yield link.get("name", ""), node
+
+
+def _list_raw(pair: Pair, kind: str) -> Iterator[tuple[str, str, Facts]]:
+    """Yield values in blocks for parts of a kind, with the names in description and file."""
+    if kind == "joint":
+        for joint in pair.robot.joints:
+            name = pair.get_joint(joint.name)
+            for element in list_elements(pair.robot, joint) if name in pair.joints else ():
+                if element.tag in ("physics", "axis", "axis2"):
+                    yield joint.name, name, _add_prefix(element)
+        return
+    for link in pair.robot.links:
+        shapes = link.collisions if kind == "collision" else link.visuals
+        held = pair.place(link.name) if shapes else None
+        for facts in _list_facts(pair, kind, link) if held is not None else ():
+            yield link.name, held[0] if held is not None else "", facts
+
+
+def _list_facts(pair: Pair, kind: str, link: Link) -> Iterator[Facts]:
+    """Yield the values that blocks give the collisions or visuals of a link."""
+    elements = list(list_elements(pair.robot, link))
+    yield from (get_facts(element) for element in elements if element.tag == kind)
+    materials = [element for element in elements if element.tag == "material"]
+    if kind == "visual" and materials and materials[-1].children:
+        yield _add_prefix(materials[-1])
+    retro = link.surface.get("laser_retro")
+    if kind == "visual" and retro is not None and not pair.options.classic:
+        yield {"laser_retro": (float(retro.content),)}  # type: ignore[arg-type]
+
+
+def _add_prefix(element: Element) -> Facts:
+    return {f"{element.tag}/{path}": value for path, value in get_facts(element).items()}

@@ -1,0 +1,99 @@
+"""Comparison of the appearance of equal visuals: lights, transparency, images."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import UrdftoolError
+from ..model.appearance import APPEARANCE, get_appearance, resolve_material
+from ..model.elements import Link, Material, Robot, Visual
+from ..model.settings import Settings
+from .difference import Comparison, Difference
+from .pair import Pair, locate
+from .settings import compare_settings
+
+_FORMATS = ("urdf", "sdf")
+"""Formats that have all values of the appearance; URDF in ``<gazebo>``."""
+
+
+def compare_looks(
+    pair: Pair,
+    comparison: Comparison,
+    links: Sequence[Link],
+    visuals: tuple[Visual, Visual],
+    *,
+    has_color: bool,
+) -> None:
+    """Compare two visuals of equal geometry.
+
+    Args:
+        pair: Both robots.
+        comparison: Where differences are recorded.
+        links: Their links.
+        visuals: The visuals.
+        has_color: Whether their colors are compared in another row.
+    """
+    if not set(pair.formats) <= set(_FORMATS):
+        reason = f"not in {' and '.join(sorted(set(pair.formats) - set(_FORMATS)))}"
+        comparison.skipped.update(dict.fromkeys(("looks", "textures"), reason))
+        return
+    robots = pair.a.robot, pair.b.robot
+    sides = list(zip(robots, links, visuals, strict=True))
+    names = links[0].name, links[1].name
+    scripts = [_get_script(*side) for side in sides]
+    if any(scripts):
+        if scripts[0] != scripts[1]:
+            _add(comparison, "looks", names, "material script", scripts, visuals)
+        return
+    one, two = (_get_settings(pair, *side) for side in sides)
+    rows = [row for row in APPEARANCE if row.name != "diffuse" or not has_color]
+    compare_settings(pair, comparison, "looks", "link", names, rows, (one, two), visuals)
+    images = [_find_image(robot, visual) for robot, _, visual in sides]
+    digests = [None if path is None else pair.meshes.get_digest(path) for path in images]
+    if digests[0] != digests[1]:
+        texts = ["" if path is None else path.name for path in images]
+        _add(comparison, "textures", names, "image of a visual", texts, visuals)
+
+
+def _get_settings(pair: Pair, robot: Robot, link: Link, visual: Visual) -> Settings:
+    """Return the appearance of a visual, only what blocks set if both robots are URDF."""
+    if pair.formats == ("urdf", "urdf"):
+        return visual.appearance
+    found = dict(get_appearance(robot, link, visual))
+    if "metalness" not in visual.appearance and _find_image(robot, visual) is None:
+        found.pop("metalness", None)  # of an image that does not exist
+    return found
+
+
+def _get_script(robot: Robot, link: Link, visual: Visual) -> str:
+    """Return the name of an unknown material; empty if it is known, or URDF has no color."""
+    if robot.format != "urdf":
+        return visual.script
+    is_known = "diffuse" in get_appearance(robot, link, visual)
+    return "" if is_known else link.gazebo_material
+
+
+def _find_image(robot: Robot, visual: Visual) -> Path | None:
+    """Return the image of a visual; None if there is none, or its file does not exist."""
+    material: Material | None = resolve_material(robot, visual.material)
+    if material is None or not material.texture or robot.source is None:
+        return None
+    try:
+        path = robot.source.resolve(material.texture)
+    except UrdftoolError:
+        return None
+    return path if path.is_file() else None
+
+
+def _add(
+    comparison: Comparison,
+    row: str,
+    names: tuple[str, str],
+    what: str,
+    values: Sequence[str],
+    visuals: tuple[Visual, Visual],
+) -> None:
+    shown = values[0] or "none", values[1] or "none"
+    places = locate(visuals[0], None), locate(visuals[1], None)
+    comparison.add(Difference(row, "link", names, what, shown, "", float("inf"), places))

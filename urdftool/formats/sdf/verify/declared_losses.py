@@ -1,0 +1,84 @@
+"""Differences that reported losses of an export explain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ....compare.proof import Excuse
+from ....diagnostic import Severity
+from ....finding import Finding
+from ....model.elements import Robot
+from ...common.losses import DeclaredLosses
+
+MASS = frozenset(("lossy-inertia", "lossy-mass", "lossy-world", "lossy-negative-mass"))
+MOTION = frozenset(("lossy-axis", "lossy-joint-type", "lossy-planar", "lossy-floating"))
+SHAPES = frozenset(("lossy-mesh", "lossy-shape", "lossy-capsule", "lossy-world"))
+BLOCKS = frozenset(
+    (
+        "lossy-element",
+        "lossy-extension",
+        "lossy-reference",
+        "bad-extension-number",
+        "lossy-bad-extension-number",
+    )
+)
+"""Contents of a ``<gazebo>`` block were dropped or changed."""
+
+_TENSORS = ("mass", "center of mass", "inertia")
+_PARTS = ("surface", "link flags", "joint physics", "base")
+
+ADDED = "added-body"
+"""Code of bodies that blocks add to the model."""
+
+EXCUSES = (
+    Excuse(("base",), frozenset((ADDED,)), "robot"),
+    Excuse(("tree",), frozenset((ADDED,))),
+    Excuse((*_TENSORS, "mass matrix", "gravity"), MASS, "body"),
+    Excuse(
+        ("tree", "frames", "axes", "limits", "joint physics", "collisions", "visuals", *_TENSORS),
+        MOTION,
+        "below",
+        ends=("_x", "_y"),
+    ),
+    Excuse(("limits",), frozenset(("lossy-limit",))),
+    Excuse(("frames",), frozenset(("lossy-frame",)), "body"),
+    Excuse(("tree",), frozenset(("lossy-mimic",))),
+    Excuse(("collisions", "visuals"), SHAPES, "body"),
+    Excuse(("colors", "looks", "textures"), SHAPES | {"lossy-material", "lossy-texture"}),
+    Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
+)
+"""Rows and parts that a loss explains."""
+
+
+def list_added_bodies(robot: Robot) -> Iterator[Finding]:
+    """Yield what links and models in blocks cause: the model has several roots.
+
+    Their reader joins the roots to the world.
+    """
+    blocks = [block.element for block in robot.gazebo if not block.reference]
+    added = [e for block in blocks for e in block.children if e.tag in ("link", "model", "include")]
+    if added:
+        roots = [link.name for link in robot.tree.roots]
+        for name in (*roots, *(element.get("name") or "" for element in added)):
+            place = added[0].place
+            yield Finding(ADDED, Severity.INFO, "", place, "joint", f"{name}_floating")
+
+
+def declare_losses(robot: Robot, losses: Sequence[Finding]) -> DeclaredLosses:
+    """Collect the losses that change the behavior, those of blocks also by their reference."""
+    declared: set[tuple[str, str]] = set()
+    for loss in losses:
+        if loss.severity > Severity.INFO:
+            declared.add((loss.code, loss.name))
+            if loss.code in BLOCKS and not loss.name:
+                declared |= {(loss.code, block) for block in _list_blocks_at(robot, loss)}
+    return DeclaredLosses(frozenset(declared))
+
+
+def _list_blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
+    """Yield the reference of the ``<gazebo>`` block in which a loss occurred."""
+    for block in robot.gazebo:
+        element, place = block.element, loss.location
+        same = element.place.path == place.path
+        if same and element.start <= place.start < element.end:
+            yield block.reference or ""

@@ -1,0 +1,147 @@
+"""What simulators show of visuals in addition to a color: lights of a material, transparency.
+
+``APPEARANCE`` has a row for each value, as ``settings.py`` for friction. A reader of SDF fills
+``Visual.appearance`` with the elements of the visual, that of URDF with those in ``<gazebo>``
+blocks of the link; :func:`get_appearance` adds what the color or the named material means.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from ..source.document import Element
+from .gazebo_colors import COLORS, Color
+from .settings import Setting, Settings, Value, get_text, read_sdf_settings
+
+if TYPE_CHECKING:
+    from .elements import Link, Material, Robot, Visual
+
+_BLACK = (0.0, 0.0, 0.0, 1.0)
+_DARK = (0.0, 0.0, 0.0, 0.0)
+_METAL = "material/pbr/metal/"
+
+APPEARANCE = (
+    Setting("ambient", "color", "", "material/ambient", _BLACK),
+    Setting("diffuse", "color", "", "material/diffuse", _BLACK),
+    Setting("specular", "color", "", "material/specular", _BLACK),
+    Setting("emissive", "color", "", "material/emissive", _BLACK),
+    Setting("shininess", "number", "", "material/shininess", 0.0),
+    Setting("lighting", "flag", "", "material/lighting", True),
+    Setting("double_sided", "flag", "", "material/double_sided", False),
+    Setting("render_order", "number", "", "material/render_order", 0.0),
+    Setting("metalness", "number", "", _METAL + "metalness", 0.5),
+    Setting("roughness", "number", "", _METAL + "roughness", 0.5),
+    Setting("transparency", "number", "", "transparency", 0.0),
+    Setting("cast_shadows", "flag", "", "cast_shadows", True),
+    Setting("visibility_flags", "count", "", "visibility_flags", 4294967295.0),
+    Setting("layer", "number", "", "meta/layer", 0.0),
+)
+"""Values of a visual."""
+
+_OF_MATERIALS = tuple(row for row in APPEARANCE if row.path.startswith("material/"))
+
+
+def add_appearance(robot: Robot) -> None:
+    """Read the appearance that ``<gazebo>`` blocks of a URDF give the visuals of their link.
+
+    A ``<material>`` with children replaces that of URDF, the last of several counts; the elements
+    of ``<visual>`` are added to it.
+    """
+    blocks: dict[str, list[Element]] = {}
+    for block in robot.gazebo:
+        blocks.setdefault(block.reference or "", []).extend(block.element.children)
+    for link in robot.links:
+        found = _read_blocks(blocks.get(link.name, ()))
+        for visual in link.visuals if found else ():
+            visual.appearance = found
+
+
+def _read_blocks(elements: Iterable[Element]) -> Settings:
+    found: Settings = {}
+    materials = [element for element in elements if element.tag == "material"]
+    if materials and materials[-1].children:
+        last = materials[-1]
+        rows = [row._replace(path=row.path.removeprefix("material/")) for row in _OF_MATERIALS]
+        replaced = (*rows, *(row for row in APPEARANCE if row.name == "transparency"))
+        found = {row.name: Value(last, row.default) for row in replaced}
+        found |= _add_diffuse(read_sdf_settings(last, rows))
+    for element in elements:
+        if element.tag == "visual":
+            found |= read_sdf_settings(element, APPEARANCE)
+    return found
+
+
+def read_sdf_appearance(element: Element) -> Settings:
+    """Return the appearance of a ``<visual>`` of SDF; its own values count above a script."""
+    color = COLORS.get(find_script(element))
+    named = {} if color is None else _convert_color(element, color)
+    return named | _add_diffuse(read_sdf_settings(element, APPEARANCE))
+
+
+def _add_diffuse(settings: Settings) -> Settings:
+    """Return settings with the ambient color as diffuse color, if that is not written."""
+    ambient = settings.get("ambient")
+    return settings if ambient is None else {"diffuse": ambient} | settings
+
+
+def find_script(element: Element) -> str:
+    """Return the name of the material of the script of a ``<visual>``; empty for none."""
+    material = element.find_child("material")
+    script = None if material is None else material.find_child("script")
+    name = None if script is None else script.find_child("name")
+    return "" if name is None else get_text(name)
+
+
+def get_appearance(robot: Robot, link: Link, visual: Visual) -> Settings:
+    """Return everything that Gazebo shows of a visual, also what color and texture mean.
+
+    Args:
+        robot: The robot.
+        link: Link of the visual.
+        visual: The visual.
+    """
+    if robot.format != "urdf":
+        return visual.appearance
+    color = COLORS.get(link.gazebo_material)
+    if color is not None:
+        return _convert_color(visual, color) | visual.appearance
+    return _convert_material(resolve_material(robot, visual.material)) | visual.appearance
+
+
+def resolve_material(robot: Robot, own: Material | None) -> Material | None:
+    """Return the material of a visual: its own if it has a color or texture, else by name."""
+    if own is None or own.color is not None or own.texture is not None:
+        return own
+    named: Sequence[Material | None] = robot.materials
+    for other in (*named, *(v.material for link in robot.links for v in link.visuals)):
+        if other is not None and other.name == own.name and (other.color or other.texture):
+            return other
+    return None
+
+
+def _convert_material(own: Material | None) -> Settings:
+    """Return the values of a color or texture of URDF, which is lit without a gloss."""
+    if own is None or (own.color is None and own.texture is None):
+        return {}
+    rgba = own.color or (1.0, 1.0, 1.0, 1.0)
+    found: dict[str, Value] = {tag: Value(own.provenance, rgba) for tag in ("ambient", "diffuse")}
+    if rgba[3] < 1.0:
+        found["transparency"] = Value(own.provenance, 1.0 - rgba[3])
+    if own.texture:
+        found["metalness"] = Value(own.provenance, 0.0)
+    return found
+
+
+def _convert_color(at: Element | Visual, color: Color) -> Settings:
+    """Return the values of a named material of Gazebo."""
+    source = at if isinstance(at, Element) else at.provenance
+    found = {
+        tag: Value(source, (*getattr(color, tag), color.alpha))
+        for tag in ("ambient", "diffuse", "specular")
+    }
+    if any(color.emissive):
+        found["emissive"] = Value(source, (*color.emissive, 1.0))
+    if color.alpha < 1.0:
+        found["transparency"] = Value(source, 1.0 - color.alpha)
+    return found
