@@ -8,6 +8,7 @@ blocks of the link; :func:`get_appearance` adds what the color or the named mate
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from ..source.document import Element
@@ -75,7 +76,7 @@ def _read_blocks(elements: Iterable[Element]) -> Settings:
 def read_sdf_appearance(element: Element) -> Settings:
     """Return the appearance of a ``<visual>`` of SDF; its own values count above a script."""
     color = COLORS.get(find_script(element))
-    named = {} if color is None else _convert_color(element, color)
+    named = {} if color is None else convert_color(element, color)
     return named | _add_diffuse(read_sdf_settings(element, APPEARANCE))
 
 
@@ -101,12 +102,12 @@ def get_appearance(robot: Robot, link: Link, visual: Visual) -> Settings:
         link: Link of the visual.
         visual: The visual.
     """
-    if robot.format != "urdf":
+    if robot.format == "sdf":
         return visual.appearance
     color = COLORS.get(link.gazebo_material)
     if color is not None:
-        return _convert_color(visual, color) | visual.appearance
-    return _convert_material(resolve_material(robot, visual.material)) | visual.appearance
+        return convert_color(visual, color) | visual.appearance
+    return convert_material(resolve_material(robot, visual.material)) | visual.appearance
 
 
 def resolve_material(robot: Robot, own: Material | None) -> Material | None:
@@ -120,20 +121,20 @@ def resolve_material(robot: Robot, own: Material | None) -> Material | None:
     return None
 
 
-def _convert_material(own: Material | None) -> Settings:
+def convert_material(own: Material | None) -> Settings:
     """Return the values of a color or texture of URDF, which is lit without a gloss."""
     if own is None or (own.color is None and own.texture is None):
         return {}
     rgba = own.color or (1.0, 1.0, 1.0, 1.0)
     found: dict[str, Value] = {tag: Value(own.provenance, rgba) for tag in ("ambient", "diffuse")}
     if rgba[3] < 1.0:
-        found["transparency"] = Value(own.provenance, 1.0 - rgba[3])
+        found["transparency"] = Value(own.provenance, _get_complement(rgba[3]))
     if own.texture:
         found["metalness"] = Value(own.provenance, 0.0)
     return found
 
 
-def _convert_color(at: Element | Visual, color: Color) -> Settings:
+def convert_color(at: Element | Visual, color: Color) -> Settings:
     """Return the values of a named material of Gazebo."""
     source = at if isinstance(at, Element) else at.provenance
     found = {
@@ -143,5 +144,10 @@ def _convert_color(at: Element | Visual, color: Color) -> Settings:
     if any(color.emissive):
         found["emissive"] = Value(source, (*color.emissive, 1.0))
     if color.alpha < 1.0:
-        found["transparency"] = Value(source, 1.0 - color.alpha)
+        found["transparency"] = Value(source, _get_complement(color.alpha))
     return found
+
+
+def _get_complement(alpha: float) -> float:
+    """Return the complement of alpha, in decimal to avoid binary rounding digits."""
+    return float(Decimal(1) - Decimal(repr(alpha)))

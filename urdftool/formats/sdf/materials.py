@@ -2,62 +2,78 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
+from lxml import etree
 
-from ...model.elements import Link, Material, Robot, Visual
-from ...model.gazebo_colors import COLORS, PICTURED, Color
-from ...model.settings import get_text
+from ...model.appearance import APPEARANCE, convert_color, convert_material, resolve_material
+from ...model.elements import Link, Material, Visual
+from ...model.gazebo_colors import COLORS, PICTURED
+from ...model.settings import Settings, get_text
 from ...source.document import Element
-from ..common.numbers import format_numbers_text, number_text
-from .extensions import block_elements
+from .extensions import block_elements, write_settings
 from .raw_sdf import copy_raw_element
 from .translation import Translation
-from .xml import Node, add
+from .xml import Node, add, get_or_create
+
+_OF_MATERIALS = tuple(
+    row._replace(path=row.path.removeprefix("material/"))
+    for row in APPEARANCE
+    if row.path.startswith("material/")
+)
+_OF_VISUALS = tuple(row for row in APPEARANCE if not row.path.startswith("material/"))
 
 SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
 
 def add_material(node: Node, t: Translation, link: Link, part: Visual) -> None:
-    """Add the material of a visual."""
+    """Add the material of a visual, and its transparency."""
     said = [e for e in block_elements(t.robot, link) if e.tag == "material"]
     if said and _from_gazebo(node, t, link, part, said[-1]):
         return
+    _report_script(t, link, part)
     own = resolve_material(t.robot, part.material)
-    if own is None:
-        return
-    color = own.color
-    there = bool(own.texture) and t.meshes.found.get(own.texture or "") is not None
-    if own.texture and not there:
-        why = t.meshes.refused.get(own.texture, "it is missing")
-        text = f"texture '{own.texture}' of material '{own.name}' is not exported: {why}"
-        t.report_loss("texture", text, own, link)
-    if color is None and not there:
-        return
-    rgba = color or (1.0, 1.0, 1.0, 1.0)
-    made = add(node, "material")
-    add(made, "ambient", format_numbers_text(rgba))
-    add(made, "diffuse", format_numbers_text(rgba))
-    if rgba[3] < 1.0:
-        _set_transparency(node, rgba[3])
-    if own.texture and there:
-        _add_texture(made, t, link, own, own.texture)
+    texture = "" if own is None else _find_texture(t, link, own)
+    settings = _get_settings(t, link, part, has_texture=bool(texture))
+    if settings or texture:
+        write_settings(get_or_create(node, "material"), settings, _OF_MATERIALS)
+    if own is not None and texture:
+        _add_texture(get_or_create(node, "material"), t, link, own, texture)
+    write_settings(node, settings, _OF_VISUALS)
 
 
-def resolve_material(robot: Robot, own: Material | None) -> Material | None:
-    """Return the material of a visual: its own if it has a color or texture, else by name."""
-    if own is None or own.color is not None or own.texture is not None:
-        return own
-    for other in (*robot.materials, *(v.material for link in robot.links for v in link.visuals)):
-        if other is not None and other.name == own.name and (other.color or other.texture):
-            return other
-    return None
+def _get_settings(t: Translation, link: Link, part: Visual, *, has_texture: bool) -> Settings:
+    """Return what the target shows of a visual: its color, or white for a texture."""
+    own = resolve_material(t.robot, part.material)
+    if t.robot.format == "sdf":
+        return part.appearance
+    if own is None or (own.color is None and not has_texture):
+        return {}
+    shown = convert_material(own)
+    return {name: value for name, value in shown.items() if name != "metalness"}
+
+
+def _find_texture(t: Translation, link: Link, own: Material) -> str:
+    """Return the texture of a material; empty if it has none, or its file is not exported."""
+    if not own.texture or t.meshes.found.get(own.texture) is not None:
+        return own.texture or ""
+    why = t.meshes.refused.get(own.texture, "it is missing")
+    text = f"texture '{own.texture}' of material '{own.name}' is not exported: {why}"
+    t.report_loss("texture", text, own, link)
+    return ""
+
+
+def _report_script(t: Translation, link: Link, part: Visual) -> None:
+    if part.script:
+        text = f"script '{part.script}' of a visual of link '{link.name}' is not exported"
+        t.report_loss("material", text, part, link)
 
 
 def _add_texture(made: Node, t: Translation, link: Link, own: Material, filename: str) -> None:
     if not t.options.classic:
-        metal = add(add(made, "pbr"), "metal")
-        add(metal, "albedo_map", t.meshes.get_texture(filename))
-        add(metal, "metalness", "0")
+        metal = get_or_create(made, "pbr/metal")
+        metal.insert(0, etree.Element("albedo_map"))
+        metal[0].text = t.meshes.get_texture(filename)
+        if metal.find("metalness") is None:
+            add(metal, "metalness", "0")
         return
     found = t.meshes.get_script(filename)
     if found is None:
@@ -100,20 +116,7 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if first and name in PICTURED:
         text = f"material '{name}' of link '{link.name}' has an image; only its color is exported"
         t.report_loss("material", text, said, link)
-    _add_colored(node, color)
+    settings = convert_color(part, color)
+    write_settings(get_or_create(node, "material"), settings, _OF_MATERIALS)
+    write_settings(node, settings, _OF_VISUALS)
     return True
-
-
-def _add_colored(node: Node, color: Color) -> None:
-    made = add(node, "material")
-    for tag in ("ambient", "diffuse", "specular"):
-        add(made, tag, format_numbers_text((*getattr(color, tag), color.alpha)))
-    if any(color.emissive):
-        add(made, "emissive", format_numbers_text((*color.emissive, 1.0)))
-    if color.alpha < 1.0:
-        _set_transparency(node, color.alpha)
-
-
-def _set_transparency(node: Node, alpha: float) -> None:
-    """Set the complement of alpha, in decimal to avoid binary rounding digits."""
-    add(node, "transparency", number_text(float(Decimal(1) - Decimal(repr(alpha)))))
