@@ -18,6 +18,7 @@ from .equipment import compare_equipment
 from .frames import describe_motion, describe_pose, invert, measure_largest
 from .inertia import compare_inertia
 from .joints import JointMatch, compare_joint, compare_mimic, get_kind
+from .looks import skip_looks
 from .matching import list_below, match_children
 from .mesh_measure import MeshMeasures
 from .names import EMPTY, NameMap
@@ -102,6 +103,7 @@ def compare_robots(
     compare_robot_flags(pair, comparison)
     compare_sensors(pair, comparison)
     compare_drives(pair, comparison)
+    skip_looks(pair, comparison)
     compare_equipment(pair, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)

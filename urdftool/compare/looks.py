@@ -17,6 +17,14 @@ _FORMATS = ("urdf", "sdf")
 """Formats that have all values of the appearance; URDF in ``<gazebo>``."""
 
 
+def skip_looks(pair: Pair, comparison: Comparison) -> None:
+    """Skip the rows of the appearance if one of the formats does not have it."""
+    others = sorted(set(pair.formats) - set(_FORMATS))
+    if others:
+        reason = f"not read of {' and '.join(name.upper() for name in others)}"
+        comparison.skipped.update(dict.fromkeys(("looks", "textures"), reason))
+
+
 def compare_looks(
     pair: Pair,
     comparison: Comparison,
@@ -35,8 +43,6 @@ def compare_looks(
         has_color: Whether their colors are compared in another row.
     """
     if not set(pair.formats) <= set(_FORMATS):
-        reason = f"not in {' and '.join(sorted(set(pair.formats) - set(_FORMATS)))}"
-        comparison.skipped.update(dict.fromkeys(("looks", "textures"), reason))
         return
     robots = pair.a.robot, pair.b.robot
     sides = list(zip(robots, links, visuals, strict=True))
