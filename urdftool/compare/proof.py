@@ -7,7 +7,7 @@ that no loss explains fails the proof. Messages are not read.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple, Protocol
 
@@ -100,11 +100,6 @@ class Claims:
             {old: new for (of, old), new in self.renamed.items() if of == kind}
             for kind in ("joint", "link")
         ))  # fmt: skip
-
-
-def limit_tolerances(tolerance: float, rows: Iterable[Row] = ROWS) -> tuple[Row, ...]:
-    """Return rows with a tolerance of at most the given one."""
-    return tuple(row._replace(tolerance=min(row.tolerance, tolerance)) for row in rows)
 
 
 def prove(

@@ -70,9 +70,9 @@ Chosen for edited descriptions, whose numbers are those of the first robot.
 """
 
 
-def tighten(rows: Iterable[Row]) -> tuple[Row, ...]:
-    """Return rows with at most ``DECLARED_TOLERANCE``."""
-    return tuple(row._replace(tolerance=min(row.tolerance, DECLARED_TOLERANCE)) for row in rows)
+def tighten(rows: Iterable[Row], tolerance: float = DECLARED_TOLERANCE) -> tuple[Row, ...]:
+    """Return rows with at most a tolerance."""
+    return tuple(row._replace(tolerance=min(row.tolerance, tolerance)) for row in rows)
 
 
 def select_rows(names: str, tolerance: float | None) -> tuple[Row, ...]:

@@ -8,8 +8,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ....compare.check import Check
-from ....compare.proof import Claims, limit_tolerances, prove
-from ....compare.rows import EQUIPMENT_ROWS
+from ....compare.proof import Claims, prove
+from ....compare.rows import EQUIPMENT_ROWS, tighten
+from ....compare.rows import ROWS as ROWS_OF_ROBOTS
 from ....errors import UrdftoolError
 from ....model.elements import Dynamics, Joint, Limit, Robot
 from ....model.load import read_again
@@ -34,7 +35,7 @@ TOLERANCE = 1e-9
 above the rounding errors of poses in other frames.
 """
 
-ROWS = tuple(row for row in limit_tolerances(TOLERANCE) if row.name not in EQUIPMENT_ROWS)
+ROWS = tuple(row for row in tighten(ROWS_OF_ROBOTS, TOLERANCE) if row.name not in EQUIPMENT_ROWS)
 """Rows of the model; the others compare translated sensors and plugins."""
 
 COMPARED_AS_ELEMENTS = tuple(
