@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -17,15 +16,15 @@ from ....model.load import read_again
 from ....model.world import add_gazebo_base
 from ...common.actuator_config import JointSettings, read_actuator_config
 from ...common.force_fallbacks import drop_invalid_parts
-from ...common.losses import DeclaredLosses
 from ...written import Written
 from ..options import Options
 from ..read import read
 from ..write import write
 from .declared_losses import EXCUSES, declare_losses, list_added_bodies
 from .elements import compare_elements
-from .frames import Array, Frames, open_model
+from .frames import open_model
 from .loader import run_loads
+from .pair import Pair
 from .plugins import compare_plugins
 from .sensors import compare_sensors
 from .world import compare_world
@@ -45,52 +44,6 @@ COMPARED_AS_ELEMENTS = tuple(
 """Codes of what the reader does not read, and the rows below those of the robot compare."""
 
 MOVABLE = ("revolute", "prismatic", "continuous")
-
-
-@dataclass
-class Pair:
-    """The source, the exported robot, and what the export declared.
-
-    Attributes:
-        robot: The source.
-        result: The robot of the file.
-        claims: Declared losses and new names.
-        declared: Losses that change the behavior, by code and part.
-        options: Options of the export.
-        where: The model of the file, with its frames.
-    """
-
-    robot: Robot
-    result: Robot
-    claims: Claims
-    declared: DeclaredLosses
-    options: Options
-    where: Frames
-
-    def link(self, name: str) -> str:
-        """Return the exported name of a link, or of its frame."""
-        return self.claims.renamed.get(("link", name), name)
-
-    def get_joint(self, name: str) -> str:
-        """Return the exported name of a joint."""
-        return self.claims.renamed.get(("joint", name), name)
-
-    @cached_property
-    def bodies(self) -> frozenset[str]:
-        """Return the names of the links of the file."""
-        return frozenset(e.get("name", "") for e in self.where.model.findall("link"))
-
-    @cached_property
-    def joints(self) -> frozenset[str]:
-        """Return the names of the joints of the file."""
-        return frozenset(e.get("name", "") for e in self.where.model.findall("joint"))
-
-    def place(self, name: str) -> tuple[str, Array] | None:
-        """Return the link that holds a link, and the pose in it, 4 × 4; None for no such link.
-
-        In a file without frames, this is the nearest link above over fixed joints.
-        """
-        return self.where.place(self.robot, name, self.link)
 
 
 def verify(robot: Robot, written: Written, options: Options, output: str | Path) -> list[Check]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +16,8 @@ from .blocks import NOWHERE, list_elements, list_elements_of_whole
 from .declared_losses import BLOCKS, MOTION
 from .facts import EXACT, Facts, compare_facts, format_value, get_facts
 from .frames import invert_pose
-
-if TYPE_CHECKING:
-    from .compare import Pair
+from .pair import Pair
+from .sensors import get_pose_of_element
 
 OTHER_ROWS = frozenset(
     ("sensor", "plugin", "visual", "collision", "material", "velocity_decay", "inertial", "pose",
@@ -122,8 +121,6 @@ def _compare_pose(
     element: Element,
     known: bool,
 ) -> None:
-    from .sensors import get_pose_of_element
-
     link = pair.robot.link.get(name)
     child = found.find("pose")
     if (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -24,10 +24,8 @@ from ....source.document import Element
 from .blocks import list_elements, list_elements_of_whole
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .frames import Array, make_pose_of_six
+from .pair import Pair
 from .sensing import get_sensed_part
-
-if TYPE_CHECKING:
-    from .compare import Pair
 
 CONTROL = frozenset(
     ("parameters", "ros", "controller_manager_name", "robot_param", "robot_param_node",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +12,7 @@ from ....model.read import number, parse_numbers
 from ....source.document import Element
 from .facts import Facts
 from .frames import Array, make_pose_of_six
-
-if TYPE_CHECKING:
-    from .compare import Pair
+from .pair import Pair
 
 TURNING = tuple(f"imu/angular_velocity/{axis}" for axis in "xyz")
 MOVING = tuple(f"imu/linear_acceleration/{axis}" for axis in "xyz")

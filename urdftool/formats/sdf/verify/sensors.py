@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,10 +19,8 @@ from .blocks import list_elements
 from .declared_losses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .frames import Array, invert_pose, make_pose, make_pose_of_six, read_pose
+from .pair import Pair
 from .sensing import SENSING, get_noise, list_sensing_plugins, offset_of
-
-if TYPE_CHECKING:
-    from .compare import Pair
 
 FOR_GZ = {
     "ray": "gpu_lidar", "gpu_ray": "gpu_lidar", "lidar": "gpu_lidar", "gps": "navsat",

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ....compare.check import Check
 from .facts import EXACT, compare_facts, get_facts, get_value
-
-if TYPE_CHECKING:
-    from .compare import Pair
+from .pair import Pair
 
 GROUND = "ground_plane"
 RENDERING = ("camera", "lidar")
