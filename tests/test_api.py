@@ -1,5 +1,6 @@
 """The functions that do what commands do: the same results, nothing written unasked."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -142,6 +143,35 @@ def test_collisions_of_a_robot_without_its_mesh(tmp_path, monkeypatch):
     with pytest.raises(ConfigError, match="no link 'b'"):
         api.simplify_collisions(api.load("r.urdf"), "out.urdf", links=["b"])
     assert not Path("out.urdf").exists()
+
+
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"source": "visuals"}, "source is 'visuals', which is not one of visual, collision; did"),
+        ({"uri": "model"}, "uri is 'model', which is not one of auto, package, relative, file"),
+        ({"mesh_format": "dae"}, "mesh_format is 'dae', which is not one of stl, obj"),
+    ],
+)
+def test_collisions_of_other_words(tmp_path, choices, message):
+    with pytest.raises(ConfigError, match=re.escape(message)):
+        api.simplify_collisions(api.load(ARM), tmp_path / "out.urdf", **choices)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("method", "hulls", "method is 'hulls', which is not one of auto, primitive, hull"),
+        ("quality", "best", "quality is 'best', which is not one of fast, balanced, tight"),
+        ("max_error", -1, "max_error is -1, which is not a finite number above zero"),
+        ("max_error", float("nan"), "max_error is nan"),
+        ("max_hulls", 0, "max_hulls is 0"),
+        ("time_limit", "1", "time_limit is '1'"),
+    ],
+)
+def test_settings_of_collisions_refuse(name, value, message):
+    with pytest.raises(ConfigError, match=re.escape(message)):
+        CollisionSettings(**{name: value})
 
 
 def test_importing_the_package_loads_no_library():

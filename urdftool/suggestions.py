@@ -1,10 +1,13 @@
-"""Suggestions for mistyped names."""
+"""Suggestions for mistyped names, and errors for values that are not allowed."""
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from functools import lru_cache
+
+from .errors import ConfigError
 
 _NUMBER = re.compile(r"([0-9]+)")
 
@@ -78,6 +81,25 @@ def suggest_name(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
     """Return ``; did you mean 'x'?`` with the nearest known name; empty if none is near."""
     near = find_nearest(name, known, cutoff)
     return f"; did you mean '{near}'?" if near else ""
+
+
+def require_word(name: str, value: object, words: Collection[str]) -> None:
+    """Raise ConfigError if the value of an option is not one of the allowed words.
+
+    Args:
+        name: Name of the option.
+        value: Its value.
+        words: Allowed words.
+    """
+    if value not in words:
+        hint = suggest_name(str(value), words)
+        raise ConfigError(f"{name} is {value!r}, which is not one of {', '.join(words)}{hint}")
+
+
+def require_positive(name: str, value: object) -> None:
+    """Raise ConfigError if the value of an option is not a finite number above zero."""
+    if not (isinstance(value, int | float) and 0 < value < math.inf):
+        raise ConfigError(f"{name} is {value!r}, which is not a finite number above zero")
 
 
 def fold(name: str) -> str:

@@ -7,7 +7,7 @@ import pytest
 
 from urdftool.compare.check import Check
 from urdftool.formats.registry import get_writable_formats
-from urdftool.report.exports import check_table
+from urdftool.report.exports import format_check_table
 from urdftool.rules import FAMILY_OF
 
 LANGUAGES = [target.name for target in get_writable_formats()]
@@ -87,7 +87,7 @@ def test_what_is_announced_of_many_is_one_line():
     check = Check("limits", "efforts", 1e-9)
     for name in "abcde":
         check.compare(1.0, f"effort of joint '{name}'", known=True)
-    last = check_table([check]).splitlines()[-1]
+    last = format_check_table([check]).splitlines()[-1]
     assert last == (
         "limits: announced: effort of joint 'a', effort of joint 'b', effort of joint 'c' "
         "and 2 more"

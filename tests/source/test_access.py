@@ -11,7 +11,7 @@ from urdftool.errors import AccessError, UrdftoolError
 from urdftool.extras import is_installed
 from urdftool.file_access import AccessRefused
 from urdftool.projects import TRUST
-from urdftool.source.access import check_companion
+from urdftool.source.access import require_companion
 from urdftool.source.packages import ConfiguredFolder, Packages
 from urdftool.workspace import Workspace
 
@@ -271,7 +271,7 @@ def test_devices_and_pipes_are_never_opened(home, monkeypatch, kind, trust):
         with pytest.raises(OSError, match="device or a pipe"):
             files.materialize(path)
     with pytest.raises(OSError, match="device or a pipe"):
-        check_companion(home / "d/b.obj", path)
+        require_companion(home / "d/b.obj", path)
 
 
 def test_equal_policies_share_a_memo_and_others_do_not(home):
@@ -297,10 +297,10 @@ def test_equal_policies_share_a_memo_and_others_do_not(home):
 def test_companions_of_a_mesh_are_in_its_project(home):
     make(home, "d/.git/", "d/meshes/a.obj", "d/tex/a.mtl", "d/.env", "out/a.mtl")
     mesh = home / "d/meshes/a.obj"
-    assert check_companion(mesh, home / "d/tex/a.mtl") == home / "d/tex/a.mtl"
+    assert require_companion(mesh, home / "d/tex/a.mtl") == home / "d/tex/a.mtl"
     for name in ("out/a.mtl", "d/.env"):
         with pytest.raises(AccessRefused, match="--trust"):
-            check_companion(mesh, home / name)
+            require_companion(mesh, home / name)
 
 
 # What descriptions read, in every command -------------------------------------------------------

@@ -74,9 +74,9 @@ def simplify_collisions(
     plans, problems = plan(robot, options)
     for problem in problems:
         raise problem
-    kept = DiskCache(cache_folder("collision") if cache else None)
+    disk_cache = DiskCache(cache_folder("collision") if cache else None)
     results = {}
-    for task, result in compute_all(collect_tasks(plans), kept, jobs=jobs).items():
+    for task, result in compute_all(collect_tasks(plans), disk_cache, jobs=jobs).items():
         if isinstance(result, UrdftoolError):
             raise result
         results[task] = result

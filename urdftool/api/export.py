@@ -218,10 +218,10 @@ def check_plugins(robot: Robot, target: str) -> list[Finding]:
     if robot.source is None or not robot.plugins:
         return []
     try:
-        found = check(robot, select=PLUGIN_RULES, targets=(target,))
+        findings = check(robot, select=PLUGIN_RULES, targets=(target,))
     except ConfigError:  # of the lint configuration, reported by lint
         return []
-    return [replace(f, severity=Severity.WARNING) for f in found if _is_of_plugin(robot, f)]
+    return [replace(f, severity=Severity.WARNING) for f in findings if _is_of_plugin(robot, f)]
 
 
 def _is_of_plugin(robot: Robot, finding: Finding) -> bool:
@@ -284,10 +284,10 @@ def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut |
 
     settings = Settings(method="coacd", max_error=0.01, max_hulls=32)
     tasks = {path: Task(path, settings=settings, gltf_up=gltf_up) for path in paths}
-    found = compute_all(list(tasks.values()), DiskCache(cache_folder("collision")))
+    results = compute_all(list(tasks.values()), DiskCache(cache_folder("collision")))
     cuts: dict[Path, Cut | str] = {}
     for path, task in tasks.items():
-        result = found[task]
+        result = results[task]
         if isinstance(result, MissingDependency):
             raise result
         if isinstance(result, Result):

@@ -24,8 +24,11 @@ from .parallel import Progress
 from .piece import Piece, make_mesh_piece, make_primitive
 from .surface import Prepared, prepare, read_surface
 
+# chosen, no source, where a line gives none
 _CONVEX = 1e-3
-_FEW = 500
+"""Depth of a corner below its hull, relative to the size, up to which a mesh is convex; chosen, no
+source."""
+_FEW = 500  # midpoints that are tested first
 
 
 @dataclass(frozen=True)

@@ -30,11 +30,12 @@ from .spheres import cover_with_spheres
 from .surface import Prepared, label_flat_sides
 
 PLATE = 0.002
-"""Thickness given to a flat mesh, relative to its size."""
+"""Thickness given to a flat mesh, relative to its size. Chosen, no source."""
 
+# chosen, no source, where a line gives none
 _MEASURED = 3  # number of best fitting primitives that are measured
 _SHARE = 0.1  # part of the error that dropping hull vertices may use
-_COARSER = 3.0
+_COARSER = 3.0  # ratio of CoACD's second threshold to the first; chosen, no source
 _SIMPLER = 0.05  # part of the mean distance that a costlier primitive must save
 _ALIKE = 0.02  # part of the error that it must save in addition
 _HULL_WITHIN = 1.3  # ratio of the hull's estimated error to the limit up to which it is measured

@@ -14,6 +14,7 @@ from .vec3 import compute_dot, compute_lengths, compute_normals
 if TYPE_CHECKING:
     from scipy.spatial import ConvexHull
 
+# chosen, no source, where a line gives none
 _BATCH = 6  # points that are added to a hull in one step
 _APART = 4.0  # their least distance, in multiples of that from the hull
 _AT_ONCE = 200_000  # point-plane distances per block

@@ -22,6 +22,7 @@ from .partition import Part, Partition, compute_burial, make_probes
 from .piece import Piece, make_mesh_piece
 from .settings import Effort
 
+# chosen, no source, where a line gives none
 _PROBES = 20_000  # sampled; about half of them are used
 _GOAL = 0.85  # part of the error that parts may use, so that the measured one is within
 _TOLERANCE = 0.05  # part of the error that dropping hull vertices may use

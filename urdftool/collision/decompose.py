@@ -27,10 +27,10 @@ from .remesh import compute_remesh, intersect
 from .surface import Prepared, prepare
 
 TRIANGLES = 2000
-"""Largest number of triangles of a mesh that is cut."""
+"""Largest number of triangles of a mesh that is cut. Chosen, no source."""
 
 PART_TRIANGLES = 600
-"""Largest number of triangles of a piece that is cut again."""
+"""Largest number of triangles of a piece that is cut again. Chosen, no source."""
 
 _TOO_LONG = "CoACD took longer on the mesh than its time limit"
 # older versions share random numbers between threads, or order pieces by completion time

@@ -11,8 +11,9 @@ import numpy.typing as npt
 from ..geometry.mesh import Points
 from .vec3 import compute_lengths, compute_normals
 
+# chosen, no source, where a line gives none
 _GOLDEN = 1.324717957244746  # real root of x³ = x + 1
-_NEIGHBOURS = 6
+_NEIGHBOURS = 6  # nearest samples, whose triangles are tested
 _FEW = 24  # up to this number all triangles are tested
 _COARSE = 1000  # triangles below which more neighbors are tested
 _REFINED = 6000  # points of which the distance is measured exactly for the largest one

@@ -19,13 +19,15 @@ from .distance import compute_areas, spread
 from .vec3 import compute_bounds
 
 BALL = 0.015
-"""Radius of the ball, relative to the diagonal of the surface that a collision replaces."""
+"""Radius of the ball, relative to the diagonal of the surface that a collision replaces. Chosen,
+no source."""
 
 COARSE, FINE = 0.0075, 0.005
-"""Edge of a grid cell, relative to the same diagonal."""
+"""Edge of a grid cell, relative to the same diagonal. Chosen, no source."""
 
+# chosen, no source, where a line gives none
 _SAMPLES_PER_CELL = 9  # per cell face of surface area
-_MOST_SAMPLES = 3_000_000
+_MOST_SAMPLES = 3_000_000  # samples of a surface: 72 MB of coordinates
 _REACHED = 0.75  # cells by which the grid underestimates how far the ball gets
 _UNCERTAIN = 1.0  # cells: bound of the error of the distance transform
 _REFINED = 2.0  # cells from the closing's boundary within which its distance matters

@@ -11,9 +11,9 @@ from typing import Any
 
 from ..errors import ConfigError, MeshError, UrdftoolError
 from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
-from ..suggestions import suggest_name
+from ..suggestions import require_word, suggest_name
 from .compute import Task
-from .settings import METHODS, QUALITIES, Settings
+from .settings import METHODS, QUALITIES, SOURCES, Settings
 
 Shape = Visual | Collision
 
@@ -71,6 +71,11 @@ class CollisionOptions:
     path: str | None = None
     given: tuple[str, ...] = ()
     """Settings given on the command line, which override the configuration."""
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if the source is unknown."""
+        if self.source is not None:
+            require_word("source", self.source, SOURCES)
 
 
 def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[UrdftoolError]]:
@@ -179,15 +184,15 @@ def _get_settings(name: str, options: CollisionOptions) -> tuple[Settings, bool]
             own.update(values)
     skipped = own.pop("skip", False) is True
     general = {
-        k: v for k, v in _check_settings(table, options.path).items() if k not in options.given
+        k: v for k, v in _read_settings(table, options.path).items() if k not in options.given
     }
-    changes = {**general, **(own := _check_settings(own, options.path))}
+    changes = {**general, **(own := _read_settings(own, options.path))}
     if "max_error" in options.given and "quality" not in own:
         changes.setdefault("max_error", options.settings.max_error)
     return options.settings.replace_some(changes), skipped
 
 
-def _check_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
+def _read_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in table.items():
         if key == "method":

@@ -17,8 +17,9 @@ from .exterior import Exterior
 from .measure import ReferenceSurface
 
 TRIANGLES = 2000
-"""Largest number of triangles of the outline."""
+"""Largest number of triangles of the outline. Chosen, no source."""
 
+# chosen, no source, where a line gives none
 _LEVEL = -0.6  # cells outside the closing
 _NEAR = 2.0  # cells from the mesh within which a vertex is moved to it
 _KEPT = 0.2  # part of that distance that remains, so that a sheet has two sides

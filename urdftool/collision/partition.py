@@ -21,7 +21,8 @@ from .distance import spread
 from .exterior import Exterior
 from .vec3 import compute_lengths, compute_normals
 
-_HULL_SAMPLES = 600
+# chosen, no source, where a line gives none
+_HULL_SAMPLES = 600  # samples of a hull, whose distance from the mesh is read
 _BURIED_POINTS = 4  # through each of which planes are tried
 _PRICED = 4  # planes, those with the smallest hulls, whose parts are priced
 _OTHER, _VOLUME = 0.3, 0.3  # weights of the cheaper part and of the volume in the choice

@@ -22,10 +22,10 @@ from .piece import Piece
 from .surface import read_surface
 
 SIZE = (640, 560)
-"""Width and height of each half in pixels."""
+"""Width and height of each half in pixels. Chosen, no source."""
 
-_MARGIN = 14
-_LETTERS = 18
+_MARGIN = 14  # pixels
+_LETTERS = 18  # height of letters [pixels]
 _GREY = (0.72, 0.74, 0.78, 1.0)
 _CAMERA = Camera(np.radians(-50.0), np.radians(25.0))
 

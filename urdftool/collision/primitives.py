@@ -17,13 +17,14 @@ from .convex import compute_hull
 from .piece import Piece, make_primitive
 
 POINTS = 1500
-"""Number of points to which a shape is fitted."""
+"""Number of points to which a shape is fitted. Chosen, no source."""
 
 SHARP = 4.0
-"""Exponent of the second fit."""
+"""Exponent of the second fit. Chosen, no source."""
 
-_STARTS = 3
-_DIGITS = 7
+# chosen, no source, where a line gives none
+_STARTS = 3  # frames from which a fit starts, the best ones
+_DIGITS = 7  # significant digits of a size, as of 32 bits
 _UPRIGHT = 2e-3  # angles [rad] below this are noise
 
 

@@ -20,14 +20,16 @@ from .distance import Surface, compute_areas, spread
 from .vec3 import compute_bounds
 
 CELLS = 96
-"""Cells along the longest side of the bounding box; gaps narrower than two cells are closed."""
+"""Cells along the longest side of the bounding box; gaps narrower than two cells are closed.
+Chosen, no source."""
 
+# chosen, no source, where a line gives none
 _WALL = 0.9  # cells: more than half a cell's diagonal, so that the layer has no gaps
 _LEFT = 0.2  # cells of the layer that remain, so that a sheet keeps two sides
 _MARKS = 9  # samples per cell face of surface area
-_MOST_MARKS = 400_000
-_RIM = 3
-_PART_CELLS = 24
+_MOST_MARKS = 400_000  # samples of a surface: 10 MB of coordinates
+_RIM = 3  # cells around the bounding box
+_PART_CELLS = 24  # cells along the longest side of an intersected part
 _FAR = 9.0  # cells: stands for any distance that is not near
 _NEAR = 0.7  # cells: approximate smallest distance of such a corner
 

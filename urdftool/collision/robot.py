@@ -9,10 +9,12 @@ from pathlib import Path
 
 from ..errors import OutputError
 from ..model.elements import Mesh, Robot
+from ..suggestions import require_word
 from .compute import Result, Task
 from .links import LinkPlan
 from .mesh_files import write_all
 from .rewrite import Layout, determine_layout, make_uri, name_pieces, rewrite_robot
+from .settings import MESH_FORMATS, URIS
 
 SUFFIXES = (".urdf", ".xml")
 """Permitted suffixes of a new description."""
@@ -40,6 +42,11 @@ class Place:
     in_place: bool = False
     bare: bool = False
     overwrite: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if a form or a format is unknown."""
+        require_word("uri", self.uri, URIS)
+        require_word("mesh_format", self.mesh_format, MESH_FORMATS)
 
 
 @dataclass(frozen=True)

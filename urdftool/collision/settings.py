@@ -6,6 +6,16 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from ..suggestions import require_positive, require_word
+
+SOURCES = ("visual", "collision")
+"""Geometry of a link whose meshes are simplified."""
+
+URIS = ("auto", "package", "relative", "file")
+"""Forms of the URIs of new meshes; ``auto`` is that of the meshes of the robot."""
+
+MESH_FORMATS = ("stl", "obj")
+
 METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")
 
 
@@ -66,6 +76,15 @@ class Settings:
     threshold: float = 0.06
     time_limit: float = 120.0
     quality: str = "balanced"
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if a value is not allowed."""
+        require_word("method", self.method, METHODS)
+        require_word("quality", self.quality, QUALITIES)
+        for name in ("max_error", "max_vertices", "max_triangles", "threshold", "time_limit"):
+            require_positive(name, getattr(self, name))
+        if self.max_hulls is not None:
+            require_positive("max_hulls", self.max_hulls)
 
     @classmethod
     def from_quality(cls, quality: str, **changes: Any) -> Settings:

@@ -18,10 +18,11 @@ from .measure import ReferenceSurface
 from .piece import Piece, make_primitive
 
 MOST = 400
-"""Largest number of spheres if no limit is given."""
+"""Largest number of spheres if no limit is given. Chosen, no source."""
 
-_CANDIDATES = 4000
-_SAMPLES = 5000
+# chosen, no source, where a line gives none
+_CANDIDATES = 4000  # centers that a cover is chosen from
+_SAMPLES = 5000  # points that each candidate is tested with
 _STEPS = 6  # of the bisection for the excess
 _LARGEST = 0.5  # excess, relative to the size, that is always enough for some cover
 _CHECKED = 60_000  # other points, by which the gaps of the dense samples are measured

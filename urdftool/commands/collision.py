@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from ..collision.settings import MESH_FORMATS, SOURCES, URIS
 from ..console import Console
 from .collision_options import (
     add_settings_options,
@@ -77,7 +78,7 @@ _GROUPS = {
 @click.option(
     "--from",
     "source",
-    type=click.Choice(["visual", "collision"]),
+    type=click.Choice(SOURCES),
     help="Meshes to simplify.  [default: visual; collision for links without visuals]",
 )
 @click.option(
@@ -96,7 +97,7 @@ _GROUPS = {
 )
 @click.option(
     "--uri",
-    type=click.Choice(["auto", "package", "relative", "file"]),
+    type=click.Choice(URIS),
     default="auto",
     show_default=True,
     metavar="FORM",
@@ -105,7 +106,7 @@ _GROUPS = {
 )
 @click.option(
     "--mesh-format",
-    type=click.Choice(["stl", "obj"]),
+    type=click.Choice(MESH_FORMATS),
     default="stl",
     show_default=True,
     help="Format of the new mesh files.",

@@ -36,10 +36,10 @@ def check(
                 looks.append(look)
                 owners.append(number)
     with Progress(console, "links", patience=0) as progress:
-        found = check_all(looks, jobs=values["jobs"], progress=progress)
+        checks = check_all(looks, jobs=values["jobs"], progress=progress)
     results, code = [], 0
     for number, (robot, options) in enumerate(robots):
-        own = [item for item, owner in zip(found, owners, strict=True) if owner == number]
+        own = [item for item, owner in zip(checks, owners, strict=True) if owner == number]
         assert robot.source is not None
         path, limit = robot.source.path, options.settings.max_error
         results.append(report.as_dict(path, own, limit))

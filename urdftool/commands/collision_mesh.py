@@ -90,12 +90,12 @@ def command(
     files = _write(file, result, output, values["overwrite"])
     settings = task.settings
     row = report.Row(
-        Path(file).name, file, scale, result, settings.max_error, files, wanted=settings.method
+        Path(file).name, file, scale, result, settings.max_error, files, requested=settings.method
     )
-    found = report.Report(file, output or "", [row])
+    mesh_report = report.Report(file, output or "", [row])
     style = values["style"]
     if style == "json":
-        text = report.as_json([found], timings=console.verbosity > 0)
+        text = report.as_json([mesh_report], timings=console.verbosity > 0)
     else:
         text = report.format_table([row])
     click.echo(text, nl=False)

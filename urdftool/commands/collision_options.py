@@ -32,7 +32,7 @@ _NAMES = (
 )
 
 
-def _check_positive(
+def _parse_positive(
     ctx: click.Context, parameter: click.Parameter, value: float | None
 ) -> float | None:
     if value is not None and not 0 < value < float("inf"):
@@ -67,7 +67,7 @@ _OPTIONS = (
     click.option(
         "--max-error",
         type=float,
-        callback=_check_positive,
+        callback=_parse_positive,
         metavar="E",
         help="Maximum distance between mesh and collision, as a fraction of the diagonal of the "
         "mesh's bounding box.  [default: 0.05; fast 0.08, tight 0.03]",
@@ -108,7 +108,7 @@ _OPTIONS = (
         type=float,
         default=120.0,
         show_default=True,
-        callback=_check_positive,
+        callback=_parse_positive,
         metavar="S",
         help="Maximum total CPU time of CoACD per mesh [s].",
     ),

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 Values = dict[str, Any]
 
-_FEW = 6
+_FEW = 6  # links up to which a message names each
 
 
 @dataclass
@@ -73,12 +73,14 @@ def process_one(
     cache = open_cache(values)
     results = _compute(console, job.tasks, cache, values)
     _refuse_failed(console, job, results)
-    done = {task: found for task, found in results.items() if not isinstance(found, UrdftoolError)}
-    _report(console, [_write(console, job, done)], values)
+    finished = {
+        task: found for task, found in results.items() if not isinstance(found, UrdftoolError)
+    }
+    _report(console, [_write(console, job, finished)], values)
     if values["spheres_file"]:
-        _write_spheres(console, values["spheres_file"], job, done)
+        _write_spheres(console, values["spheres_file"], job, finished)
     if values["picture"]:
-        _draw(values["picture"], robot, job.plans, done)
+        _draw(values["picture"], robot, job.plans, finished)
     if cache.trouble:
         console.print_note(f"the results were not stored in the cache: {cache.trouble}")
     return 0

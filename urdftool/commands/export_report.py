@@ -151,9 +151,9 @@ def report_written(
         for line in format_lines(shown):
             console.print_note(line)
         if checks:
-            from ..report.exports import check_table
+            from ..report.exports import format_check_table
 
-            click.echo(check_table(checks, not_compared), nl=False, err=output == "-")
+            click.echo(format_check_table(checks, not_compared), nl=False, err=output == "-")
     if output != "-":
         more = f", {format_count(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:

@@ -29,18 +29,18 @@ def _parse_pairs(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
     """Parse ``NAME=NUMBER`` values."""
-    found: dict[str, float] = {}
+    values_by_link: dict[str, float] = {}
     for value in values:
         name, equals, number = value.rpartition("=")
         if not (equals and name):
             raise click.BadParameter(f"'{value}' is not {parameter.metavar}", ctx, parameter)
         try:
-            found[name] = float(number)
+            values_by_link[name] = float(number)
         except ValueError:
             raise click.BadParameter(
                 f"'{number}' in '{value}' is not a number", ctx, parameter
             ) from None
-    return found
+    return values_by_link
 
 
 _GROUPS = {
@@ -162,7 +162,7 @@ def command(
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
     amounts = Masses(by_link, density, total, all_links)
     with Progress(console, "meshes") as progress:
-        found = review(
+        reviews = review(
             model,
             _make_reader(model.source, jobs, progress),
             masses=amounts,
@@ -170,12 +170,12 @@ def command(
             only=only,
         )
     if lump:
-        return _lump(console, model, found, pose, style, output)
+        return _lump(console, model, reviews, pose, style, output)
     if diff:
-        return _print_diff(console, model, found, amounts)
+        return _print_diff(console, model, reviews, amounts)
     if write:
-        return _write(console, model, found, amounts, style, output)
-    return _show(console, model, found, style, output)
+        return _write(console, model, reviews, amounts, style, output)
+    return _show(console, model, reviews, style, output)
 
 
 def _check_options(

@@ -259,13 +259,13 @@ def _warn_of_old_names(
     from ..configuration import find_configuration
     from ..rules.old_names import find_old_names, find_old_rules
 
-    found = dict.fromkeys(find_old_rules(selectors))
+    old_names = dict.fromkeys(find_old_rules(selectors))
     tables = {
         configuration.path: configuration.lint
         for file in files
         if (configuration := find_configuration(file, console.config, workspace)).lint
     }
-    for old in found:
+    for old in old_names:
         console.print_note(f"urdftool: {old.message}")
     for path, table in tables.items():
         for old in dict.fromkeys(find_old_names(table)):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..lint.settings import Settings
     from .lint_report import OutputOptions
 
-_MOST = 6
+_MOST = 6  # rules that a message names
 
 
 class Kinds(NamedTuple):
@@ -178,14 +178,14 @@ def _report_files(console: Console, done: FixResult, files: Sequence[str]) -> No
     """Print the files that were changed or created in addition to the named ones."""
     from ..source.packages import shorten_path
 
-    asked = {os.path.realpath(path) for path in files}
+    named = {os.path.realpath(path) for path in files}
     for what, new in (("changed", False), ("created", True)):
         paths = [
             shorten_path(path)
             for path, before in done.before.items()
             if (before is None) is new
             and before != done.after[path]
-            and os.path.realpath(path) not in asked
+            and os.path.realpath(path) not in named
         ]
         if paths:
             console.print_note(f"{what}: {', '.join(sorted(paths))}")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..lint.outcome import Outcome, Report
     from ..lint.settings import Settings
 
-_MOST_ENTRIES = 3
+_MOST_ENTRIES = 3  # entries that a message names
 
 
 @dataclass
@@ -172,17 +172,17 @@ def _describe_stale(baseline: Baseline, stale: list[Entry]) -> str:
 
 def _report_unread(console: Console, reports: Iterable[Report]) -> None:
     """Print what readers of SDF and MJCF left out, once for each kind; all with ``-v``."""
-    found = [finding for report in reports for finding in report.unread]
-    if not found:
+    findings = [finding for report in reports for finding in report.unread]
+    if not findings:
         return
     from ..formats.common.loss_report import format_lines
 
     if console.verbosity > 0:
-        for line in format_lines(found):
+        for line in format_lines(findings):
             console.print_note(line)
         return
     kinds: dict[str, list[Finding]] = {}
-    for finding in found:
+    for finding in findings:
         kinds.setdefault(finding.code, []).append(finding)
     for first, *others in kinds.values():
         files = {finding.location.path for finding in others} - {first.location.path}

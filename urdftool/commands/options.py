@@ -149,15 +149,15 @@ def add_package_options(function: F) -> F:
 def _parse_packages(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, Path]:
-    found = {}
+    packages = {}
     for value in values:
         name, equals, folder = value.partition("=")
         if not (equals and name and folder):
             raise click.BadParameter(f"'{value}' is not NAME=DIR", ctx, parameter)
         if not Path(folder).is_dir():
             raise click.BadParameter(f"'{folder}' is not a folder", ctx, parameter)
-        found[name] = Path(folder)
-    return found
+        packages[name] = Path(folder)
+    return packages
 
 
 def add_jobs_option(function: F) -> F:
@@ -236,13 +236,13 @@ def parse_name_numbers(
     Raises:
         BadParameter: A value has another form, or a number that is not finite.
     """
-    found = {}
+    numbers = {}
     for value in values:
         name, _, text = value.rpartition("=")
         try:
-            found[name] = float(text)
+            numbers[name] = float(text)
         except ValueError:
             name = ""
-        if not name or not math.isfinite(found[name]):
+        if not name or not math.isfinite(numbers[name]):
             raise click.BadParameter(f"'{value}' is not NAME=NUMBER", ctx, parameter)
-    return found
+    return numbers

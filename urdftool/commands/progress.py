@@ -13,10 +13,11 @@ from ..console import Console
 from ..control_characters import escape_controls
 
 PATIENCE = 1.0
-"""Time after which progress is shown [s]."""
+"""Time after which progress is shown [s]. Chosen, no source."""
 
 PIPE_PATIENCE, PIPE_TICK = 2.0, 5.0
-"""Time before the first line where stderr is not a terminal, and between two lines [s]."""
+"""Time before the first line where stderr is not a terminal, and between two lines [s]. Chosen, no
+source."""
 
 _TICK = 0.5  # s between two updates of the elapsed time
 _BAR, _LONGEST = 24, 60  # characters
@@ -45,7 +46,7 @@ class Progress:
         self.what = what
         self.patience = patience
         self.timed = timed
-        self.wanted = not console.quiet
+        self.enabled = not console.quiet
         self._is_terminal = sys.stderr.isatty()
         self._begin = monotonic()
         self._next = self._begin + PIPE_PATIENCE
@@ -56,7 +57,7 @@ class Progress:
 
     def __enter__(self) -> Progress:
         """Return itself."""
-        if self.wanted and self.timed:
+        if self.enabled and self.timed:
             self._thread = Thread(target=self._run_timer, daemon=True)
             self._thread.start()
         return self
@@ -71,7 +72,7 @@ class Progress:
         """
         names = escape_controls(running if isinstance(running, str) else ", ".join(running))
         self._state = done, count, names
-        if not self.wanted or self.timed:
+        if not self.enabled or self.timed:
             return
         if not self._is_terminal:
             if monotonic() >= self._next:

@@ -46,14 +46,14 @@ def read_any(
 
     path, arguments = robot
     file = read_file(path)
-    found = format_of(file)
-    if found.name == "urdf":
+    format_name = format_of(file)
+    if format_name.name == "urdf":
         return make_robot(load_strict(console, robot, packages, package_paths, file=file))
     if edit:
-        message = f"{edit} requires a URDF or xacro file; this is {found.title}"
+        message = f"{edit} requires a URDF or xacro file; this is {format_name.title}"
         raise ModelError(message, path=path)
     finder = get_finder(console, file, packages, package_paths)
-    return read_other(console, found, file, arguments, finder, quiet=quiet)
+    return read_other(console, format_name, file, arguments, finder, quiet=quiet)
 
 
 def read_other(

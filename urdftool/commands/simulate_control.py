@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..simulation.settings import Settings
 
-_MOST = 4
+_MOST = 4  # controllers that a message names
 
 
 def apply_controllers(

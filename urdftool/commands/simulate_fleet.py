@@ -101,19 +101,19 @@ def simulate_fleet(
     from .simulate_one import print_old_thresholds
 
     console = fleet.console
-    found = find_descriptions(paths)
-    if not found:
+    descriptions = find_descriptions(paths)
+    if not descriptions:
         raise click.UsageError(explain_nothing_found(paths))
-    print_old_thresholds(console, found)
+    print_old_thresholds(console, descriptions)
     limit = len(fleet.engines) * fleet.settings.time_limit + PATIENCE
     rows = {}
     with Progress(console, "robots") as progress:
-        for row in run_in_parallel(found, fleet, jobs=jobs, limit=limit):
+        for row in run_in_parallel(descriptions, fleet, jobs=jobs, limit=limit):
             rows[row.path] = row
-            progress(len(rows), len(found), row.path)
-    ordered = [rows[path] for path in found]
+            progress(len(rows), len(descriptions), row.path)
+    ordered = [rows[path] for path in descriptions]
     if junit is not None:
-        write_file(junit, report.to_junit(ordered).encode("utf-8"), inputs=found)
+        write_file(junit, report.to_junit(ordered).encode("utf-8"), inputs=descriptions)
     if style == "json":
         click.echo(report.to_json(ordered, timings=console.verbosity > 0), nl=False)
     elif style == "junit":

@@ -43,8 +43,8 @@ def print_old_thresholds(console: Console, paths: Iterable[str]) -> None:
     from ..workspace import Workspace
 
     workspace = Workspace()
-    found = (find_configuration(path, console.config, workspace) for path in paths)
-    tables = {configuration.path: configuration.simulate for configuration in found}
+    configurations = (find_configuration(path, console.config, workspace) for path in paths)
+    tables = {configuration.path: configuration.simulate for configuration in configurations}
     for path, table in tables.items():
         for message in find_old_thresholds(table):
             console.print_note(f"{path}: {message}")

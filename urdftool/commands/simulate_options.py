@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def _check_finite(
+def _parse_finite(
     ctx: click.Context, parameter: click.Parameter, value: float | None
 ) -> float | None:
     if value is not None and not math.isfinite(value):
@@ -27,10 +27,10 @@ def _check_finite(
 def _parse_payloads(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
-    found = parse_name_numbers(ctx, parameter, values)
-    if any(mass < 0 for mass in found.values()):
+    masses = parse_name_numbers(ctx, parameter, values)
+    if any(mass < 0 for mass in masses.values()):
         raise click.BadParameter("a payload mass must not be negative", ctx, parameter)
-    return found
+    return masses
 
 
 _OPTIONS = (
@@ -54,7 +54,7 @@ _OPTIONS = (
         "--height",
         type=float,
         metavar="M",
-        callback=_check_finite,
+        callback=_parse_finite,
         help="Spawn height of the root link [m].  [default: just above contact]",
     ),
     click.option(

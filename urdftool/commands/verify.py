@@ -16,7 +16,7 @@ from .options import (
     split_robots,
 )
 
-_MOST = 8
+_MOST = 8  # robots of one comparison, each of which is a column; chosen, no source
 
 _GROUPS = {"Comparison": "only tolerance names", "Output": "style output"}
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 LARGEST = 4096
-"""Maximum width and height of a picture [pixels]."""
+"""Maximum width and height of a picture [pixels]. Chosen, no source."""
 
 
 _MAX_SHEET = 120_000_000  # pixels

@@ -85,12 +85,12 @@ def read_points(path: Path) -> Points | None:
     """
     with _raise_mesh_errors(path):
         document = Document(path)
-        found = [
+        points = [
             transform_points(triangles.points, instance.matrix)
             for instance in document.find_instances()
             for triangles in document.read_triangles(instance.geometry)
         ]
-    return np.concatenate(found) if found else None
+    return np.concatenate(points) if points else None
 
 
 @contextmanager

@@ -115,11 +115,11 @@ class Materials:
 
     def _find_shader_of(self, effect: Element) -> Element | None:
         technique = effect.find(f"{self._space}profile_COMMON/{self._space}technique")
-        found = (
+        shaders = (
             technique.find(self._space + name) if technique is not None else None
             for name in _SHADERS
         )
-        return next((shader for shader in found if shader is not None), None)
+        return next((shader for shader in shaders if shader is not None), None)
 
     def _find_uv_set(self, binding: Element, channel: str | None) -> str | None:
         """Return the number of the texture coordinates that are bound to a channel."""
@@ -142,8 +142,8 @@ class Materials:
     def _list_parameters(self, effect: Element) -> dict[str, Element]:
         """Return the ``<newparam>`` elements of an effect by ``sid``."""
         if effect not in self._parameters:
-            found = effect.iter(f"{self._space}newparam")
-            self._parameters[effect] = {element.get("sid") or "": element for element in found}
+            elements = effect.iter(f"{self._space}newparam")
+            self._parameters[effect] = {element.get("sid") or "": element for element in elements}
         return self._parameters[effect]
 
     def _read_image_path(self, image: Element) -> Path | None:

@@ -18,7 +18,8 @@ from .mesh import Array, Faces, MeshNote, Points
 from .points import IDENTITY, select_used
 
 MAX_DEPTH = 256
-"""Largest depth of nested nodes; deeper files are rejected, as instances may form a cycle."""
+"""Largest depth of nested nodes; deeper files are rejected, as instances may form a cycle. Chosen,
+no source."""
 
 PRIMITIVES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
@@ -180,8 +181,8 @@ class Document:
         up = (element.text or "").strip() if element is not None else "Z_UP"
         if up != "Z_UP":
             up = up if up in ("X_UP", "Y_UP") else "Y_UP"
-            done = "not turned: RViz and Gazebo do not, PyBullet does"
-            message = f"The up_axis of the COLLADA file is {up}, {done}."
+            treatment = "not turned: RViz and Gazebo do not, PyBullet does"
+            message = f"The up_axis of the COLLADA file is {up}, {treatment}."
             yield MeshNote("collada-up-axis", message)
 
     def find_instances(self) -> Iterator[Instance]:
@@ -292,8 +293,8 @@ class Document:
         if known is None:
             mesh = self._find(geometry, "mesh")
             primitives = () if mesh is None else mesh
-            made = (self._read_primitive(geometry, primitive) for primitive in primitives)
-            known = self._triangles[geometry] = [one for one in made if one is not None]
+            read = (self._read_primitive(geometry, primitive) for primitive in primitives)
+            known = self._triangles[geometry] = [one for one in read if one is not None]
         return known
 
     def _read_primitive(self, geometry: Element, primitive: Element) -> Triangles | None:
@@ -333,18 +334,18 @@ class Document:
 
     def _list_inputs(self, primitive: Element) -> list[_Input]:
         """Return the inputs of a primitive, those of its ``<vertices>`` included."""
-        found = []
+        inputs = []
         for entry in primitive.iterfind(f"{self.space}input"):
             offset, number = int(entry.get("offset") or 0), entry.get("set") or "0"
             semantic, source = entry.get("semantic") or "", (entry.get("source") or "")[1:]
             if semantic != "VERTEX":
-                found.append(_Input(semantic, offset, source, number))
+                inputs.append(_Input(semantic, offset, source, number))
                 continue
             vertices = self._follow(entry, "vertices", "source")
             for inner in () if vertices is None else vertices.iterfind(f"{self.space}input"):
                 semantic, source = inner.get("semantic") or "", (inner.get("source") or "")[1:]
-                found.append(_Input(semantic, offset, source, number))
-        return found
+                inputs.append(_Input(semantic, offset, source, number))
+        return inputs
 
     def _read_corners(self, primitive: Element, kind: str, stride: int, geometry: str) -> Faces:
         """Return what the three corners of each triangle name, shape (m, 3, stride)."""

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..source.description import GltfUp
 
 MAX_DEPTH = 256
-"""Largest depth of nested nodes, which may form a cycle in a damaged file."""
+"""Largest depth of nested nodes, which may form a cycle in a damaged file. Chosen, no source."""
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _UPRIGHT: Array = np.array(
@@ -79,11 +79,11 @@ def read_points(path: Path, gltf_up: GltfUp = "y") -> Points | None:
     """
     with _raise_mesh_errors(path):
         file = GltfFile(path)
-        found = [
+        points = [
             transform_points(_read_used_points(file, primitive), matrix)
             for _, primitive, matrix in _list_primitives(file, gltf_up)
         ]
-    return np.concatenate(found) if found else None
+    return np.concatenate(points) if points else None
 
 
 @contextmanager
@@ -109,18 +109,18 @@ def _list_primitives(file: GltfFile, gltf_up: GltfUp) -> list[tuple[Any, Any, Ar
     Raises:
         MeshError: They exceed a limit; nothing was read of them.
     """
-    found: list[tuple[Any, Any, Array]] = []
+    primitives: list[tuple[Any, Any, Array]] = []
     triangles = 0
     for mesh, primitive, matrix in _find_primitives(file, gltf_up):
-        found.append((mesh, primitive, matrix))
+        primitives.append((mesh, primitive, matrix))
         corners = (
             file.count_values(primitive["indices"])
             if "indices" in primitive
             else file.count_elements(primitive["attributes"]["POSITION"])
         )
         triangles += corners // 3 if primitive.get("mode", _TRIANGLES) == _TRIANGLES else corners
-        check_instances(file.path, file.size, triangles=triangles, parts=len(found))
-    return found
+        check_instances(file.path, file.size, triangles=triangles, parts=len(primitives))
+    return primitives
 
 
 def _find_primitives(file: GltfFile, gltf_up: GltfUp) -> Iterator[tuple[Any, Any, Array]]:

@@ -13,7 +13,7 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
-from ..source.access import check_companion
+from ..source.access import require_companion
 from .color import Rgba, convert_to_srgb
 from .limits import MAX_TRIANGLES, check_tree
 
@@ -77,7 +77,7 @@ class GltfFile:
         file = self.path.parent / unquote(uri)
         if not os.path.isfile(file):  # reading a device or a pipe would not end
             raise ValueError(f"'{uri}' is not a file")
-        return check_companion(self.path, file)
+        return require_companion(self.path, file)
 
     def _read_view(self, number: int) -> memoryview:
         """Return the bytes of a buffer view, without a copy."""

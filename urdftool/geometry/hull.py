@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from manifold3d import Manifold
 
 FLAT = 1e-12
-"""Smallest volume of a hull, relative to the cube of the extent of its points."""
+"""Smallest volume of a hull, relative to the cube of the extent of its points. Chosen, no source.
+"""
 
 
 _MANY = 20_000

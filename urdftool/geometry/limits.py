@@ -18,7 +18,7 @@ MAX_TRIANGLES = 500_000
 """Number of triangles, instances included, that a file of any size may have. Chosen, no source."""
 
 BYTES_PER_TRIANGLE = 10
-"""Size [bytes] per triangle up to which a file may have more than :data:`MAX_TRIANGLES`."""
+"""Size [bytes] per triangle of a file with more than :data:`MAX_TRIANGLES`; measured, see above."""
 
 MAX_PARTS = 10_000
 """Number of parts, instances included: runs of triangles of one material. Chosen, no source."""

@@ -41,15 +41,15 @@ def compute_box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector
     """
     placed = list(links)
     for kind in ("collisions", "visuals"):
-        found = []
+        boxes = []
         for link, pose in placed:
             turn, shift = np.array(pose.rotation), np.array(pose.translation)
             for shape in getattr(link, kind):
                 points = get_shape_points(robot, shape)
                 if points is not None:
-                    found.append(points if pose is IDENTITY else points @ turn.T + shift)
-        if found:
-            x, y, z = np.ptp(np.concatenate(found), axis=0).tolist()
+                    boxes.append(points if pose is IDENTITY else points @ turn.T + shift)
+        if boxes:
+            x, y, z = np.ptp(np.concatenate(boxes), axis=0).tolist()
             return x, y, z
     return None
 

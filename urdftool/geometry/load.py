@@ -64,8 +64,8 @@ def load_mesh(
             scale is not three finite nonzero factors.
     """
     file = Path(path)
-    factors = _check_factors(scale, file)
-    suffix = _check_format(file)
+    factors = _parse_scale(scale, file)
+    suffix = _require_format(file)
     module = import_module(f".{READERS[suffix]}", __package__)
     read = cast(Callable[..., Reading], module.read)
     try:
@@ -86,7 +86,7 @@ def load_named(
     return load_mesh(description.resolve(uri), scale, gltf_up=description.gltf_up)
 
 
-def _check_factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
+def _parse_scale(scale: Sequence[float], file: Path) -> tuple[float, ...]:
     factors = tuple(float(factor) for factor in scale)
     if len(factors) != 3 or not all(math.isfinite(f) and f != 0 for f in factors):
         given = " ".join(f"{factor:g}" for factor in factors)
@@ -98,7 +98,7 @@ def _check_factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
     return factors
 
 
-def _check_format(file: Path) -> str:
+def _require_format(file: Path) -> str:
     if os.path.isdir(file):
         raise MeshError("this is a folder; a mesh file is needed", path=file)
     if not os.path.exists(file):

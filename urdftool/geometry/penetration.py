@@ -42,10 +42,10 @@ class Convex(NamedTuple):
 
 def make_convex(geometry: Geometry | None, pose: Pose) -> Convex | None:
     """Return a primitive as a convex shape; None for other geometry or without a size."""
-    made = _make_support_function(geometry)
-    if made is None or not 0 < made[1] < math.inf:
+    support = _make_support_function(geometry)
+    if support is None or not 0 < support[1] < math.inf:
         return None
-    return Convex(pose, *made)
+    return Convex(pose, *support)
 
 
 def _make_support_function(geometry: Geometry | None) -> tuple[SupportFunction, float] | None:
@@ -79,12 +79,12 @@ def compute_overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
         enough: The search stops as soon as the depth is known to be at most this [m], and returns
             ``enough`` or less.
     """
-    apart = _subtract(other.pose.translation, one.pose.translation)
-    distance = compute_norm(apart)
+    offset = _subtract(other.pose.translation, one.pose.translation)
+    distance = compute_norm(offset)
     if distance >= one.radius + other.radius - enough:
         return enough
     turn, turned = transpose(one.pose.rotation), transpose(other.pose.rotation)
-    x, y, z = apart
+    x, y, z = offset
     reach, reached = one.reach, other.reach
 
     def along(d: Vector) -> float:
@@ -98,7 +98,7 @@ def compute_overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
         return first + second + a * x + b * y + c * z
 
     best, way = math.inf, (0.0, 0.0, 1.0)
-    for direction in _list_directions(one, other, apart, distance):
+    for direction in _list_directions(one, other, offset, distance):
         value = along(direction)
         if value < best:
             best, way = value, direction
@@ -129,11 +129,11 @@ CORNER_DIRECTIONS = tuple(
 
 
 def _list_directions(
-    one: Convex, other: Convex, apart: Vector, distance: float
+    one: Convex, other: Convex, offset: Vector, distance: float
 ) -> Iterator[Vector]:
     """Yield the directions that usually decide, the most probable first."""
     if distance > 1e-9:
-        yield _scale(apart, 1 / distance)
+        yield _scale(offset, 1 / distance)
     for shape in (one, other):
         for axis in transpose(shape.pose.rotation):
             yield axis

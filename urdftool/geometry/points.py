@@ -103,13 +103,13 @@ def _collect_obj_corners(lines: list[bytes]) -> set[int]:
     """
     faces = [line for line in lines if line.startswith((b"f ", b"f\t"))]
     words = set(_CORNER.findall(b"\n".join([b"", *faces])))
-    found = {int(word) - 1 for word in words if not word.startswith(b"-")}
-    if len(found) == len(words):
-        return found
+    corners = {int(word) - 1 for word in words if not word.startswith(b"-")}
+    if len(corners) == len(words):
+        return corners
     above = 0
     for line in lines:
         if line.startswith((b"v ", b"v\t")):
             above += 1
         elif line.startswith((b"f ", b"f\t")):
-            found |= {above + int(word) for word in _CORNER.findall(line) if int(word) < 0}
-    return found
+            corners |= {above + int(word) for word in _CORNER.findall(line) if int(word) < 0}
+    return corners

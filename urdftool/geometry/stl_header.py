@@ -12,8 +12,8 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 
-HEADER_BYTES = 84
-TRIANGLE_BYTES = 50
+HEADER_BYTES = 84  # 80 of text, 4 of the count; definition of binary STL
+TRIANGLE_BYTES = 50  # 12 numbers of 4 bytes, 2 of attributes; definition of binary STL
 LFS_MARK = b"version https://git-lfs.github.com/spec/"
 
 

@@ -18,7 +18,7 @@ from .mesh import Faces, Points
 from .topology import weld_on_grids
 
 LARGEST = 32_000_000
-"""Size of the largest file whose surface is read [bytes]."""
+"""Size of the largest file whose surface is read [bytes]. Chosen, no source."""
 
 
 class Surface(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 from .mesh import Faces, Points
 
 AROUND = 96
-"""Corners of a circle; its chords deviate by at most 0.05 % of the radius."""
+"""Corners of a circle; its chords deviate by at most 0.05 % of the radius. Chosen, no source."""
 
 
 def tessellate(kind: str, size: Sequence[float], around: int = AROUND) -> tuple[Points, Faces]:

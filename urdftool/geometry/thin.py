@@ -26,13 +26,14 @@ if TYPE_CHECKING:
     from ..source.description import GltfUp
 
 SMALL_FILE = 300_000
-"""Size [bytes] of a file up to which its mesh is read as it is."""
+"""Size [bytes] of a file up to which its mesh is read as it is. Chosen, no source."""
 
 FINEST = 1024
-"""Largest number of cells along the diagonal of a mesh; a finer one is read as it is."""
+"""Largest number of cells along the diagonal of a mesh; a finer one is read as it is. Chosen, no
+source."""
 
-_COARSEST = 16
-_REVISION = 2
+_COARSEST = 16  # cells along the diagonal of a mesh at least; chosen, no source
+_REVISION = 2  # part of the keys of the cache; increment it when the same file gives another result
 _MATERIALS = {".gltf": "*.bin", ".obj": "*.mtl"}  # files that belong to a mesh file
 
 
@@ -58,10 +59,10 @@ class ThinMeshes:
             return known
         used = self._read_full(path, scale, gltf_up)
         points = used.vertices[find_used_vertices(used.faces, len(used.vertices))]
-        found = np.array([points.min(axis=0), points.max(axis=0)])
+        bounds = np.array([points.min(axis=0), points.max(axis=0)])
         if key is not None:
-            self.cache.put(key, json.dumps(found.tolist()).encode())
-        return found
+            self.cache.put(key, json.dumps(bounds.tolist()).encode())
+        return bounds
 
     def read(self, path: Path, scale: Sequence[float], gltf_up: GltfUp, cell: float) -> Mesh:
         """Read a mesh whose vertices may be off by the diagonal of a cell.
@@ -141,21 +142,21 @@ def merge_in_cells(mesh: Mesh, cell: float) -> Mesh:
     _, first, owner = np.unique(number, return_index=True, return_inverse=True)
     faces = owner.reshape(-1)[mesh.faces]
     a, b, c = faces.T
-    kept = np.flatnonzero((a != b) & (b != c) & (c != a))
-    ordered = np.sort(faces[kept], axis=1)
+    rows = np.flatnonzero((a != b) & (b != c) & (c != a))
+    ordered = np.sort(faces[rows], axis=1)
     triples = (ordered[:, 0] * len(first) + ordered[:, 1]) * len(first) + ordered[:, 2]
     if len(first) < 2_000_000:  # else the product does not fit
-        kept = kept[np.sort(np.unique(triples, return_index=True)[1])]
-    if not len(kept):
+        rows = rows[np.sort(np.unique(triples, return_index=True)[1])]
+    if not len(rows):
         return mesh
     parts = []
-    ends = np.searchsorted(kept, [part.first for part in mesh.parts])
-    lasts = np.searchsorted(kept, [part.first + part.count for part in mesh.parts])
+    ends = np.searchsorted(rows, [part.first for part in mesh.parts])
+    lasts = np.searchsorted(rows, [part.first + part.count for part in mesh.parts])
     for part, start, end in zip(mesh.parts, ends.tolist(), lasts.tolist(), strict=True):
-        uv = None if part.uv is None else part.uv[kept[start:end] - part.first]
+        uv = None if part.uv is None else part.uv[rows[start:end] - part.first]
         parts.append(replace(part, first=start, count=end - start, uv=uv))
     return replace(
-        mesh, vertices=mesh.vertices[first], faces=faces[kept].astype(np.int64), parts=tuple(parts)
+        mesh, vertices=mesh.vertices[first], faces=faces[rows].astype(np.int64), parts=tuple(parts)
     )
 
 
@@ -206,7 +207,7 @@ def _unpack_part(table: dict[str, Any], corners: list[bytes], faces: int) -> Par
 def _unpack_bounds(data: bytes) -> Points | None:
     """Return the corners of an entry; None if the entry is damaged."""
     try:
-        found = np.array(json.loads(data), dtype=np.float64)
+        bounds = np.array(json.loads(data), dtype=np.float64)
     except (ValueError, TypeError, RecursionError):
         return None
-    return found if found.shape == (2, 3) and np.isfinite(found).all() else None
+    return bounds if bounds.shape == (2, 3) and np.isfinite(bounds).all() else None

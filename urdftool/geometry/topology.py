@@ -17,14 +17,15 @@ from ..diagnostic import Diagnostic, make_warning
 from .mesh import Faces, Points
 
 WELD_TOLERANCE = 1e-6
-"""Distance, relative to the mesh's extent, below which points may be rounded copies of one
-point."""
+"""Distance, relative to the mesh's extent, below which points may be rounded copies of one point.
+Chosen, no source."""
 
 LARGE_EXTENT = 10.0
-"""Extent of a link's mesh [m] above which its unit is probably the millimeter."""
+"""Extent of a link's mesh [m] above which its unit is probably the millimeter. Chosen, no source.
+"""
 
 SMALL_EXTENT = 0.001
-"""Extent of a link's mesh [m] below which it was probably scaled twice."""
+"""Extent of a link's mesh [m] below which it was probably scaled twice. Chosen, no source."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -40,7 +40,7 @@ class Row:
         max_error: Error limit, relative to the size of the mesh.
         files: File names of its pieces; empty for a primitive.
         source: ``"visual"`` or ``"collision"``; empty for a single mesh file.
-        wanted: The requested method.
+        requested: The requested method.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Row:
     max_error: float
     files: tuple[str, ...] = ()
     source: str = ""
-    wanted: str = "auto"
+    requested: str = "auto"
 
     @property
     def within(self) -> bool:
@@ -60,9 +60,9 @@ class Row:
     def as_dict(self) -> dict[str, Any]:
         """Return the JSON form."""
         result = self.result
-        found: dict[str, Any] = {"link": self.name, "source": self.source} if self.source else {}
+        record: dict[str, Any] = {"link": self.name, "source": self.source} if self.source else {}
         return {
-            **found,
+            **record,
             "mesh": self.mesh,
             "scale": list(self.scale),
             "method": result.method,
@@ -131,8 +131,8 @@ def get_rows(written: Written, results: Mapping[Task, Result]) -> list[Row]:
 
 def as_json(reports: Sequence[Report], *, timings: bool = False) -> str:
     """Format all reports as one object; ``timings`` as in :meth:`Report.as_dict`."""
-    found = [report.as_dict(timings=timings) for report in reports]
-    return json.dumps({"version": 1, "results": found}, indent=2) + "\n"
+    records = [report.as_dict(timings=timings) for report in reports]
+    return json.dumps({"version": 1, "results": records}, indent=2) + "\n"
 
 
 def format_table(rows: Sequence[Row]) -> str:
@@ -140,14 +140,14 @@ def format_table(rows: Sequence[Row]) -> str:
     if not rows:
         return ""
     lines: list[Sequence[str]] = [("", *_HEAD)]
-    lines += [(_label(row), *_collect_cells(row)) for row in rows]
+    lines += [(_label(row), *_format_cells(row)) for row in rows]
     return render_table(lines, left=(0, 1))
 
 
 def format_millimeters(length: float) -> str:
     """Format a length [m] in millimeters, with three digits or all digits before the point."""
-    found = length * 1000
-    return f"{found:.3g}" if found < 999.5 else f"{found:.0f}"
+    millimeters = length * 1000
+    return f"{millimeters:.3g}" if millimeters < 999.5 else f"{millimeters:.0f}"
 
 
 def format_remarks(rows: Iterable[Row]) -> Iterable[str]:
@@ -174,11 +174,11 @@ def _format_advice(row: Row) -> str:
             return f"--max-hulls {pieces} would give about {error:.1%}"
     if row.result.method == "simplify":
         return "try more --max-triangles"
-    if row.wanted == "coacd":
+    if row.requested == "coacd":
         return "try a smaller --threshold with more --max-triangles"
-    if row.wanted == "spheres":
+    if row.requested == "spheres":
         return "try a smaller --max-error, with more spheres"
-    if row.wanted in ("auto", "cuts"):
+    if row.requested in ("auto", "cuts"):
         return "more pieces help little; allow a larger --max-error or try --method simplify"
     return "try --method auto"
 
@@ -222,7 +222,7 @@ def _label(row: Row) -> str:
     return f"{row.name} {Path(row.mesh).name}{' ' + scale if scale else ''}"
 
 
-def _collect_cells(row: Row) -> tuple[str, ...]:
+def _format_cells(row: Row) -> tuple[str, ...]:
     result, measures = row.result, row.result.measures
     kinds = {piece.kind for piece in result.pieces}
     what = kinds.pop() if result.method == "primitive" else result.method

@@ -90,10 +90,10 @@ def make_diff_with_committed(expansion: Expansion, committed: str) -> str:
     from difflib import unified_diff
 
     written = _format_lines(parse(read_file(committed)).root)
-    wanted = _format_lines(expansion.make_document().root)
+    expanded = _format_lines(expansion.make_document().root)
     return "".join(
         line + "\n"
-        for line in unified_diff(written, wanted, committed, "expanded", lineterm="", n=2)
+        for line in unified_diff(written, expanded, committed, "expanded", lineterm="", n=2)
     )
 
 

@@ -41,7 +41,7 @@ def to_json(
     return format_json(report, 1) + "\n"
 
 
-def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
+def format_check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
     """Format comparisons as a table, followed by the differences and the parts not compared."""
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
     lines: list[str] = []

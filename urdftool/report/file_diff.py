@@ -90,9 +90,9 @@ def _matches(
     old: Sequence[str], new: Sequence[str], i: int, j: int, k: int, m: int
 ) -> list[tuple[int, int]]:
     """Return pairs of equal lines in two ranges, in order."""
-    found: list[tuple[int, int]] = []
+    matches: list[tuple[int, int]] = []
     while i < j and k < m and old[i] == new[k]:
-        found.append((i, k))
+        matches.append((i, k))
         i, k = i + 1, k + 1
     tail: list[tuple[int, int]] = []
     while i < j and k < m and old[j - 1] == new[m - 1]:
@@ -102,15 +102,15 @@ def _matches(
         anchors = _find_anchors(old, new, i, j, k, m)
         if anchors:
             for start, other in [*anchors, (j, m)]:
-                found += _matches(old, new, i, start, k, other)
+                matches += _matches(old, new, i, start, k, other)
                 if start < j:
-                    found.append((start, other))
+                    matches.append((start, other))
                 i, k = start + 1, other + 1
         else:
             matcher = SequenceMatcher(None, old[i:j], new[k:m], autojunk=False)
             for one, other, size in matcher.get_matching_blocks():
-                found += [(i + one + n, k + other + n) for n in range(size)]
-    return found + tail[::-1]
+                matches += [(i + one + n, k + other + n) for n in range(size)]
+    return matches + tail[::-1]
 
 
 def _find_anchors(

@@ -16,9 +16,9 @@ from .counted import format_count
 from .findings_words import call_lines, format_member_lines, format_message, format_remarks
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
-_MOST_LINES = 3
-_MOST_CALLS = 4
-_LONGEST_LINE = 160
+_MOST_LINES = 3  # lines of the source that are shown for a finding
+_MOST_CALLS = 4  # calls of macros that are shown
+_LONGEST_LINE = 160  # characters of a line that is shown
 
 
 class Painter:

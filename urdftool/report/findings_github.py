@@ -32,13 +32,13 @@ def format_github(outcome: Outcome) -> Iterator[str]:
         if line == end_line:  # GitHub rejects columns of a span over several lines
             properties |= {"col": column, "endColumn": end_column}
         properties["title"] = finding.code
-        said = ",".join(
+        parameters = ",".join(
             f"{key}={_escape_property(str(value))}" for key, value in properties.items()
         )
         came = (f"from {call}" for call in call_lines(finding.location.calls))
         also = (f"also {line}" for line in format_member_lines(finding))
         text = "\n".join([format_message(finding), *format_remarks(finding), *came, *also])
-        yield f"::{_COMMANDS[finding.severity]} {said}::{_escape_data(text)}"
+        yield f"::{_COMMANDS[finding.severity]} {parameters}::{_escape_data(text)}"
 
 
 def _escape_data(text: str) -> str:

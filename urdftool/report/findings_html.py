@@ -22,8 +22,8 @@ from .findings_words import (
 )
 
 _PAGE = Path(__file__).with_name("findings_page.html")
-_MOST_LINES = 6
-_LONGEST_LINE = 400
+_MOST_LINES = 6  # lines of the source that are shown for a finding
+_LONGEST_LINE = 400  # characters of a line that is shown
 
 
 def to_html(outcome: Outcome) -> str:

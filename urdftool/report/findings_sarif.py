@@ -199,10 +199,10 @@ def _build_invocation(outcome: Outcome) -> dict[str, Any]:
     notes = []
     for report in outcome.reports:
         where = {"physicalLocation": _build_file(report.path)}
-        said = [escape_controls(report.not_checked)] if report.not_checked else []
-        said += [f"rule {r}: {escape_controls(why)}" for r, why in report.failed_rules.items()]
+        messages = [escape_controls(report.not_checked)] if report.not_checked else []
+        messages += [f"rule {r}: {escape_controls(why)}" for r, why in report.failed_rules.items()]
         notes += [
-            {"level": "error", "message": {"text": text}, "locations": [where]} for text in said
+            {"level": "error", "message": {"text": text}, "locations": [where]} for text in messages
         ]
     record: dict[str, Any] = {"executionSuccessful": not notes}
     notes += [{"level": "note", "message": {"text": text}} for text in list_skipped_rules(outcome)]

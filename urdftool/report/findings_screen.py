@@ -14,12 +14,13 @@ from .counted import format_count
 from .findings import format_concise, format_full, format_severity_counts
 
 SCREEN = 25
-"""Maximum number of lines for one family of rules, unless all are requested."""
+"""Maximum number of lines for one family of rules, unless all are requested. Chosen, no source."""
 
 MANY = 8
-"""Findings above which a terminal shows one line for each, and the summary lists rules."""
+"""Findings above which a terminal shows one line for each, and the summary lists rules. Chosen, no
+source."""
 
-_RULES = 3
+_RULES = 3  # rules that the summary names
 
 
 def sort_by_severity(findings: Iterable[Finding]) -> list[Finding]:

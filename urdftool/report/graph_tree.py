@@ -15,7 +15,7 @@ from ..model.elements import Robot
 from .tables import WIDEST, create_text_console
 
 _STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
-_DEEPEST = 40
+_DEEPEST = 40  # levels of the tree that are indented
 
 
 def format_tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int = 80) -> str:

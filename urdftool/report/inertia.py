@@ -62,7 +62,7 @@ def build_numbers(properties: SpatialInertia) -> dict[str, Any]:
     moments, axes = compute_principal_axes(properties.tensor)
     return {
         **properties.as_dict(),
-        "inertia_about_origin": _collect_rounded_components(properties.about_origin),
+        "inertia_about_origin": _round_components(properties.about_origin),
         "principal_moments": [round_number(float(moment)) for moment in moments],
         "principal_axes": [[float(value) for value in axis] for axis in axes.T],
     }
@@ -70,22 +70,22 @@ def build_numbers(properties: SpatialInertia) -> dict[str, Any]:
 
 def format_table(title: str, properties: SpatialInertia, facts: Mapping[str, str]) -> str:
     """Format all values, one line each, with six digits."""
-    found = build_numbers(properties)
+    numbers = build_numbers(properties)
     rows = {
-        "mass": f"{found['mass']:.6g} kg",
+        "mass": f"{numbers['mass']:.6g} kg",
         **facts,
-        "center of mass": f"{_format_shown(found['com'])} m",
+        "center of mass": f"{_format_shown(numbers['com'])} m",
     }
     for label, six in (
-        ("about the center of mass", found["inertia"]),
-        ("about the origin", found["inertia_about_origin"]),
+        ("about the center of mass", numbers["inertia"]),
+        ("about the origin", numbers["inertia_about_origin"]),
     ):
         rows[label] = "ixx, iyy, izz  " + _format_shown(six[name] for name in ("ixx", "iyy", "izz"))
         rows[label] += "  kg m²"
         if any(six[name] for name in ("ixy", "ixz", "iyz")):
             products = _format_shown(six[name] for name in ("ixy", "ixz", "iyz"))
             rows[f"{label}, products"] = f"ixy, ixz, iyz  {products}  kg m²"
-    rows["principal moments"] = f"{_format_shown(found['principal_moments'])}  kg m²"
+    rows["principal moments"] = f"{_format_shown(numbers['principal_moments'])}  kg m²"
     width = max(map(len, rows))
     return "".join([f"{title}\n", *(f"  {key:<{width}}  {value}\n" for key, value in rows.items())])
 
@@ -97,7 +97,7 @@ def format_summary(what: str, properties: SpatialInertia) -> str:
     return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the center of mass"
 
 
-def _collect_rounded_components(tensor: SymmetricTensor) -> dict[str, float]:
+def _round_components(tensor: SymmetricTensor) -> dict[str, float]:
     return {name: round_number(value) for name, value in get_components(tensor).items()}
 
 

@@ -18,13 +18,13 @@ from .tables import render_table
 def format_text(filling: Filling) -> str:
     """Format a row for each written link."""
     rows: list[tuple[str, ...]] = [("link", "mass [kg]", "ixx", "iyy", "izz", "from")]
-    for wanted in filling.written:
-        six = get_components(wanted.result.tensor)
-        body = wanted.item.body
+    for entry in filling.written:
+        six = get_components(entry.result.tensor)
+        body = entry.item.body
         rows.append(
             (
-                escape_controls(wanted.link.name),
-                f"{wanted.result.mass:.6g}",
+                escape_controls(entry.link.name),
+                f"{entry.result.mass:.6g}",
                 *(f"{six[name]:.6g}" for name in ("ixx", "iyy", "izz")),
                 "" if body is None else body.source + ("" if body.reliable else " (unsure)"),
             )
@@ -67,25 +67,25 @@ def summarize(filling: Filling, files: Sequence[str]) -> str:
 def as_json(filling: Filling, robot: Robot) -> str:
     """Format written, unchanged, skipped and refused links as one object."""
     assert robot.source is not None
-    found = {
+    record = {
         "version": 1,
         "robot": robot.name,
         "path": robot.source.path,
         "written": [
             {
-                "name": wanted.link.name,
-                **place_dict(wanted.link.place),
-                **wanted.result.as_dict(),
-                "source": None if wanted.item.body is None else wanted.item.body.source,
-                "reliable": wanted.item.body is not None and wanted.item.body.reliable,
+                "name": entry.link.name,
+                **place_dict(entry.link.place),
+                **entry.result.as_dict(),
+                "source": None if entry.item.body is None else entry.item.body.source,
+                "reliable": entry.item.body is not None and entry.item.body.reliable,
             }
-            for wanted in filling.written
+            for entry in filling.written
         ],
         "unchanged": filling.unchanged,
         "left": [_build_refusal(refusal) for refusal in filling.left],
         "refused": [_build_refusal(refusal) for refusal in filling.refused],
     }
-    return format_json(found, 1) + "\n"
+    return format_json(record, 1) + "\n"
 
 
 def _build_refusal(refusal: Refusal) -> dict[str, Any]:

@@ -21,15 +21,15 @@ def format_table(lumped: Lumped) -> str:
     """Format a row for each rigid body in the frame of its first link, and one for the whole."""
     rows: list[tuple[str, ...]] = [_HEADS]
     rows += [
-        (escape_controls(body.link), str(len(body.members)), *_collect_cells(body.properties))
+        (escape_controls(body.link), str(len(body.members)), *_format_cells(body.properties))
         for body in lumped.lumps
     ]
     count = str(sum(len(body.members) for body in lumped.lumps))
-    rows.append((f"whole, in {escape_controls(lumped.root)}", count, *_collect_cells(lumped.whole)))
+    rows.append((f"whole, in {escape_controls(lumped.root)}", count, *_format_cells(lumped.whole)))
     return render_table(rows)
 
 
-def _collect_cells(properties: SpatialInertia | None) -> tuple[str, ...]:
+def _format_cells(properties: SpatialInertia | None) -> tuple[str, ...]:
     if properties is None:
         return ("–",) * (len(_HEADS) - 2)
     values = (properties.mass, *properties.com, *properties.tensor)
@@ -39,7 +39,7 @@ def _collect_cells(properties: SpatialInertia | None) -> tuple[str, ...]:
 def as_json(lumped: Lumped, robot: Robot) -> str:
     """Format the bodies, the whole and the joint positions as one object."""
     assert robot.source is not None
-    found = {
+    record = {
         "version": 1,
         "robot": robot.name,
         "path": robot.source.path,
@@ -55,7 +55,7 @@ def as_json(lumped: Lumped, robot: Robot) -> str:
         "whole": {"frame": lumped.root, "properties": _build_dict(lumped.whole)},
         "notes": [note.message for note in lumped.notes],
     }
-    return format_json(found, 1) + "\n"
+    return format_json(record, 1) + "\n"
 
 
 def _build_dict(properties: SpatialInertia | None) -> dict[str, Any] | None:

@@ -34,20 +34,20 @@ HEADS = (
 )
 UNITS = ("", "kg", "kg", "", "deg", "mm", "kg/m³", "")
 _COLORS = {"wrong": "red", "doubtful": "yellow", "incomplete": "yellow", "missing": "yellow"}
-_LONGEST_NAME = 40
+_LONGEST_NAME = 40  # characters of a link's name in a table
 
 
 def format_table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:
     """Format a row for each link, with four digits."""
     rows: list[Sequence[Cell]] = [(*HEADS, ""), (*UNITS, "")]
     rows += [
-        (*_collect_cells(item), (_format_verdict(item), _COLORS.get(item.status)))
+        (*_format_cells(item), (_format_verdict(item), _COLORS.get(item.status)))
         for item in reviews
     ]
     return render_table(rows, left=(0, 7, 8), colors=colors)
 
 
-def _collect_cells(item: LinkReview) -> tuple[str, ...]:
+def _format_cells(item: LinkReview) -> tuple[str, ...]:
     name = escape_controls(item.link.name)
     name = name if len(name) <= _LONGEST_NAME else name[: _LONGEST_NAME - 1] + "…"
     inertial = item.link.inertial
@@ -60,10 +60,12 @@ def _collect_cells(item: LinkReview) -> tuple[str, ...]:
             source += " (lacks)"
         elif not item.body.reliable:
             source += " (unsure)"
-    return (name, written, implied, *_collect_compared(item.comparison, item), source)
+    return (name, written, implied, *_format_comparison(item.comparison, item), source)
 
 
-def _collect_compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str, str, str]:
+def _format_comparison(
+    comparison: Comparison | None, item: LinkReview
+) -> tuple[str, str, str, str]:
     if comparison is None:
         density = ""
         if item.implied is not None and item.body is not None:
@@ -101,16 +103,16 @@ def format_remarks(
         colors: Whether to use colors.
     """
     paint = Painter(colors)
-    said: dict[tuple[str, str], list[str]] = {}
+    links_of_fault: dict[tuple[str, str], list[str]] = {}
     for item in reviews:
         for fault in item.faults:
-            said.setdefault((str(fault.location), fault.code), []).append(
+            links_of_fault.setdefault((str(fault.location), fault.code), []).append(
                 escape_controls(item.link.name)
             )
     for item in reviews:
         name = escape_controls(item.link.name)
         for fault in item.faults:
-            names = said.pop((str(fault.location), fault.code), [])
+            names = links_of_fault.pop((str(fault.location), fault.code), [])
             if names:
                 who = f"link '{names[0]}'" + f" and {len(names) - 1} more" * (len(names) > 1)
                 place, message = (

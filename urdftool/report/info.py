@@ -15,7 +15,7 @@ from .counted import format_count
 from .findings import Painter
 from .json_text import format_json
 
-_MOST = 6
+_MOST = 6  # names in one line
 
 
 def format_table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = False) -> str:
@@ -116,16 +116,18 @@ def _format_short(folder: str) -> str:
 def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
     """Format the properties and each mesh as one object; lengths [m], masses [kg]."""
     bounds = measured.bounds
-    said: dict[str, Any] = {"version": 1, "name": robot.name}
-    said["path"] = robot.source.path if robot.source is not None else None
-    said |= asdict(counts)
+    record: dict[str, Any] = {"version": 1, "name": robot.name}
+    record["path"] = robot.source.path if robot.source is not None else None
+    record |= asdict(counts)
     for kind in ("plugins", "sensors", "hardware"):
-        said[kind] = [
+        record[kind] = [
             {"name": named.name, "type": named.what, "on": named.on}
             for named in getattr(counts, kind)
         ]
-    said["size"] = None if bounds is None else list(bounds.size)
-    said["bounds"] = None if bounds is None else {"low": bounds.low, "high": bounds.high}
-    said["meshes"] = [{**asdict(mesh), "reason": mesh.reason or None} for mesh in measured.meshes]
-    said["triangles"] = {kind: measured.count_triangles(kind) for kind in ("visuals", "collisions")}
-    return format_json(said, 1) + "\n"
+    record["size"] = None if bounds is None else list(bounds.size)
+    record["bounds"] = None if bounds is None else {"low": bounds.low, "high": bounds.high}
+    record["meshes"] = [{**asdict(mesh), "reason": mesh.reason or None} for mesh in measured.meshes]
+    record["triangles"] = {
+        kind: measured.count_triangles(kind) for kind in ("visuals", "collisions")
+    }
+    return format_json(record, 1) + "\n"

@@ -117,12 +117,12 @@ def get_facts(rule: Rule) -> list[tuple[str, str]]:
     on = "always" if rule.on is None else "for " + ", ".join(rule.on)
     if not rule.default:
         on = f"when selected (--extend-select {rule.name})"
-    found = [("Severity", severity), ("On", on)]
+    facts = [("Severity", severity), ("On", on)]
     if rule.name in FIXES:
-        found.append(("Fix", FIXES[rule.name].described))
+        facts.append(("Fix", FIXES[rule.name].described))
     for threshold, default in rule.thresholds.items():
-        found.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
-    return found
+        facts.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
+    return facts
 
 
 def _load_sources() -> dict[str, dict[str, str]]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..simulation.fault import Fault
     from ..simulation.verdict import Verdict
 
-_MOST = 6
+_MOST = 6  # names in one line
 
 
 def format_text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:

@@ -28,7 +28,7 @@ def format_table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = F
     for row in rows:
         if skipped or not row.skipped:
             rest = "" if row.settled is None else f"{row.settled:.2f} s"
-            lines.append((row.path, _collect_word(row), rest, _format_what(row)))
+            lines.append((row.path, _get_verdict_word(row), rest, _format_what(row)))
     return f"{render_table(lines, left=(0, 1, 3), colors=colors)}{summarize(rows)}\n"
 
 
@@ -45,7 +45,7 @@ def summarize(rows: Sequence[Row]) -> str:
     return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {words or 'none'}"
 
 
-def _collect_word(row: Row) -> tuple[str, str]:
+def _get_verdict_word(row: Row) -> tuple[str, str]:
     if row.error is not None:
         return "error", "red"
     if row.skipped:

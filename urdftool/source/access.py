@@ -42,7 +42,7 @@ def _is_model(folder: Path, files: Workspace) -> bool:
     return files.is_file(folder / _MODEL_MARK)
 
 
-def check_companion(mesh: Path, path: Path) -> Path:
+def require_companion(mesh: Path, path: Path) -> Path:
     """Check a file that a mesh file refers to: it is in the project of the mesh.
 
     Args:
@@ -76,14 +76,14 @@ def list_companions(mesh: Path, pattern: str) -> list[Path]:
         pattern: Name with wildcards.
     """
     files = Workspace()
-    found = files.list_matches(mesh.parent, pattern)
-    return [path for path in found if files.is_file(path) and is_companion_allowed(mesh, path)]
+    companions = files.list_matches(mesh.parent, pattern)
+    return [path for path in companions if files.is_file(path) and is_companion_allowed(mesh, path)]
 
 
 def is_companion_allowed(mesh: Path, path: Path) -> bool:
-    """Tell whether a mesh file may refer to a file; see :func:`check_companion`."""
+    """Tell whether a mesh file may refer to a file; see :func:`require_companion`."""
     try:
-        check_companion(mesh, path)
+        require_companion(mesh, path)
     except OSError:
         return False
     return True
@@ -217,14 +217,14 @@ class FileAccess:
     def _list_roots(self, files: Workspace) -> list[Path]:
         """Return the real paths of the folders below which the description reads."""
         packages = self._packages
-        found: list[str | Path | None] = [
+        roots: list[str | Path | None] = [
             find_project(file, files) for file in self._list_own_files(files)
         ]
-        found += [*packages.named.values(), *packages.paths, *packages.list_configured()]
+        roots += [*packages.named.values(), *packages.paths, *packages.list_configured()]
         for variable in (*_PACKAGE_PATHS, *MODEL_PATHS):
-            found += (files.read_variable(variable) or "").split(os.pathsep)
-        found.append(_SYSTEM)
-        real = (Path(_resolve(files, folder)) for folder in found if folder)
+            roots += (files.read_variable(variable) or "").split(os.pathsep)
+        roots.append(_SYSTEM)
+        real = (Path(_resolve(files, folder)) for folder in roots if folder)
         return list(dict.fromkeys((*real, *self._allowed)))
 
     def _is_in_package(self, real: Path, files: Workspace) -> bool:

@@ -24,6 +24,7 @@ from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH, STAGE_HEADS, run_parser
 
 MAX_BYTES = 32 * 1024 * 1024
+"""Of a file of a description; chosen, no source: the largest of 219 real ones has 142 kB."""
 
 MAX_STAGE_BYTES = 1024 * 1024 * 1024
 """Limit of a stage of USD, which contains its meshes."""

@@ -82,12 +82,12 @@ class ExpansionFiles:
             XacroError: The description may not read it.
             SourceError: It cannot be read.
         """
-        found = shorten_path(self._packages.find_installed(path))
-        if found not in self._indices:
-            self._sandbox.check_file(found)
-            self.files.append(read_file(found, self._packages.workspace))
-            self._indices[found] = len(self.files) - 1
-        index = self._indices[found]
+        installed = shorten_path(self._packages.find_installed(path))
+        if installed not in self._indices:
+            self._sandbox.check_file(installed)
+            self.files.append(read_file(installed, self._packages.workspace))
+            self._indices[installed] = len(self.files) - 1
+        index = self._indices[installed]
         return index, self.files[index]
 
     def read_yaml(self, path: str) -> bytes:
@@ -123,9 +123,9 @@ class ExpansionFiles:
                 rule="include-not-found",
             )
         self._sandbox.check_file(os.path.dirname(fixed))
-        found = self._packages.workspace.match(pattern)
+        paths = self._packages.workspace.match(pattern)
         # a link that matches may lead to the folders of others
-        return [path for path in found if not self._packages.access.explain_refusal(path)]
+        return [path for path in paths if not self._packages.access.explain_refusal(path)]
 
     def suggest_path(self, path: str) -> tuple[str, str]:
         """Return what helps to correct the path of a file that cannot be read.

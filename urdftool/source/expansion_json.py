@@ -150,12 +150,12 @@ class Reader:
         self._value = value
         self._files = files
         for file, encoding in zip(files, value["encodings"], strict=False):
-            file.encoding = codecs.lookup(_check_text(encoding)).name and encoding
+            file.encoding = codecs.lookup(_require_text(encoding)).name and encoding
         calls = [
             Call(
                 *self._read_start(index, start),
-                _check_text(macro),
-                tuple((_check_text(k), _check_text(v)) for k, v in arguments),
+                _require_text(macro),
+                tuple((_require_text(k), _require_text(v)) for k, v in arguments),
             )
             for index, start, macro, arguments in value["call_table"]
         ]
@@ -168,44 +168,46 @@ class Reader:
         value = self._value
         result.tree = self._read_tree(value["nodes"])
         for name, default, place in value["arguments"]:
-            argument = Argument(_check_text(name), _check_text(default), self._read_place(place))
+            argument = Argument(
+                _require_text(name), _require_text(default), self._read_place(place)
+            )
             result.arguments[argument.name] = argument
         result.warnings = [
-            Warned(_check_text(message), None if place is None else self._read_place(place))
+            Warned(_require_text(message), None if place is None else self._read_place(place))
             for message, place in value["warnings"]
         ]
-        return [_check_text(path) for path in value["included"]]
+        return [_require_text(path) for path in value["included"]]
 
     def read_error(self) -> UrdftoolError:
         """Return an error."""
         value = self._value
-        kind = _ERRORS.get(_check_text(value["error"]), XacroError)
-        facts: Json = {key: _check_text(value[key]) for key in ("rule", "case")}
+        kind = _ERRORS.get(_require_text(value["error"]), XacroError)
+        facts: Json = {key: _require_text(value[key]) for key in ("rule", "case")}
         if value["path"] is not None:
-            facts["path"] = _check_text(value["path"])
+            facts["path"] = _require_text(value["path"])
         for key in ("line", "column"):
-            facts[key] = None if value[key] is None else _check_number(value[key])
+            facts[key] = None if value[key] is None else _require_number(value[key])
         at = value["at"]
         return kind(
-            _check_text(value["message"]),
+            _require_text(value["message"]),
             **facts,
-            data={_check_text(key): one for key, one in value["data"].items()},
+            data={_require_text(key): one for key, one in value["data"].items()},
             at=None if at is None else self._read_place(at),
             calls=_pick(self._stacks, value["calls"]),
-            notes=[_check_text(note) for note in value["notes"]],
+            notes=[_require_text(note) for note in value["notes"]],
         )
 
     def _read_start(self, index: Any, start: Any) -> tuple[SourceFile, int]:
         """Return a file and the position of a byte in it."""
         file = _pick(self._files, index)
-        if _check_number(start) > len(file.data):
+        if _require_number(start) > len(file.data):
             raise ValueError(f"byte {start} of a file of {len(file.data)}")
         return file, start
 
     def _read_place(self, place: Any) -> Place:
         index, start, end, calls = place
         file, _ = self._read_start(index, end)
-        if _check_number(start) > end:
+        if _require_number(start) > end:
             raise ValueError(f"from byte {start} to byte {end}")
         return Place(file, start, end, _pick(self._stacks, calls))
 
@@ -214,20 +216,20 @@ class Reader:
         above: list[Parent] = [document]
         roots = 0
         for depth, kind, *rest in nodes:
-            if not 0 < _check_number(depth) <= min(len(above), MAX_DEPTH + 1):
+            if not 0 < _require_number(depth) <= min(len(above), MAX_DEPTH + 1):
                 raise ValueError(f"depth {depth} below {len(above)}")
             del above[depth:]
             if isinstance(kind, int):
                 if kind not in _KINDS:
                     raise ValueError(f"kind {kind}")
-                above[-1].appendChild(Characters(_check_text(rest[0]), kind))
+                above[-1].appendChild(Characters(_require_text(rest[0]), kind))
                 continue
             attributes, file, start, calls = rest
             values = Attributes(attributes)
             for text in values.values():
-                _check_text(text)
+                _require_text(text)
             element = XacroElement(
-                _check_text(kind),
+                _require_text(kind),
                 values,
                 *self._read_start(file, start),
                 _pick(self._stacks, calls),
@@ -245,16 +247,16 @@ class Reader:
 
 
 def _pick(items: Sequence[T], index: Any) -> T:
-    return items[_check_number(index)]
+    return items[_require_number(index)]
 
 
-def _check_number(value: Any) -> int:
+def _require_number(value: Any) -> int:
     if type(value) is not int or value < 0:
         raise TypeError(f"{value!r} in place of a number from 0")
     return value
 
 
-def _check_text(value: Any) -> str:
+def _require_text(value: Any) -> str:
     if type(value) is not str:
         raise TypeError(f"{type(value).__name__} in place of text")
     return value

@@ -274,13 +274,13 @@ class _Interpreter(_Process):
     def __init__(self, job: dict[str, Any], data: bytes) -> None:
         import subprocess
 
-        kept = ("LANG", "LC_ALL", "LC_CTYPE", "SYSTEMROOT", "LD_LIBRARY_PATH")
+        variables = ("LANG", "LC_ALL", "LC_CTYPE", "SYSTEMROOT", "LD_LIBRARY_PATH")
         self._process = subprocess.Popen(
             [sys.executable, "-c", _START, *sys.path],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env={name: os.environ[name] for name in kept if name in os.environ},
+            env={name: os.environ[name] for name in variables if name in os.environ},
         )
         stdin, stdout = self._process.stdin, self._process.stdout
         assert stdin is not None

@@ -26,7 +26,7 @@ TOTAL_SECONDS = 15.0
 MEMORY = 512 << 20
 """Maximum growth of the process during an expansion [bytes]; chosen."""
 
-_INTERVAL = 0.25
+_INTERVAL = 0.25  # s of processor time between two checks of a limit; chosen, no source
 
 
 def make_time_error(at: Place | None) -> XacroError:
@@ -89,5 +89,5 @@ def _measure_peak_memory() -> int:
     """Return the maximum resident memory of the process so far [bytes]."""
     import resource
 
-    found = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return found if sys.platform == "darwin" else found * 1024
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else peak * 1024

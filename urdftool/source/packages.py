@@ -29,10 +29,10 @@ _MAX_MANIFEST = 1 << 20  # bytes of a package.xml that are searched; chosen, rea
 _IGNORE_FILES = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _SKIP_FOLDERS = frozenset(("node_modules", "build", "install", "devel", "log", "__pycache__"))
 _WORKSPACE_MARKS = (".git", ".hg", "src", ".catkin_workspace", ".catkin_tools", ".colcon")
-_MAX_DEPTH = 7
-_MAX_FOLDERS = 20_000
-_MAX_CLIMB = 6
-_NEAR = 3
+_MAX_DEPTH = 7  # levels of folders that a search visits; chosen, no source
+_MAX_FOLDERS = 20_000  # folders that one search visits; chosen, no source
+_MAX_CLIMB = 6  # folders from a file upward that are searched; chosen, no source
+_NEAR = 3  # folders above a file in which a package is assumed; chosen, no source
 
 
 @memoize_by_workspace
@@ -72,7 +72,7 @@ def find_packages(folder: Path, workspace: Workspace | None = None) -> dict[str,
 
 @memoize_by_workspace
 def _scan_packages(workspace: Workspace, folder: str) -> dict[str, Path]:
-    found: dict[str, Path] = {}
+    packages: dict[str, Path] = {}
     level = [folder]
     seen: set[str] = set()
     for _ in range(_MAX_DEPTH):
@@ -83,7 +83,7 @@ def _scan_packages(workspace: Workspace, folder: str) -> dict[str, Path]:
                 continue
             seen.add(real)
             if len(seen) > _MAX_FOLDERS:
-                return found
+                return packages
             try:
                 listing = workspace.list_folder(place)
             except OSError:
@@ -94,7 +94,7 @@ def _scan_packages(workspace: Workspace, folder: str) -> dict[str, Path]:
             if "package.xml" in names:
                 name = _read_package_name(workspace, place)
                 if name:
-                    found.setdefault(name, Path(place))
+                    packages.setdefault(name, Path(place))
                 continue
             following.extend(
                 entry.path
@@ -104,7 +104,7 @@ def _scan_packages(workspace: Workspace, folder: str) -> dict[str, Path]:
                 and entry.is_folder
             )
         level = sorted(following)
-    return found
+    return packages
 
 
 def shorten_path(path: str | Path) -> str:
@@ -201,8 +201,8 @@ class Packages:
 
     def find_by_manifest(self, name: str) -> Path | None:
         """Return the folder in which :meth:`find` finds a package; None without a manifest."""
-        found = (folder for _, folder in self._list_packages(name) if folder is not None)
-        return next((folder for folder in found if self.files.is_folder(folder)), None)
+        folders = (folder for _, folder in self._list_packages(name) if folder is not None)
+        return next((folder for folder in folders if self.files.is_folder(folder)), None)
 
     def list_configured(self) -> list[Path]:
         """Return the configured folders that the description may read."""
@@ -300,11 +300,11 @@ class Packages:
             return None
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_NEAR]
         files = self.files
-        found = [folder / name for folder in above if files.is_file(folder / name / inner)]
-        if len({files.resolve_links(folder) for folder in found}) != 1:
+        folders = [folder / name for folder in above if files.is_file(folder / name / inner)]
+        if len({files.resolve_links(folder) for folder in folders}) != 1:
             return None
-        self.assumed[name] = found[0]
-        return found[0]
+        self.assumed[name] = folders[0]
+        return folders[0]
 
     def _list_candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
         """Yield each searched place: its text for the notes, and the folder, if it exists."""

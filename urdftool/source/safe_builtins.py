@@ -17,11 +17,11 @@ from typing import Any
 HOW = "pass --trust if the input is trusted"
 """Remedy in messages about what untrusted input may not do."""
 
-MAX_BITS = 100_000
-MAX_LENGTH = 10_000_000
-MAX_RANGE = 1_000_000
-MAX_WIDTH = 9_999
-MAX_DIGITS = 400
+MAX_BITS = 100_000  # bits of an integer; chosen, no source
+MAX_LENGTH = 10_000_000  # characters of a text, elements of a list; chosen, no source
+MAX_RANGE = 1_000_000  # numbers of a range; chosen, no source
+MAX_WIDTH = 9_999  # characters to which a value is formatted; chosen, no source
+MAX_DIGITS = 400  # to which a number is rounded; doubles end at 5e-324; chosen, no source
 
 _WIDE = re.compile(r"\*|\d{5}")  # also digits of other scripts
 _SEQUENCES = (str, bytes, list, tuple)
@@ -101,10 +101,10 @@ def make_range(*bounds: Any) -> range:
     Raises:
         OverflowError: It has more than ``MAX_RANGE`` numbers.
     """
-    found = range(*bounds)
-    if found and abs(found[-1] - found[0]) // abs(found.step) >= MAX_RANGE:
+    numbers = range(*bounds)
+    if numbers and abs(numbers[-1] - numbers[0]) // abs(numbers.step) >= MAX_RANGE:
         raise _make_size_error()
-    return found
+    return numbers
 
 
 def sum_values(things: Iterable[Any], start: Any = 0) -> Any:

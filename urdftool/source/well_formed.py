@@ -13,7 +13,7 @@ from xml.parsers import expat
 from ..errors import XmlError
 from .location import Place, SourceFile
 
-MAX_DEPTH = 200
+MAX_DEPTH = 200  # nested elements; chosen, no source: the deepest of 219 real ones has 9
 
 
 class OpenElement(Protocol):
@@ -174,7 +174,7 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     return reason, rule, case
 
 
-_UNBOUND_PREFIX = 27
+_UNBOUND_PREFIX = 27  # XML_ERROR_UNBOUND_PREFIX of expat
 _NOT_CLOSED = ("mismatched tag", "no element found")
 
 

@@ -33,10 +33,10 @@ from .xacro_symbols import make_ros1_evaluation, make_symbols
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
 from .yaml_bounds import check_yaml
 
-MAX_CALLS = 400
-MAX_ELEMENTS = 200_000
-MAX_INCLUDES = 100
-_RECURSION_LIMIT = 6000
+MAX_CALLS = 400  # nested calls of macros; chosen, no source
+MAX_ELEMENTS = 200_000  # elements of an expansion; chosen, no source
+MAX_INCLUDES = 100  # nested includes; chosen, no source
+_RECURSION_LIMIT = 6000  # frames of Python; chosen, no source: 15 for each of MAX_CALLS
 _SHOWN = 100  # characters of a text in a message
 
 
@@ -216,9 +216,9 @@ class Run:
     def list_functions(self) -> dict[str, Callable[..., Any]]:
         """Return the functions of the namespace ``xacro`` of expressions."""
         original = xacro._global_symbols["xacro"]
-        kept = ("abs_filename", "arg", "dotify", "fatal", "tokenize")
+        names = ("abs_filename", "arg", "dotify", "fatal", "tokenize")
         return {
-            **{name: original[name] for name in kept},
+            **{name: original[name] for name in names},
             "load_yaml": self.load_yaml,
             "message": self.make_printer(""),
             "warning": self.make_printer("warning: "),

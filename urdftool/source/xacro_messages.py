@@ -41,15 +41,15 @@ _ARGUMENTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg":
 
 def list_causes(error: BaseException) -> list[BaseException]:
     """Return the error and its causes, in all forms in which xacro wraps them."""
-    found: list[BaseException] = []
+    causes: list[BaseException] = []
     todo: list[BaseException | None] = [error]
     while todo:
         cause = todo.pop()
-        if cause is not None and cause not in found:
-            found.append(cause)
+        if cause is not None and cause not in causes:
+            causes.append(cause)
             todo.extend((cause.__context__, cause.__cause__, getattr(cause, "exc", None)))
             todo.append(getattr(cause, "error", None))
-    return found
+    return causes
 
 
 class Failure(NamedTuple):
@@ -209,9 +209,11 @@ def _explain_blocks(failure: Failure) -> Explanation | None:
         given = [f"<{child.tagName}>" for child in _list_children(node)]
         names = ", ".join(f"'{name.lstrip('*')}'" for name in parameters)
         called = node.tagName
-        expected = f"macro '{called[6:]}' has {_count_block_parameters(len(parameters))}"
+        expected = f"macro '{called[6:]}' has {_format_block_parameters(len(parameters))}"
         has = (
-            f"{_count_elements(len(given))} ({', '.join(given)})" if given else "no child elements"
+            f"{_format_child_elements(len(given))} ({', '.join(given)})"
+            if given
+            else "no child elements"
         )
         if few:
             rest = ", ".join(f"'{name.lstrip('*')}'" for name in parameters[len(given) :])
@@ -333,12 +335,12 @@ def _list_children(node: XacroElement) -> Iterator[XacroElement]:
             yield child
 
 
-def _count_block_parameters(count: int) -> str:
+def _format_block_parameters(count: int) -> str:
     names = {0: "no block parameters", 1: "one block parameter"}
     return names.get(count, f"{count} block parameters")
 
 
-def _count_elements(count: int) -> str:
+def _format_child_elements(count: int) -> str:
     return "one child element" if count == 1 else f"{count} child elements"
 
 

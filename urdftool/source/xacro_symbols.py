@@ -31,22 +31,22 @@ def make_symbols(
         trusted: Whether the input is trusted.
     """
     spaces = {"python": PYTHON, "math": MATH, "xacro": functions}
-    found: dict[str, Any] = {}
+    symbols: dict[str, Any] = {}
     for space, allowed in spaces.items():
         known = original[space]
         if trusted:
             bounded = {name: value for name, value in BOUNDED.items() if name in known}
             allowed = {**known, **(allowed if space == "xacro" else bounded)}
         refused = {name: refuse_function(f"{space}.{name}") for name in known}
-        found[space] = type(known)()  # a parent would expose Python's functions
-        found[space].update({**refused, **allowed})
+        symbols[space] = type(known)()  # a parent would expose Python's functions
+        symbols[space].update({**refused, **allowed})
     for name, value in original.items():
         owner = next((space for space in spaces if name in original[space]), None)
         if owner is not None and name not in spaces:
             deprecated = value is not original[owner][name]
-            value = found[owner][name]
-            found[name] = _wrap_deprecated(value, name, owner, warn) if deprecated else value
-    return found
+            value = symbols[owner][name]
+            symbols[name] = _wrap_deprecated(value, name, owner, warn) if deprecated else value
+    return symbols
 
 
 def make_ros1_evaluation(ros: Any, *, trusted: bool) -> Callable[[str, dict[str, Any]], str]:

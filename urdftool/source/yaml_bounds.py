@@ -7,10 +7,10 @@ from typing import Any
 
 from ..errors import XacroError
 
-MAX_BYTES = 32 * 1024 * 1024
+MAX_BYTES = 32 * 1024 * 1024  # of a file of YAML, as of a description; chosen, no source
 MAX_VALUES = 1_000_000
-"""Maximum number of values and characters of a file, with aliases resolved."""
-MAX_DEPTH = 100
+"""Maximum number of values and characters of a file, with aliases resolved. Chosen, no source."""
+MAX_DEPTH = 100  # nested values; chosen, no source
 
 
 def check_yaml(text: str, name: str, loader: Any) -> Any:

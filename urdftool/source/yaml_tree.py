@@ -11,11 +11,11 @@ from ..errors import ConfigError
 from .document import read_file
 from .location import Place, SourceFile
 
-MOST_BYTES = 256 * 1024
+MOST_BYTES = 256 * 1024  # of a controller file; chosen, no source
 MOST_NODES = 50_000
-"""Maximum number of nodes of a tree, with aliases resolved."""
+"""Maximum number of nodes of a tree, with aliases resolved. Chosen, no source."""
 
-_DEEP = 100
+_DEEP = 100  # nested values; chosen, no source
 _YES, _NO = ("true", "yes", "on"), ("false", "no", "off")
 
 

@@ -9,7 +9,7 @@ from urdftool.compare.check import is_faithful
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
-from urdftool.report.exports import check_table
+from urdftool.report.exports import format_check_table
 
 from .robots import joint, robot
 
@@ -85,7 +85,7 @@ def test_a_random_robot_is_itself(write, odd, seed):
     written = write_mjcf(found, options)
     checks = verify_copy(found, options, written)
     same_robot = [check for check in checks if check.name != "runs"]  # random masses may diverge
-    assert is_faithful(same_robot), check_table(checks)
+    assert is_faithful(same_robot), format_check_table(checks)
     exact = {"lossy-inertia", "lossy-massless"}.isdisjoint(loss.code for loss in written.losses)
     if exact:
-        assert {check.verdict for check in same_robot} == {"equal"}, check_table(checks)
+        assert {check.verdict for check in same_robot} == {"equal"}, format_check_table(checks)

@@ -9,7 +9,7 @@ from urdftool.formats.common.directory import write_directory
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
-from urdftool.report.exports import check_table
+from urdftool.report.exports import format_check_table
 
 from .goldens import FOLDER, GOLDENS
 from .robots import joint, link, robot
@@ -34,7 +34,7 @@ def test_small_robots_are_equal(name, base, tmp_path):
     options = Options(srdf=GOLDENS[name].srdf, base=base, actuators="position")
     checks = verified(name, tmp_path, options)
     expected = {"platform": {"equal", "announced"}}.get(name, {"equal"})
-    assert {check.verdict for check in checks} <= expected, check_table(checks)
+    assert {check.verdict for check in checks} <= expected, format_check_table(checks)
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_a_table():
     off.compare(1.0, "link 'x'")
     off.compare(float("nan"), "link 'y'", known=True)
     assert off.verdict == "differs"
-    table = check_table([equal, off])
+    table = format_check_table([equal, off])
     assert "b: differs: link 'x'" in table
     assert "b: announced: link 'y'" in table
 

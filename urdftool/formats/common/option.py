@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 from typing import Any, Literal, TypeVar, get_args
 
 from ...errors import ConfigError
-from ...suggestions import suggest_name
+from ...suggestions import require_word
 
 T = TypeVar("T")
 
@@ -101,10 +101,8 @@ def check_options(options: Any) -> None:
 
 
 def _check_value(name: str, option: Option, value: Any) -> None:
-    if option.words and option.kind is str and value not in option.words:
-        known = ", ".join(option.words)
-        hint = suggest_name(str(value), option.words)
-        raise ConfigError(f"{name} is {value!r}, which is not one of {known}{hint}")
+    if option.words and option.kind is str:
+        require_word(name, value, option.words)
     if option.kind is float and not _is_number(value, option.minimum):
         least = "" if option.minimum == -math.inf else f" of at least {option.minimum:g}"
         raise ConfigError(f"{name} is {value!r}, which is not a finite number{least}")

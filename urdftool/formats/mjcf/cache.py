@@ -9,7 +9,7 @@ from typing import Any
 
 from ...geometry.mesh import MeshNote
 from ...parallel import count_cores, map_tasks, yield_in_order
-from ...source.access import check_companion
+from ...source.access import require_companion
 from ...source.description import GltfUp
 from ...storage import DiskCache, cache_folder, cache_key, join_parts, split_parts
 from .convert import Converted, Piece, call_conversion
@@ -60,7 +60,7 @@ def _get_key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
         inputs = [path.read_bytes()]
         if suffix == ".obj":
             others = dict.fromkeys(path.parent / name for name in _list_libraries(inputs[0]))
-            inputs += [check_companion(path, o).read_bytes() for o in others if o.is_file()]
+            inputs += [require_companion(path, o).read_bytes() for o in others if o.is_file()]
     except (OSError, ValueError):
         return None
     return cache_key(_VERSION, [collides, suffix, gltf_up if suffix == ".glb" else ""], inputs)

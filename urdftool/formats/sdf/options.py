@@ -151,8 +151,8 @@ class Options:
 
     def is_at_least(self, version: str) -> bool:
         """Tell whether the exported version is this one or newer."""
-        return _collect_parts(self.sdf_version) >= _collect_parts(version)
+        return _parse_version(self.sdf_version) >= _parse_version(version)
 
 
-def _collect_parts(version: str) -> tuple[int, ...]:
+def _parse_version(version: str) -> tuple[int, ...]:
     return tuple(map(int, version.split(".")))
