@@ -117,3 +117,49 @@ def test_a_joint_of_a_link_without_mass_in_the_world(tmp_path):
     assert [link.name for link in robot.tree.roots] == ["world"]
     assert [(j.name, j.type, j.parent) for j in robot.joints] == [("j", "revolute", "world")]
     assert urdftool.verify(tmp_path / "r.urdf", robot).is_equal
+
+
+HOLD = """    def PhysicsFixedJoint "hold"
+    {{
+        rel physics:body1 = </r/a>
+        bool physics:jointEnabled = {}
+    }}
+"""
+
+
+@pytest.mark.parametrize("enabled", [True, False])
+def test_a_disabled_joint_to_the_world_holds_no_base(read, enabled):
+    robot = read(stage(body("a"), HOLD.format(int(enabled)))).robot
+    assert robot.base.is_free is not enabled
+
+
+@pytest.mark.parametrize(
+    ("at", "kind", "is_apart"),
+    [
+        ("(0, 0, 0)", "Revolute", False),
+        ("(0.01, 0, 0)", "Revolute", True),
+        ("(0, 0, 0.01)", "Revolute", True),
+        ("(0, 0, 0.01)", "Prismatic", False),
+        ("(0.01, 0, 0.01)", "Prismatic", True),
+        ("(0.00001, 0, 0)", "Fixed", False),
+        ("(0, 0.01, 0)", "Fixed", True),
+        ("(0, 0.01, 0)", "Spherical", True),
+    ],
+)
+def test_a_body_apart_from_its_joint_is_reported(read, at, kind, is_apart):
+    text = stage(body("a"), body("b", at=at), turning("j", "a", "b"))
+    reading = read(text.replace("PhysicsRevoluteJoint", f"Physics{kind}Joint"))
+    codes = [loss.code for loss in reading.losses]
+    assert ("unread-joint-apart" in codes) is is_apart
+
+
+@pytest.mark.parametrize("value", [90, 180])
+def test_attributes_that_contradict_each_other_are_reported(read, value):
+    more = (
+        "        float newton:velocityLimit = 90\n"
+        f"        float physxJoint:maxJointVelocity = {value}"
+    )
+    reading = read(stage(body("a"), body("b"), turning("j", "a", "b", more)))
+    assert reading.robot.joint["j"].limit.velocity == pytest.approx(math.pi / 2)
+    found = [loss for loss in reading.losses if loss.code == "unread-contradiction"]
+    assert len(found) == (value != 90)

@@ -20,6 +20,9 @@ from .read_places import Layers
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
 """Quaternion of the identity."""
 
+_ROUNDING = 1e-6
+"""Relative difference of two 32-bit floats that rounding of one number explains: 8 ulp."""
+
 _UNSCALED = 1e-6
 """Difference of the scale from 1 that rounding explains."""
 
@@ -36,7 +39,7 @@ class Context:
         mass: Kilograms in a unit of mass.
         is_ours: Whether urdftool wrote the stage.
         bodies: Prims of rigid bodies by path, in the order of the stage.
-        joints: Prims of enabled joints, in the order of the stage.
+        joints: Prims of joints, in the order of the stage.
         names: Name of the link of each body or frame, by path.
         shifts: Pose of the frame of each link in the frame of its prim, by path.
     """
@@ -106,9 +109,12 @@ class Context:
     def get_value(self, prim: Usd.Prim, *names: str) -> float | None:
         """Return the value of the first attribute with an authored number; None without one.
 
+        Attributes that say the same for different simulators and differ are reported.
+
         Raises:
-            ModelError: It is not a number, or NaN.
+            ModelError: One is not a number, or NaN.
         """
+        found: dict[str, float] = {}
         for name in names:
             attribute = prim.GetAttribute(name)
             if attribute and attribute.HasAuthoredValue():
@@ -116,8 +122,15 @@ class Context:
                 number = float(value) if isinstance(value, (int, float)) else math.nan
                 if math.isnan(number):
                     raise self.make_error(prim, name, f"must be a number, but is {value}")
-                return number
-        return None
+                found[name] = number
+        first = next(iter(found.values()), None)
+        for name, number in found.items():
+            if first is not None and not math.isclose(number, first, rel_tol=_ROUNDING):
+                text = "attributes contradict each other, and the first is read"
+                what = f"{prim.GetName()}: {' and '.join(f'{n} {v:g}' for n, v in found.items())}"
+                self.losses.add("contradiction", text, what, self.get_place(prim, name))
+                break
+        return first
 
     def get_vector(
         self, prim: Usd.Prim, name: str, default: tuple[float, ...]

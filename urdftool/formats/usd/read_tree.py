@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ from ...model.mechanism import Base, Closure, Frame
 from ...model.pose import (
     IDENTITY,
     Pose,
+    compute_dot,
     compute_norm,
     get_origin_at,
     rotate,
@@ -28,8 +30,16 @@ from .read_stage import NO_TURN, Context, get_targets, scale_point
 _NOISE = 1e-7
 """Component of an axis below which it is rounding noise of 32-bit floats."""
 
+_DIRECTIONS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
 _SAME = 1e-5
 """Difference [m] of transforms and joint frames that rounding explains."""
+
+
+_APART, _TURNED = 1e-4, 1e-3
+"""Distance [m] and turn (difference of directions of length 1) of a body from where its joint holds
+it, above which it is reported. Chosen: 32-bit floats of coordinates up to 100 m differ by 8e-6 m.
+"""
 
 
 @dataclass(frozen=True)
@@ -89,6 +99,7 @@ def add_tree(context: Context, robot: Robot) -> None:
         prim = context.stage.GetPrimAtPath(path)
         robot.links.append(Link(context.get_written(prim), context.names[path]))
     for edge in tree:
+        _report_apart(context, edge)
         if edge.first or "" in context.names or edge.kind.type != "fixed":
             joint = _make_joint(context, edge, frames, taken)
             robot.joints.append(joint)
@@ -266,12 +277,33 @@ def _compute_child_pose(context: Context, edge: _Edge) -> Pose:
     agree, that is, if the stage shows the joint at zero.
     """
     at_zero = edge.first_pose @ edge.second_pose.invert()
-    shown = context.get_pose(context.bodies[edge.second])
-    if edge.first:
-        shown = context.get_pose(context.bodies[edge.first]).invert() @ shown
+    shown = _get_shown_pose(context, edge)
     difference = at_zero.invert() @ shown
     turned = max(abs(difference.rotation[i][i] - 1.0) for i in range(3))
     return shown if compute_norm(difference.translation) < _SAME and turned < _SAME else at_zero
+
+
+def _get_shown_pose(context: Context, edge: _Edge) -> Pose:
+    """Return the pose of the second body in the first, as the transforms of the stage have it."""
+    shown = context.get_pose(context.bodies[edge.second])
+    if edge.first:
+        shown = context.get_pose(context.bodies[edge.first]).invert() @ shown
+    return shown
+
+
+def _report_apart(context: Context, edge: _Edge) -> None:
+    """Report a body whose transform is none that its joint allows."""
+    kind, axis = edge.kind.type, edge.kind.axis
+    if kind not in ("fixed", "revolute", "continuous", "prismatic", "ball"):
+        return
+    moved = edge.first_pose.invert() @ _get_shown_pose(context, edge) @ edge.second_pose
+    along = compute_dot(moved.translation, axis) if kind == "prismatic" else 0.0
+    off = [part - along * a for part, a in zip(moved.translation, axis, strict=True)]
+    kept = {"ball": (), "revolute": (axis,), "continuous": (axis,)}.get(kind, _DIRECTIONS)
+    turned = max((math.dist(rotate(moved.rotation, one), one) for one in kept), default=0.0)
+    if math.hypot(*off) > _APART or turned > _TURNED:
+        text = "bodies are not where their joint holds them, to which a simulator moves them"
+        context.report_loss("joint-apart", text, edge.prim)
 
 
 def _join_frames(
@@ -379,7 +411,8 @@ def _is_anchor(context: Context, prim: Usd.Prim) -> bool:
     """Tell whether a joint connects a body and the world."""
     ends = [get_targets(prim, f"physics:body{index}") for index in (0, 1)]
     bodies = [context.find_body(context.stage.GetPrimAtPath(end[0])) if end else "" for end in ends]
-    return "" in bodies and any(bodies) and not _is_excluded(prim)
+    is_enabled = UsdPhysics.Joint(prim).GetJointEnabledAttr().Get()
+    return "" in bodies and any(bodies) and is_enabled and not _is_excluded(prim)
 
 
 def _make_closure(context: Context, edge: _Edge) -> Closure:
