@@ -27,7 +27,9 @@ from ..workspace import Workspace
 from .references import Reference, find_references, has_references, list_readings
 
 LARGEST_FILE = 1 << 30
-"""Size of a file [bytes] above which it is not bundled; a mesh of 20 million triangles has 1 GB."""
+"""Size of a file [bytes] above which it is not bundled; a mesh of 20 million triangles has 1 GB.
+Chosen, no source.
+"""
 
 AssetKind = Literal["mesh", "image", "material", "buffer"]
 

@@ -18,6 +18,7 @@ MESHES = "meshes"
 
 _RESERVED = re.compile(r"(?i)con|prn|aux|nul|com\d|lpt\d")
 _LONGEST = 80
+"""Characters of a file name. Chosen, no source."""
 
 
 def make_portable(text: str, default: str = "unnamed") -> str:

@@ -14,6 +14,7 @@ from .origin import Repository
 
 MANIFEST = "bundle.json"
 VERSION = 1
+"""Version of the form of ``bundle.json``."""
 
 
 @dataclass

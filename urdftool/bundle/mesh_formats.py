@@ -20,9 +20,13 @@ MeshFormat = Literal["stl", "obj", "glb", "dae"]
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 GRAY = (0.7, 0.7, 0.7, 1.0)
-"""Color of parts without one."""
+"""Color of parts without one. Chosen, no source."""
 _FLOAT, _UINT32 = 5126, 5125
+"""Types of components in glTF 2.0, section 3.6.2.2: 32-bit floats, unsigned integers."""
+
 _ARRAY, _ELEMENTS = 34962, 34963
+"""Targets of buffer views in glTF 2.0, section 5.11: vertices, indices."""
+
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 

@@ -19,7 +19,10 @@ from .layout import make_portable
 _LICENSE = re.compile(r"(?i)(licen[cs]es?|copying|notice|copyright|unlicense)([-._].*)?")
 _LICENSE_TAG = re.compile(rb"<license\b[^<>]*>([^<]*)</license\s*>")
 _MOST_BYTES = 1 << 20
+"""Size of a license or manifest [bytes] up to which it is read. Chosen, no source."""
+
 _MAX_CLIMB = 8
+"""Number of folders above a file in which its license is searched. Chosen, no source."""
 
 
 @dataclass(frozen=True)

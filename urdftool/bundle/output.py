@@ -24,8 +24,14 @@ from .store import Content
 from .zip_file import open_zip
 
 _BLOCK = 1 << 20
+"""Bytes that are copied at once. Chosen, no source."""
+
 _DATE = (1980, 1, 1, 0, 0, 0)
+"""Earliest date of a zip file, so that the same content gives the same bytes."""
+
 _REGULAR_FILE = 0o100644 << 16
+"""Mode of Unix in a zip file: a regular file that all read and its owner writes. Chosen."""
+
 _OVERWRITE = "choose another output, or overwrite it with --overwrite"
 
 

@@ -18,6 +18,8 @@ Uri = Literal["relative", "package", "file"]
 """How the URDF of a bundle names its files."""
 
 _MOST_STL_FACES = 200_000
+"""Triangles of an STL file above which a preset reduces it. Chosen, no source."""
+
 _OBJECT = re.compile(rb"(?m)^[ \t]*[og][ \t]")
 
 

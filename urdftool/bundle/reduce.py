@@ -18,14 +18,18 @@ SAMPLES = 5000
 """Points of each surface whose distance to the other is measured."""
 
 STEPS = (0.5, 0.8)
-"""Triangles of a result relative to those of the one before, if the error decides."""
+"""Triangles of a result relative to those of the one before, if the error decides. Chosen, no
+source.
+"""
 
 FEWEST = 12
 """Triangles below which the error decides nothing, as a box has 12."""
 
 
 LARGEST_ERROR = 0.05
-"""Largest error if none is set: some meshes do not resemble any reduction to few triangles."""
+"""Largest error if none is set: some meshes do not resemble any reduction to few triangles. Chosen,
+no source.
+"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,6 +31,8 @@ class Reference(NamedTuple):
 _IMAGES, _IMAGES_END = b"<library_images", b"</library_images"
 _GLB_HEAD = struct.Struct("<4sIIII")
 _JSON_CHUNK = 0x4E4F534A
+"""Type of the first chunk of a GLB file: the letters JSON (glTF 2.0, section 4.4.3)."""
+
 _LISTS: tuple[tuple[str, Kind], ...] = (("buffers", "buffer"), ("images", "image"))
 
 

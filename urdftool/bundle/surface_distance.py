@@ -12,7 +12,11 @@ from ..collision.distance import to_triangles
 from ..geometry.mesh import Array, Faces, Points
 
 _BATCH = 2048
-_NEAREST = 2  # triangles of each size that give the first bound
+"""Number of points that are compared at once. Chosen, no source."""
+
+_NEAREST = 2
+"""Triangles of each size that give the first bound. Chosen, no source."""
+
 _PAIRS = 200_000  # points with triangles that are measured at a time
 _MOST_PAIRS = 2_000_000  # for one surface, about 1 s of processor time
 _NEGLIGIBLE = 1e-5  # distance relative to the size that is not measured exactly

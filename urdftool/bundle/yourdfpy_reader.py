@@ -21,9 +21,10 @@ from .defect import Defect
 from .description import make_urdf
 
 CONFIGURATIONS = 21
-"""Compared configurations; the first is zero."""
+"""Compared configurations; the first is zero. Chosen, no source."""
 
 _TOLERANCE = 1e-6
+"""Difference of the poses of two readers that rounding explains. Chosen, no source."""
 
 
 def load_robot(robot: Robot, **options: Any) -> Any:

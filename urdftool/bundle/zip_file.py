@@ -16,7 +16,8 @@ MAX_BYTES = 2 << 30
 
 MAX_RATIO = 100
 """Size of all files relative to that of the zip file, above :data:`SMALL` bytes. Texts and meshes
-of robots have up to 20."""
+of robots have up to 20. Chosen, no source.
+"""
 
 SMALL = 100 << 20
 """Size [bytes] of all files up to which their ratio does not matter."""

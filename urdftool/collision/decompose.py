@@ -33,8 +33,10 @@ PART_TRIANGLES = 600
 """Largest number of triangles of a piece that is cut again. Chosen, no source."""
 
 _TOO_LONG = "CoACD took longer on the mesh than its time limit"
-# older versions share random numbers between threads, or order pieces by completion time
+
 _ORDERLY = (1, 0, 14)
+"""Version of CoACD before which threads share random numbers, or order pieces by their end."""
+
 _SLOWEST = 4.0  # wall-clock time limit per processor time limit, for a busy machine
 
 

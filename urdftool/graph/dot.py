@@ -29,6 +29,7 @@ _FILLS = {
 _FIXED = "#ededed"
 _SHAPES = {"joint": "box", "plugin": "note", "controller": "component", "sensor": "tab"}
 _MOST_MEMBERS = 8
+"""Number of links that a node names. Chosen, no source."""
 
 
 def to_dot(figure: Figure, folder: str | None = None) -> str:

@@ -6,8 +6,11 @@ from collections.abc import Iterable
 
 from ..control_characters import escape_controls
 
-_LONGEST_FILE_NAME = 200  # bytes; file systems allow 255 with the suffix
+_LONGEST_FILE_NAME = 200
+"""Bytes; file systems allow 255 with the suffix. Chosen, no source."""
+
 _LONGEST_NAME = 80
+"""Characters of a name that a node shows. Chosen, no source."""
 
 
 def shorten_name(name: str) -> str:

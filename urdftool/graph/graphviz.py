@@ -12,6 +12,7 @@ from ..isolated import IsolatedProcess, ProcessDied, ProcessTimeout
 
 FORMATS = ("pdf", "svg", "png")
 MAX_SECONDS = 45.0
+"""Time [s] after which Graphviz is ended. Chosen, no source."""
 
 
 class DrawError(UrdftoolError):

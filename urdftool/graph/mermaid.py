@@ -9,7 +9,10 @@ from .figure import Edge, Figure, Node
 from .formatting import shorten_name
 
 MAX_EDGES = 500
+"""Default of ``maxEdges`` of Mermaid, above which it draws nothing."""
+
 MAX_CHARACTERS = 50_000
+"""Default of ``maxTextSize`` of Mermaid, above which it draws nothing."""
 
 _PLAIN = frozenset(" _.,:+-/=×°·…")
 _BRACKETS = {

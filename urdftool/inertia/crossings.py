@@ -18,6 +18,7 @@ STRIPS = 160
 """Largest number of strips along y into which the points are sorted."""
 
 _AT_ONCE = 500_000
+"""Pairs of points and triangles per block, which bounds the memory. Chosen, no source."""
 
 _Numbers = npt.NDArray[np.int64]
 

@@ -39,16 +39,20 @@ ACCEPTED_ERROR = 0.02
 """Relative error of the volume up to which a result is reliable."""
 
 ACCEPTED_OVERLAP = 0.03
-"""Part of the volume that bodies may share before a sampled union replaces their exact sum."""
+"""Part of the volume that bodies may share before a sampled union replaces their exact sum. Chosen,
+no source.
+"""
 
 AGREEMENT = 0.03
-"""Largest difference of two independent results that confirm each other."""
+"""Largest difference of two independent results that confirm each other. Chosen, no source."""
 
 LARGE_OPENING = 0.1
-"""Part of the surface above which closing holes is a guess about the shape."""
+"""Part of the surface above which closing holes is a guess about the shape. Chosen, no source."""
 
 _SHEET = 1e-6
-"""Volume of a body, relative to its area to the power of 3/2, below which it is a sheet."""
+"""Volume of a body, relative to its area to the power of 3/2, below which it is a sheet. Chosen, no
+source.
+"""
 
 
 @dataclass(frozen=True, eq=False)

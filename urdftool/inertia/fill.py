@@ -26,6 +26,8 @@ from .masses import Masses
 from .requested_edits import LinkEdits, RequestedEdit, determine_edits
 
 _LONGEST_CALL = 60
+"""Characters of a call of a macro that a table shows. Chosen, no source."""
+
 _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
 
 

@@ -29,6 +29,9 @@ from .mesh_files import Meshes
 from .pieces import SOURCES, Shape, get_shapes
 
 _LARGEST = 1e60
+"""Numbers above it, and masses [kg] below its reciprocal, are not computed with: their products
+overflow. Chosen, no source.
+"""
 
 
 def read_written(item: LinkReview) -> None:
@@ -256,7 +259,7 @@ def _compute_mesh_box(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None
 
 
 LARGEST, SMALLEST = 10.0, 0.001
-"""Range of the extent of a mesh [m]; outside it, its unit is probably wrong."""
+"""Range of the extent of a mesh [m]; outside it, its unit is probably wrong. Chosen, no source."""
 
 
 def _propose_repair(

@@ -10,6 +10,7 @@ from typing import Any
 from ..errors import SourceError
 
 MAX_BYTES = 4 * 1024 * 1024
+"""Size of a file of masses [bytes] that is read. Chosen, no source."""
 
 
 def read_masses(path: str | Path) -> dict[str, float]:

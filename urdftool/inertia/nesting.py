@@ -23,7 +23,7 @@ from .sampling import spread_points
 from .winding import compute_winding_numbers, sort_into_boxes
 
 PROBES = 24
-"""Number of corners of a body that are tested for lying within another."""
+"""Number of corners of a body that are tested for lying within another. Chosen, no source."""
 
 
 _ASIDE = np.array([3.7e-7, 6.1e-7, 5.3e-7])

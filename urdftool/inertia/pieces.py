@@ -38,6 +38,9 @@ from .requirements import combine
 SOURCES = ("collision", "visual")
 
 _MIN, _MAX, _FAR = 1e-100, 1e100, 1e40
+"""Volumes [m³], masses [kg] and distances [m] within which products do not overflow. Chosen, no
+source.
+"""
 
 Meshes = Mapping[str, "MeshBody | UrdftoolError"]
 Shape = Visual | Collision

@@ -15,7 +15,9 @@ from ..geometry.mesh import Faces, Points
 from ..geometry.topology import find_edges, label_components
 
 CAP_RISE = 0.1
-"""Assumed bulge of a surface over a hole, relative to the hole's size, for the error of a cap."""
+"""Assumed bulge of a surface over a hole, relative to the hole's size, for the error of a cap.
+Chosen, no source.
+"""
 
 
 @dataclass(frozen=True, eq=False)

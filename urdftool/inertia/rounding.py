@@ -23,6 +23,7 @@ NOISE = 1e-12
 """Threshold, relative to the body's size, below which a number becomes zero."""
 
 _EXACT = 2e-15
+"""Relative rounding of sums of doubles: about nine times the distance of 1 from the next."""
 
 
 def round_properties(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:

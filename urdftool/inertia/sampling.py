@@ -16,7 +16,7 @@ from .polyhedron import Moments
 from .winding import compute_winding_numbers, count_direct_triangles, sort_into_boxes
 
 SAMPLES = 30_000
-"""Number of points in the bounding box, in both halves together."""
+"""Number of points in the bounding box, in both halves together. Chosen, no source."""
 
 MAX_ANGLES = 20_000_000
 """Number of solid angles, about 8 s of processor time; long triangles have fewer samples."""

@@ -68,6 +68,7 @@ THICKNESS = Size("thickness", 1, "T", "of the wall, inward from the outer dimens
 
 
 _MIN, _MAX = 1e-200, 1e200
+"""Masses [kg] and moments [kg·m²] within which products do not overflow. Chosen, no source."""
 
 
 def find_shape(name: str) -> Shape | None:

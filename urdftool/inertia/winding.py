@@ -22,15 +22,18 @@ import numpy.typing as npt
 from ..geometry.mesh import Array
 
 FAR, GROUP_FAR = 1.8, 3.0
-"""Distance, in radii of a box of triangles or a group of boxes, beyond which it is one dipole."""
+"""Distance, in radii of a box of triangles or a group of boxes, beyond which it is one dipole.
+Chosen, no source.
+"""
 
 _MANY = 4096
 """Boxes from which they are grouped."""
 
 _SIDE = 6
-"""Edge of a group in edges of a box."""
+"""Edge of a group in edges of a box. Chosen, no source."""
 
 _PAIRS_AT_ONCE = 400_000
+"""Pairs of points and boxes per block, which bounds the memory. Chosen, no source."""
 
 _DENSE = 60_000
 """Points times boxes per block: fits the cache and is too small for BLAS to start threads."""

@@ -35,9 +35,17 @@ from .outcome import Report
 from .report_form import convert_to_bytes, convert_to_text, read_file, read_report, write_report
 
 _FORMAT = 4
+"""Version of the entries; it is increased when the same key would have another content."""
+
 _DAYS = 30
+"""Days after which an unused entry is removed. Chosen, no source."""
+
 _MOST = 200 * 1024 * 1024
-_LARGEST_SOURCE = 256 * 1024 * 1024  # bytes
+"""Size of the cache [bytes] above which its oldest entries are removed. Chosen, no source."""
+
+_LARGEST_SOURCE = 256 * 1024 * 1024
+"""Bytes. Chosen, no source."""
+
 _SHARED = "many"
 """Kind of a row that refers to a large set of queries by the digest of its entry."""
 

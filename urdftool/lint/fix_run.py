@@ -27,6 +27,7 @@ from .outcome import Report
 from .run import check_file
 
 MAX_ROUNDS = 200
+"""Number of rounds of fixes, so that two fixes that undo each other end. Chosen, no source."""
 
 
 @dataclass
@@ -165,6 +166,7 @@ def _choose(
 
 
 _ALL = 1 << 62
+"""A byte after the end of every file, by definition."""
 
 
 def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: bytes) -> bool:

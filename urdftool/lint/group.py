@@ -21,7 +21,7 @@ from .merge import sort_findings
 from .outcome import Outcome
 
 NAMES = 5
-"""Maximum number of names in the message of a group; the others are counted."""
+"""Maximum number of names in the message of a group; the others are counted. Chosen, no source."""
 
 
 def group_outcome(outcome: Outcome) -> Outcome:

@@ -15,6 +15,7 @@ from ..source.well_formed import STAGE_HEADS, WIDE
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
 _HEAD = 1024
+"""Bytes at the start of a file in which a zero byte shows that it is no text. Chosen, no source."""
 
 
 def refuse_other_files(file: SourceFile) -> None:

@@ -16,6 +16,7 @@ from .discover import list_parts
 from .outcome import Report
 
 _NAMES = 3
+"""Number of macros that a message names. Chosen, no source."""
 
 
 def explain_no_links(description: Description) -> str:

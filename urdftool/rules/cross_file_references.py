@@ -16,6 +16,7 @@ DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 _USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".hpp", ".h", ".srdf")
 
 _MOST_FILES, _MOST_BYTES = 10_000, 2_000_000
+"""Number of files, and bytes of each, that are searched for a name. Chosen, no source."""
 
 
 def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection[str] = ()) -> None:

@@ -18,16 +18,20 @@ from .recording import Array, Recording
 from .run import Run
 
 FILM = (480, 360)
-"""Width and height of an animation [pixels]."""
+"""Width and height of an animation [pixels]. Chosen, no source."""
 
 RATE = 20.0
-"""Frame rate of an animation of up to ``MOST`` frames [1/s]."""
+"""Frame rate of an animation of up to ``MOST`` frames [1/s]. Chosen, no source."""
 
 MOST = 240
 """Maximum number of frames; a longer run has a lower frame rate."""
 
-_STILL = 2e-4  # of the robot's size, or rad: a smaller change repeats the frame
-_HOLD = 1.0  # s, duration of the last frame
+_STILL = 2e-4
+"""Of the robot's size, or rad: a smaller change repeats the frame. Chosen, no source."""
+
+_HOLD = 1.0
+"""S, duration of the last frame. Chosen, no source."""
+
 _AWAY = 3.0  # distance from the start, in robot sizes, beyond which the camera does not follow
 
 Progress = Callable[[int, int], None]

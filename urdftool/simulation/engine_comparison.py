@@ -20,9 +20,10 @@ from .run import Run
 from .verdict import Verdict
 
 MOST_CAUSES = 3
-"""Maximum number of causes that are reported."""
+"""Maximum number of causes that are reported. Chosen, no source."""
 
-_SPENT = 0.95  # part of its effort limit that a saturated joint uses
+_SPENT = 0.95
+"""Part of its effort limit that a saturated joint uses. Chosen, no source."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from .verdict import Verdict
 
 PATIENCE = 120.0
-"""Time limit for reading and judging a robot, in addition to its simulation [s]."""
+"""Time limit for reading and judging a robot, in addition to its simulation [s]. Chosen, no source.
+"""
 
 
 @dataclass

@@ -22,10 +22,13 @@ from .shapes import compute_hull
 from .state import StateSnapshot
 
 POINTS = 1500
-"""Maximum number of corners of a surface that are tested, and half the number of other points."""
+"""Maximum number of corners of a surface that are tested, and half the number of other points.
+Chosen, no source.
+"""
 
 _BLOCK = 64  # points whose distances to all others fit in the processor cache
-_FIRST = 32  # points in the first batch of winding numbers
+_FIRST = 32
+"""Points in the first batch of winding numbers. Chosen, no source."""
 
 
 def measure_penetration_depth(

@@ -19,13 +19,16 @@ from .recording import Array, Recording
 from .run import Run
 
 MOST_NAMED = 8
-"""Number of joints with a color and a name: those with the largest motion and effort."""
+"""Number of joints with a color and a name: those with the largest motion and effort. Chosen, no
+source.
+"""
 
 _COLORS = (
     *("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#17becf"),
 )
 _OTHERS = "#bec2c8"
 _DPI = 100
+"""Pixels of a plot in an inch. Chosen, no source."""
 
 
 @dataclass(frozen=True, eq=False)

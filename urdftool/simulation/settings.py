@@ -11,9 +11,10 @@ if TYPE_CHECKING:
     from .control import Control
 
 NUDGE = 0.1
-"""Duration of the tilted gravity to each side at the start [s]."""
+"""Duration of the tilted gravity to each side at the start [s]. Chosen, no source."""
 
-_TOWARD = 0.6  # rad from x; not an axis of symmetry of common robots
+_TOWARD = 0.6
+"""Rad from x; not an axis of symmetry of common robots. Chosen, no source."""
 
 
 @dataclass(frozen=True)

@@ -32,15 +32,20 @@ from .mesh_cache import get_cached_hulls, load_triangles
 from .recording import Array
 
 MOST_PIECES = 32
-"""Maximum number of objects of a mesh file that become separate hulls; otherwise one hull."""
+"""Maximum number of objects of a mesh file that become separate hulls; otherwise one hull. Chosen,
+no source.
+"""
 
 MOST_VERTICES = 400
-"""Maximum number of vertices of a hull; a finer hull is reduced to its extreme points."""
+"""Maximum number of vertices of a hull; a finer hull is reduced to its extreme points. Chosen, no
+source.
+"""
 
 _AROUND = 16
-"""Number of corners of a circle in the approximation of an ellipsoid or cone."""
+"""Number of corners of a circle in the approximation of an ellipsoid or cone. Chosen, no source."""
 
-_LEAST = 1e-9  # m: a mesh that is smaller is a point
+_LEAST = 1e-9
+"""M: a mesh that is smaller is a point. Chosen, no source."""
 
 
 @dataclass(frozen=True, eq=False)

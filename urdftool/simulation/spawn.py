@@ -13,12 +13,13 @@ from .settings import Settings
 from .shapes import Shape
 
 GAP = 1e-4
-"""Height of the lowest point above the plane at the start [m]."""
+"""Height of the lowest point above the plane at the start [m]. Chosen, no source."""
 
 CLEAR = 0.05
 """Height of the moving links on a fixed base above the plane at the start, over the robot's size.
-
-Joint drift of an arm of this length is reported before its end is as low as the plane."""
+Joint drift of an arm of this length is reported before its end is as low as the plane. Chosen, no
+source.
+"""
 
 
 def spawn_pose(

@@ -36,10 +36,10 @@ from .options import Options
 Array = npt.NDArray[np.float64]
 
 TINY_MASS = 1e-6
-"""Mass [kg] of a moving body without mass."""
+"""Mass [kg] of a moving body without mass. Chosen, no source."""
 
 TINY_MOMENT = 1e-9
-"""Principal moments [kg·m²] of a moving body without mass."""
+"""Principal moments [kg·m²] of a moving body without mass. Chosen, no source."""
 
 ROUNDING = 1e-9
 """Relative violation of the triangle inequality that rounding explains."""
@@ -51,7 +51,7 @@ _MARGIN = 1e-7
 """Margin of the triangle inequality relative to the largest moment; 32-bit floats round."""
 
 _REPORTED = 1e-6
-"""Change relative to the largest moment above which it is reported."""
+"""Change relative to the largest moment above which it is reported. Chosen, no source."""
 
 
 @dataclass(frozen=True)

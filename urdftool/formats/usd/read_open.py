@@ -81,6 +81,7 @@ def open_stage(
 
 
 _MOST = 3
+"""Number of messages of OpenUSD that an error shows. Chosen, no source."""
 
 
 _NOT_TEXT = "the text is not valid UTF-8"

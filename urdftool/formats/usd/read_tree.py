@@ -31,6 +31,7 @@ _NOISE = 1e-7
 """Component of an axis below which it is rounding noise of 32-bit floats."""
 
 _DIRECTIONS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""Axes of a frame."""
 
 _SAME = 1e-5
 """Difference [m] of transforms and joint frames that rounding explains."""

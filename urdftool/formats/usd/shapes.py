@@ -34,7 +34,7 @@ from .stage import GEOMETRY, PHYSICS, set_pose
 from .surfaces import SurfaceWriter
 
 PLANE_SIZE = 100.0
-"""Edge [m] of an unlimited plane where it is drawn."""
+"""Edge [m] of an unlimited plane where it is drawn. Chosen, no source."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from ..common.losses import DeclaredLosses
 Array = npt.NDArray[np.float64]
 
 CONFIGURATIONS = 21
-"""Random joint positions, in addition to zero."""
+"""Random joint positions, in addition to zero. Chosen, no source."""
 
 FLOAT = 1e-6
 """Relative tolerance: most values of a stage are 32-bit floats."""

@@ -22,7 +22,7 @@ _STEERS = re.compile(r"steer|swivel|rotation|yaw", re.IGNORECASE)
 TWIN_POSITION = "the position of its twin"
 VISUAL = "its visual"
 _ROUND = 0.05
-"""Relative difference of two equal lengths or moments of a wheel."""
+"""Relative difference of two equal lengths or moments of a wheel. Chosen, no source."""
 
 
 class AxleDirection(NamedTuple):
@@ -103,6 +103,7 @@ def get_wheel(robot: Robot, joint: Joint) -> Wheel | None:
 
 
 _Z: Vector = (0.0, 0.0, 1.0)
+"""Axis of a cylinder in its own frame."""
 
 
 def compute_angle(one: Vector, other: Vector) -> float:

@@ -14,6 +14,7 @@ from ..gazebo.wheel_pair import CASTER, find_driven_joints
 from .convex_bodies import ConvexBodies, get_convex_bodies
 
 _UP = (0.0, 0.0, 1.0)
+"""Direction of the vertical in the frame of the robot."""
 
 
 class Axle(NamedTuple):

@@ -24,7 +24,7 @@ from ...model.read import parse_numbers
 from ..mesh.link_extents import LinkExtents, ShapeKind, get_extents
 
 _ALIKE = 0.25
-"""Relative difference in length at which two shapes still count as one body."""
+"""Relative difference in length at which two shapes still count as one body. Chosen, no source."""
 
 _SMALL = 0.05
 """Diagonal [m] up to which a visual may be twice as far from its collision."""

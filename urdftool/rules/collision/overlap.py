@@ -22,13 +22,14 @@ STEPS = 9
 """Number of positions at which a joint is checked within its range."""
 
 RESTING = 10_000
-"""Largest number of pairs of bodies that are checked with joints at rest."""
+"""Largest number of pairs of bodies that are checked with joints at rest. Chosen, no source."""
 
 TRIES = 6000
-"""Largest number of pairs of bodies whose convex pieces are compared."""
+"""Largest number of pairs of bodies whose convex pieces are compared. Chosen, no source."""
 
 PAIRS = 150_000
-"""Largest number of pairs of bodies, a joint apart, whose distance is computed."""
+"""Largest number of pairs of bodies, a joint apart, whose distance is computed. Chosen, no source.
+"""
 
 _Pair = tuple[Link, Link, float]
 """Two links that overlap, and the depth [m]."""

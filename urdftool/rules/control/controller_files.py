@@ -23,6 +23,9 @@ _CONTROLLER = re.compile(rb"\btype[\"']?\s*:\s*[\"']?\w+(?:/|::)\w")
 _FIND = re.compile(r"^\$\(find(?:-pkg-share)?\s+([\w-]+)\s*\)/")
 _TOP = re.compile(rb"<robot\b[^<>]*\sname\s*=")
 _MOST_FILES, _MOST_ENTRIES, _MOST_BYTES = 60, 3000, 1_000_000
+"""Numbers of files and of entries of folders, and size of a file [bytes], that are searched.
+Chosen, no source.
+"""
 
 
 class ControllerFile(NamedTuple):

@@ -17,9 +17,10 @@ from .wheel_pair import compute_radius
 
 APPLIES_TO = ("plugin", "ros2_control", "transmission")
 
-_SLIP = (
-    2.5  # a skid-steer base is often configured with a larger separation, because its wheels slip
-)
+_SLIP = 2.5
+"""Factor of the separation up to which a skid-steer base is not reported: its wheels slip, so it is
+often configured with a larger one. Chosen, no source.
+"""
 
 
 @rule(

@@ -32,7 +32,7 @@ _FRICTION = {
 }
 _PLURAL = {"wheel": "wheels", "caster": "casters", "foot": "feet", "finger": "fingers"}
 _MARKER = 0.01
-"""Largest size [m] of a visual that only marks the position of a link."""
+"""Largest size [m] of a visual that only marks the position of a link. Chosen, no source."""
 _GRAY = 0.06
 """Largest difference of the channels of a color that looks like the default of Gazebo Classic."""
 

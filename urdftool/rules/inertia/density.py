@@ -13,7 +13,7 @@ from ..rule import ANY_FORMAT, WARNING, Problem, rule
 from .tensors import get_tensors, is_zero
 
 DENSITY_RATIO, MAX_DENSITY_RATIO, MOMENT_RATIO, FIT_FACTOR, MIN_LINKS = 3.0, 1.2, 0.35, 3.0, 4.0
-"""Thresholds of :func:`mass_outlier`."""
+"""Thresholds of :func:`mass_outlier`. Chosen, no source."""
 
 _THINNEST = 0.002
 """Length [m] below which a bounding box counts as flat, without a density."""

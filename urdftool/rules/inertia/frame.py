@@ -21,10 +21,13 @@ from .tensors import get_tensors, is_zero
 
 HOLLOW = 1.7
 """Second moment of a body, relative to that of a solid box of its size, above which it is
-implausible: a hollow box, with all mass in its walls, has 5/3."""
+implausible: a hollow box, with all mass in its walls, has 5/3. Chosen, no source.
+"""
 
 PLAUSIBLE = (0.3, 1.3)
-"""The same for a tensor that is accepted as correct: a solid ball has 0.6, a hollow one 1."""
+"""The same for a tensor that is accepted as correct: a solid ball has 0.6, a hollow one 1. Chosen,
+no source.
+"""
 
 BEYOND = 1.1
 """Factor by which the mass must extend beyond the bounding box."""

@@ -35,7 +35,9 @@ from .solids import DENSITY, compute_volume
 from .tensors import has_written_inertial
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
-_MARKER = 1e-3  # [kg]
+_MARKER = 1e-3
+"""[kg]. Chosen, no source."""
+
 _REMOVED = "Gazebo removes the link and everything attached to it"
 _HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its geometry"
 _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}

@@ -29,7 +29,9 @@ from .solids import compute_solid_moments, describe_solid, is_dummy
 from .tensors import get_tensors, is_accepted, is_positive, is_zero
 
 SIZE_IN_DOUBT = ("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier")
-_SINGULAR = 1e-9  # the part of the largest moment that counts as zero
+_SINGULAR = 1e-9
+"""The part of the largest moment that counts as zero. Chosen, no source."""
+
 _CHECKING = "gz, gazebo-classic, mujoco, drake"
 _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
 
@@ -355,7 +357,7 @@ def _may_be_kg_mm2(radius: float) -> bool:
 
 
 _OF_A_LINK = (0.01, 1.0)
-"""Plausible radii of gyration of links [m]."""
+"""Plausible radii of gyration of links [m]. Chosen, no source."""
 
 
 @radius_of_gyration.fix(UNSAFE)

@@ -22,7 +22,7 @@ from ...model.pose import make_pose, multiply_matrices, transpose
 from ...model.shapes import get_shape_name
 
 DENSITY = 1000.0
-"""Density [kg/m³] of links without a mass: that of water."""
+"""Density [kg/m³] of links without a mass: that of water. Chosen, no source."""
 
 
 def compute_box(link: Link) -> Bounds | None:

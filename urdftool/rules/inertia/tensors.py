@@ -80,7 +80,7 @@ def is_positive(six: SymmetricTensor, tolerance: float = 1e-6) -> bool:
 
 
 EXACT = 1e-12
-"""Relative error of computed principal moments."""
+"""Relative error of computed principal moments. Chosen, no source."""
 
 
 def is_accepted(six: SymmetricTensor) -> bool:

@@ -158,6 +158,7 @@ def report_joints_of_cycles(robot: Robot) -> Iterator[Problem]:
 _LONGEST_TURNED = 100
 """Longest circle that each finding lists from its own joint; chosen."""
 _SHOWN = 6
+"""Number of joints that a message names. Chosen, no source."""
 
 
 def _report_cycle(joint: Joint, circle: list[str]) -> Problem:

@@ -295,7 +295,9 @@ def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator
 
 
 _FAR, _FARTHEST = 100.0, 1e4
-"""Numbers between these are lengths in millimeters, and no placeholders for no limit."""
+"""Numbers between these are lengths in millimeters, and no placeholders for no limit. Chosen, no
+source.
+"""
 
 
 @prismatic_in_millimeters.fix(UNSAFE)

@@ -18,7 +18,8 @@ from .mesh_uses import MeshUse, get_mesh_uses
 APPLIES_TO = ("mesh",)
 
 _RELIEF = re.compile(r"normal|bump|height|specular|_nrm", re.IGNORECASE)
-_MOST = 4_000_000  # bytes that are searched
+_MOST = 4_000_000
+"""Bytes that are searched. Chosen, no source."""
 
 
 @rule(

@@ -27,6 +27,8 @@ from .uris import find_malformation
 APPLIES_TO = ("mesh",)
 
 _MAX_FILES = 5000
+"""Number of files of a folder up to which it is searched for a mesh. Chosen, no source."""
+
 _NOT_OPENED = "urdfdom, gz, gazebo-classic"
 
 

@@ -20,8 +20,11 @@ if TYPE_CHECKING:
 
 ShapeKind = Literal["visuals", "collisions", "all"]
 
-LARGEST = 10.0  # [m] a longer mesh is in millimeters
+LARGEST = 10.0
+"""[m] a longer mesh is in millimeters. Chosen, no source."""
+
 SMALLEST = 0.001
+"""Extent of a shape [m] up to which its unit is not believed. Chosen, no source."""
 
 
 def get_convex_points(use: MeshUse) -> ConvexPoints | None:

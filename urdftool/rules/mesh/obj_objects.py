@@ -9,7 +9,9 @@ from ...model.pose import compute_cross, compute_dot
 from ...workspace import Workspace, memoize_by_workspace
 
 _FLAT = 1e-9
-"""Volume of an object, relative to the cube of its size, below which it counts as flat."""
+"""Volume of an object, relative to the cube of its size, below which it counts as flat. Chosen, no
+source.
+"""
 
 
 @memoize_by_workspace

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 MOST_SLIVERS = 0.2
-"""Part of a mesh's triangles that may have no area."""
+"""Part of a mesh's triangles that may have no area. Chosen, no source."""
 
 
 @memoize_by_workspace

@@ -11,6 +11,7 @@ from ...source.packages import Packages
 from ...workspace import Workspace
 
 _MOST_PACKAGES = 2000
+"""Number of packages whose dependencies are followed. Chosen, no source."""
 
 
 def find_dependency_chain(

@@ -21,7 +21,10 @@ _INSTEAD = {
     "xacro.py": "call xacro",
 }
 _MOST_FILES = 60
+"""Number of files that are searched for calls. Chosen, no source."""
+
 _MOST_BYTES = 200_000
+"""Size of a file [bytes] up to which it is searched. Chosen, no source."""
 
 
 @rule(

@@ -21,7 +21,7 @@ SECTIONS = ("option", "size", "visual", "statistic")
 BOOLEAN = ("true", "false")
 
 WHOLE = 0
-"""Marks a single integer."""
+"""Marks a single integer. Chosen, no source."""
 
 # tag -> attribute -> count of numbers (-n for at most n), or allowed words; other attributes
 # are copied unchecked

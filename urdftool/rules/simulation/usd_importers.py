@@ -14,8 +14,11 @@ from ...source.description import Description
 from ..gazebo.contact import get_contact_role
 from ..rule import INFO, WARNING, Problem, rule
 
-_LEAST_MOMENT = 1e-10  # [kg·m²]
-_LEAST_PART = 1e-6  # of the largest moment
+_LEAST_MOMENT = 1e-10
+"""[kg·m²]. Chosen, no source."""
+
+_LEAST_PART = 1e-6
+"""Of the largest moment. Chosen, no source."""
 
 
 @rule(

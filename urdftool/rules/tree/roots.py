@@ -11,6 +11,7 @@ from ..words import quote
 from ..xml.vocabulary_table import find_misspelled_children
 
 _SHOWN = 6
+"""Number of links that a message names. Chosen, no source."""
 
 
 @rule(

@@ -16,6 +16,8 @@ from ..rule import INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from .definitions import get_definitions
 
 _ROUNDING = 1e-4
+"""Difference of two numbers that are written alike. Chosen, no source."""
+
 _GLOBAL = re.compile(r"redefining global symbol: (\w+)")
 _ATTRIBUTE = re.compile(r"(\S+): unknown attribute\(s\): (.+)")
 _DEPRECATED = re.compile(r"Using (\w+)\(\) directly is deprecated. Use ([\w.]+)\(\)")

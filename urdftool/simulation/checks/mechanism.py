@@ -20,7 +20,10 @@ from ..rigid_bodies import RigidBody, RigidBodyJoint
 from ..state import StateSnapshot
 
 _STEPS = 5
-_WIDE = 1.0  # rad: range to each side of a joint without limits
+"""Number of positions of a joint at which its mechanism is measured. Chosen, no source."""
+
+_WIDE = 1.0
+"""Rad: range to each side of a joint without limits. Chosen, no source."""
 
 
 def find_mechanism(

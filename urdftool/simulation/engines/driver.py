@@ -19,13 +19,13 @@ from .base import Capabilities, Sample, World
 from .registry import load_engine, name_alternative
 
 SAMPLE = 1 / 30
-"""Time between samples, rounded to time steps [s]."""
+"""Time between samples, rounded to time steps [s]. Chosen, no source."""
 
 RUNAWAY = 1e3
 """Horizontal distance at which a robot has diverged [its size, at least m]."""
 
 SWEEP_STEPS = 36
-"""Number of intervals between the limits of a swept joint."""
+"""Number of intervals between the limits of a swept joint. Chosen, no source."""
 
 Emit = Callable[[tuple[Array, list[Contact]]], None]
 

@@ -10,7 +10,8 @@ import numpy as np
 from ...recording import GROUND, Contact
 from ...rigid_bodies import RigidBodyModel
 
-_TOUCH = 1e-6  # m: a smaller depth is a contact, not an overlap
+_TOUCH = 1e-6
+"""M: a smaller depth is a contact, not an overlap. Chosen, no source."""
 
 
 class ContactReader:

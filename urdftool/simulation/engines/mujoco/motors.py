@@ -12,14 +12,29 @@ from ...rigid_bodies import RigidBodyModel
 from ...settings import Settings
 from ..base import UNLIMITED_EFFORT
 
-_RIGID = (2.5, 1.0)  # of a brake: time constant in timesteps, damping over critical
+_RIGID = (2.5, 1.0)
+"""Of a brake: time constant in timesteps, damping over critical. Chosen, no source."""
+
 _IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-_STIFF = 0.5  # natural frequency of an unloaded joint under its servo, times the timestep
-_DAMPED = 10.0  # its damping over critical; a load on it lowers that
-_CREEP = 0.25  # s: time constant of the integral of the remaining error
+"""Parameters ``solimp`` of MuJoCo of joints that dry friction holds: almost rigid. Chosen, no
+source.
+"""
+
+_STIFF = 0.5
+"""Natural frequency of an unloaded joint under its servo, times the timestep. Chosen, no source."""
+
+_DAMPED = 10.0
+"""Its damping over critical; a load on it lowers that. Chosen, no source."""
+
+_CREEP = 0.25
+"""S: time constant of the integral of the remaining error. Chosen, no source."""
+
 _FAR = 0.02  # rad, m: error at which the servo starts
-_NEAR = 2e-3  # rad, m: error at which friction holds the joint again,
-_SLOW = 0.1  # rad/s, m/s: below this speed
+_NEAR = 2e-3
+"""Rad, m: error at which friction holds the joint again,. Chosen, no source."""
+
+_SLOW = 0.1
+"""Rad/s, m/s: below this speed. Chosen, no source."""
 
 
 class Motors:

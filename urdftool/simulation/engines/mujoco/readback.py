@@ -15,6 +15,8 @@ from ...recording import ReadBack
 from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyModel
 
 _CLOSE = 1e-5
+"""Relative difference of a value from what was written that rounding explains. Chosen, no source.
+"""
 
 
 def read_back(

@@ -20,8 +20,13 @@ from .motors import Motors
 from .readback import read_back
 from .scene import MOTOR, PLANE, SCENE, get_moving_name
 
-_SOFT = 5.0  # timesteps: the time constant of a contact; below two it is unstable, near it jumps
+_SOFT = 5.0
+"""Timesteps: the time constant of a contact; below two it is unstable, near it jumps. Chosen, no
+source.
+"""
+
 _IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
+"""Parameters ``solimp`` of MuJoCo of contacts: the width is 1 mm. Chosen, no source."""
 
 
 def import_mujoco() -> Any:

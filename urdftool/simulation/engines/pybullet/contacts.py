@@ -16,7 +16,8 @@ import numpy as np
 from ...recording import GROUND, Array, Contact
 from ...rigid_bodies import RigidBody, RigidBodyModel
 
-_NEAR = 1e-4  # m; with a distance of zero, it finds nothing between two boxes
+_NEAR = 1e-4
+"""M; with a distance of zero, it finds nothing between two boxes. Chosen, no source."""
 
 
 class ContactReader:
@@ -103,7 +104,9 @@ class ContactReader:
 ROUND = ("cylinder", "capsule", "sphere")
 
 LYING = 0.5
-"""Largest vertical component of the unit axis of a rolling body: 30° from the plane."""
+"""Largest vertical component of the unit axis of a rolling body: 30° from the plane. Chosen, no
+source.
+"""
 
 
 NEARING = 0.05

@@ -13,6 +13,8 @@ from ...rigid_bodies import RigidBody, RigidBodyModel
 from .urdf import compute_principal_frame
 
 _CLOSE = 1e-5
+"""Relative difference of a value from what was written that rounding explains. Chosen, no source.
+"""
 
 
 def read_back(

@@ -20,8 +20,14 @@ from .readback import read_back
 from .urdf import NAME, compute_principal_frame
 
 _ITERATIONS = 100
-_STOP = 1e9  # N·m, N; the default, an impulse of 100 per step, does not hold a load of 5 t
-_BREAKING = 0.005  # m; contacts kept longer are behind a rolling body and accelerate it
+"""Iterations of the solver of PyBullet, twice its default of 50. Chosen, no source."""
+
+_STOP = 1e9
+"""N·m, N; the default, an impulse of 100 per step, does not hold a load of 5 t. Chosen, no source.
+"""
+
+_BREAKING = 0.005
+"""M; contacts kept longer are behind a rolling body and accelerate it. Chosen, no source."""
 
 
 def import_pybullet() -> Any:
