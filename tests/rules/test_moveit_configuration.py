@@ -139,3 +139,75 @@ def test_an_action_is_written_into_braces(lint, urdftool, tmp_path):
     text = (tmp_path / "moveit_controllers.yaml").read_text().strip()
     assert text == MANAGER.format(rest=whole, names="arm_controller").strip()
     assert lint(rule, moveit_controllers=text) == []
+
+
+SOLVER = "{name}: {{kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin}}\n"
+
+
+@pytest.mark.parametrize(
+    ("files", "words"),
+    [
+        ({"kinematics": SOLVER.format(name="arm")}, []),
+        ({"kinematics": SOLVER.format(name="amr")}, ["group 'amr', which the SRDF does not have"]),
+        ({"kinematics": SOLVER.format(name="elbow")}, ["group 'elbow'"]),
+        ({"kinematics": "/**:\n  ros__parameters: {a: {b: 1}}\n"}, []),
+        ({"joint_limits": "joint_limits: {elbow: {max_velocity: 1.0}}"}, []),
+        ({"joint_limits": "joint_limits: {elbwo: {max_velocity: 1.0}}"}, ["did you mean 'elbow'"]),
+        ({"joint_limits": "default_velocity_scaling_factor: 0.1"}, []),
+        ({"joint_limits": "- 1"}, []),
+    ],
+)
+def test_unknown_name(lint, files, words):
+    found = lint("moveit-unknown-name", **files)
+    assert len(found) == len(words)
+    assert all(word in message for word, message in zip(words, found, strict=True))
+
+
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    arm_controller: {{type: {kind}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "action", "words"),
+    [
+        ("joint_trajectory_controller/JointTrajectoryController", "FollowJointTrajectory", ""),
+        (
+            "joint_trajectory_controller/JointTrajectoryController",
+            "GripperCommand",
+            "write FollowJointTrajectory",
+        ),
+        ("position_controllers/GripperActionController", "GripperCommand", ""),
+        (
+            "parallel_gripper_action_controller/GripperActionController",
+            "GripperCommand",
+            "write ParallelGripperCommand",
+        ),
+        ("ur_controllers/ScaledJointTrajectoryController", "FollowJointTrajectory", ""),
+        ("mine/Other", "GripperCommand", ""),
+    ],
+)
+def test_type_of_a_controller(lint, kind, action, words):
+    rest = f"type: {action}\n    joints: [elbow]"
+    section = MANAGER.format(names="arm_controller", rest=rest)
+    found = lint(
+        "moveit-controller-mismatch",
+        moveit_controllers=section,
+        ros2_controllers=CONTROLLERS.format(kind=kind),
+    )
+    assert [words in message for message in found] == ([True] if words else [])
+
+
+def test_controller_without_configuration(lint):
+    section = MANAGER.format(names="arm_controler", rest="joints: [elbow]")
+    kind = "joint_trajectory_controller/JointTrajectoryController"
+    (message,) = lint(
+        "moveit-controller-mismatch",
+        moveit_controllers=section,
+        ros2_controllers=CONTROLLERS.format(kind=kind),
+    )
+    assert message == (
+        "MoveIt controller 'arm_controler' is not in ros2_controllers.yaml; "
+        "did you mean 'arm_controller'?"
+    )

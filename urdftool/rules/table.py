@@ -362,6 +362,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "moveit-controller-incomplete",
             "moveit-controller-unknown-joint",
         ),
+        "consistency": ("moveit-unknown-name", "moveit-controller-mismatch"),
         "adjacent": ("adjacent-pair-not-disabled",),
         "pairs": ("disabled-pair-can-touch", "adjacent-through-bare-link", "pair-never-touches"),
     },

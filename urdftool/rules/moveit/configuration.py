@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...errors import ConfigError
 from ...model.elements import Robot
+from ...model.moveit_parameters import ACTIONS, MANAGER
 from ...source.description import Description
 from ...source.nearby_files import read_optional_file
 from ...source.packages import shorten_path
@@ -26,8 +27,6 @@ _LIMITS = (
     ("", ("max_position", "min_position")),
 )
 """Parameters that MoveIt reads as doubles, each with the parameter that enables it."""
-_MANAGER = "moveit_simple_controller_manager"
-_TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 
 
 @rule(
@@ -82,7 +81,7 @@ _FILES = ("joint_limits.yaml", "kinematics.yaml", "pilz_cartesian_limits.yaml")
 
 def find_non_doubles(robot: Robot, description: Description, name: str) -> list[tuple[str, Node]]:
     """List the numbers in a file that MoveIt requires as doubles, each with its owner."""
-    root = _read_next_to_srdf(robot, description, name)
+    root = read_next_to_srdf(robot, description, name)
     if root is None:
         return []
     read = {
@@ -162,7 +161,7 @@ def moveit_controller_incomplete(robot: Robot, description: Description) -> Iter
     "Unable to identify any set of controllers that can actuate the specified joints". The setup
     assistant omits ``action_ns``.
     """
-    for manager in _find_managers(robot, description):
+    for manager in find_managers(robot, description):
         fields = manager.fields or {}
         names = fields.get("controller_names")
         for node in (names.items if names is not None else None) or []:
@@ -184,15 +183,14 @@ def moveit_controller_incomplete(robot: Robot, description: Description) -> Iter
 def get_action(controller: Node) -> str:
     """Get the action of a ros2_control controller, by its MoveIt type."""
     kind = (controller.fields or {}).get("type")
-    name = None if kind is None else kind.text
-    return "follow_joint_trajectory" if name == "FollowJointTrajectory" else "gripper_cmd"
+    return ACTIONS.get((kind.text or "") if kind is not None else "", "gripper_cmd")
 
 
 def find_controllers_without_action(
     robot: Robot, description: Description
 ) -> Iterator[tuple[Node, Node]]:
     """Yield controllers that lack only ``action_ns``: the name in the list, and the section."""
-    for manager in _find_managers(robot, description):
+    for manager in find_managers(robot, description):
         fields = manager.fields or {}
         names = fields.get("controller_names")
         for node in (names.items if names is not None else None) or []:
@@ -227,8 +225,8 @@ def _get_missing_keys(controller: Node) -> list[str]:
 def _describe_defect(controller: Node) -> str:
     kind = (controller.fields or {}).get("type")
     name = "" if kind is None else kind.text or ""
-    if kind is not None and name not in _TYPES:
-        remedy = suggest_name(name, _TYPES) or "; write FollowJointTrajectory or GripperCommand"
+    if kind is not None and name not in ACTIONS:
+        remedy = suggest_name(name, ACTIONS) or "; write FollowJointTrajectory or GripperCommand"
         return f"has type '{name}', which is not in MoveIt{remedy}"
     missing = _get_missing_keys(controller)
     remedy = f"; write action_ns: {get_action(controller)}" if missing == ["action_ns"] else ""
@@ -246,7 +244,7 @@ def moveit_controller_unknown_joint(robot: Robot, description: Description) -> I
     MoveIt selects controllers that together have all joints of a trajectory. The intended joint is
     in none of them, so MoveIt executes nothing.
     """
-    for manager in _find_managers(robot, description):
+    for manager in find_managers(robot, description):
         for name, controller in (manager.fields or {}).items():
             joints = (controller.fields or {}).get("joints")
             for node in (joints.items if joints is not None else None) or []:
@@ -260,16 +258,16 @@ def moveit_controller_unknown_joint(robot: Robot, description: Description) -> I
                     )
 
 
-def _find_managers(robot: Robot, description: Description) -> Iterator[Node]:
+def find_managers(robot: Robot, description: Description) -> Iterator[Node]:
     """Yield the sections of MoveIt's simple controller manager, in the format of ROS 2."""
     for name in ("moveit_controllers.yaml", "moveit_simple_controllers.yaml", "controllers.yaml"):
-        root = _read_next_to_srdf(robot, description, name)
-        manager = None if root is None else root.find(_MANAGER)
+        root = read_next_to_srdf(robot, description, name)
+        manager = None if root is None else root.find(MANAGER)
         if manager is not None:
             yield manager
 
 
-def _read_next_to_srdf(robot: Robot, description: Description, name: str) -> Node | None:
+def read_next_to_srdf(robot: Robot, description: Description, name: str) -> Node | None:
     """Read a YAML file next to the description and its SRDF; None if there is none."""
     if not get_srdf_documents(robot, description):
         return None

@@ -7,24 +7,17 @@ from dataclasses import dataclass
 
 from ...model.controllers import extract_joint, list_controllers
 from ...model.elements import Joint, Robot
+from ...model.moveit_parameters import ACTIONS, MANAGER, get_action_type
 from ...source.yaml_tree import Node
 from ..name_parts import make_identifier
 from .configuration import Configuration
 from .yaml_text import Tree, Value
 
-MANAGER = "moveit_simple_controller_manager"
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
 UPDATE_RATE = 100
 """Rate of the controller manager [Hz], as in MoveIt's Setup Assistant."""
-
-ACTIONS = {
-    "FollowJointTrajectory": "follow_joint_trajectory",
-    "GripperCommand": "gripper_cmd",
-    "ParallelGripperCommand": "gripper_cmd",
-}
-"""Name of the action of a ros2_control controller, by its type in MoveIt."""
 
 _COMMANDS = (("position",), ("velocity",), ("effort",))
 _STATES = ("position", "velocity")
@@ -146,16 +139,10 @@ def read_ros2_controllers(root: Node) -> Iterator[PlannedController]:
     """Yield the controllers of arms and grippers in an existing ``ros2_controllers.yaml``."""
     for one in list_controllers(root):
         kind = one.type.text or ""
-        if one.joints and kind.endswith(("JointTrajectoryController", "GripperActionController")):
+        action = get_action_type(kind)
+        if one.joints and action:
             names = [extract_joint(node) for node in one.joints]
-            yield PlannedController(one.name, kind, _get_action_type(kind), names)
-
-
-def _get_action_type(kind: str) -> str:
-    """Return the type of action in MoveIt of a controller class."""
-    if "Gripper" not in kind:
-        return "FollowJointTrajectory"
-    return "ParallelGripperCommand" if kind.startswith("parallel") else "GripperCommand"
+            yield PlannedController(one.name, kind, action, names)
 
 
 def read_moveit_controllers(root: Node, kind: str) -> Iterator[PlannedController]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...errors import ConfigError
+from ...model.moveit_parameters import MANAGER
 from ...source.edit import Edit, apply
 from ...source.location import SourceFile
 from ...source.nearby_files import read_optional_file
@@ -212,7 +213,7 @@ def _complete_moveit(
     }
     wanted = [one for one in controllers if one.name in sections or not used & set(one.joints)]
     yield from complete(root, make_moveit_controllers(wanted))
-    listed = root.find("moveit_simple_controller_manager", "controller_names")
+    listed = root.find(MANAGER, "controller_names")
     present = {node.text for node in (listed.items if listed is not None else None) or ()}
     lacking = [one.name for one in wanted if one.name not in present]
     if listed is not None and lacking:
