@@ -638,9 +638,6 @@ BLOCKS = re.compile(r"robot\.(gazebo|extensions)\b")
 OPEN_BLOCKS = {
     *(f"formats/mjcf/{name}.py" for name in ("gazebo", "light", "loops", "sensor")),
     *(f"formats/mjcf/verify_{name}.py" for name in ("loops", "sensors", "source")),
-    *(f"formats/sdf/{name}.py" for name in ("body_sensors", "extensions", "model", "plan")),
-    "formats/sdf/raw_sdf.py",
-    *(f"formats/sdf/verify/{name}.py" for name in ("blocks", "declared_losses", "sensing")),
 }
 """Modules that open ``<gazebo>`` blocks themselves; what a block means belongs into the model.
 

@@ -74,6 +74,20 @@ def test_a_later_spring_of_zero_removes_the_spring(write):
     assert load(write(of("j", stiff) + of("j", slack))).joint["j"].spring is None
 
 
+@pytest.mark.library("mujoco")
+def test_every_format_has_no_spring_after_one_of_zero(write, tmp_path):
+    stiff, slack = ("<springStiffness>5</springStiffness>", "<springStiffness>0</springStiffness>")
+    for blocks, spring in ((of("j", stiff), (5.0, 0.0)), (of("j", stiff) + of("j", slack), None)):
+        robot = load(write(blocks))
+        for name, export in (
+            ("sdf", api.export_sdf), ("mjcf", api.export_mjcf), ("urdf", api.export_urdf)
+        ):  # fmt: skip
+            out = tmp_path / f"{name}{spring is None}"
+            written = export(robot, out, verify=True)
+            assert [c.name for c in written.checks if c.verdict == "differs"] == []
+            assert api.load(out / written.main).joint["j"].spring == spring
+
+
 def test_gravity_is_that_of_the_tag_then_of_the_first_element(write):
     off = "<turnGravityOff>true</turnGravityOff>"
     for blocks, weightless in (

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from ...model.block_elements import list_plugins
 from ...model.elements import Joint, Link
 from ...model.gazebo_plugins import BODY_SENSORS, SENSOR_PLUGINS, get_library
 from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..common.naming import get_free_name
 from ..common.numbers import format_numbers_text, number_text
-from .raw_sdf import move_to_owner
+from .copied_elements import move_to_owner
 from .sensor_plugins import convert_sensor_plugin
 from .translation import Translation
 from .xml import Node, add, get_or_create
@@ -27,11 +28,9 @@ def is_body_sensor(t: Translation, element: Element) -> bool:
 
 def add_body_sensors(model: Node, t: Translation) -> None:
     """Add the sensors for plugins of the model, its links and its joints."""
-    known = {None, "", *t.robot.link, *t.robot.joint}
-    for block in t.robot.gazebo:
-        for element in block.element.list_children("plugin") if block.reference in known else ():
-            if is_body_sensor(t, element):
-                _add_sensor(model, t, element)
+    for element in list_plugins(t.robot):
+        if is_body_sensor(t, element):
+            _add_sensor(model, t, element)
 
 
 def _place(t: Translation, element: Element) -> Link | Joint | None:
@@ -65,7 +64,7 @@ def _add_sensor(model: Node, t: Translation, element: Element) -> None:
             part,
         )
         return
-    made = add(node, "sensor", name=_format_free_name(node, element), type=kind.type)
+    made = add(node, "sensor", name=_choose_free_name(node, element), type=kind.type)
     _add_pose(made, element)
     add(made, "always_on", "true")
     said = {child.tag: child.text.strip() for child in element.children}
@@ -82,7 +81,7 @@ def _add_sensor(model: Node, t: Translation, element: Element) -> None:
         t.report_loss("plugin", text + ", ".join(dict.fromkeys(left)), element, part)
 
 
-def _format_free_name(node: Node, element: Element) -> str:
+def _choose_free_name(node: Node, element: Element) -> str:
     name = element.get("name") or get_library(element)
     taken = {other.get("name") for other in node}
     return get_free_name(name, taken)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
-from ...model.elements import Joint, Link, Robot
+from ...model.block_elements import list_part_elements
+from ...model.elements import Joint, Link
 from ...model.settings import (
     JOINT_TAGS,
     LINK_TAGS,
@@ -15,11 +16,10 @@ from ...model.settings import (
     Setting,
     Value,
 )
-from ...source.document import Element
 from ..common.numbers import format_numbers_text, number_text
 from .body_sensors import is_body_sensor
+from .copied_elements import copy_raw_element, remove_invalid
 from .plugins import add_plugin
-from .raw_sdf import copy_raw_element, remove_invalid
 from .translation import Translation
 from .xml import Node, append_copy, get_or_create, merge
 
@@ -28,25 +28,6 @@ ELSEWHERE = frozenset(("sensor", "visual", "collision", "material"))
 
 IGNORED = frozenset(("canonicalBody",))
 """Tags that Gazebo ignores, too."""
-
-
-def block_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
-    """Yield the elements in the blocks of a link or joint, in file order.
-
-    If a link and a joint share a name, each gets the elements of its kind, and the link those of
-    both kinds.
-    """
-    shared = part.name in robot.link and part.name in robot.joint
-    for block in robot.extensions.get(part.name, []):
-        for element in block.element.children:
-            if not shared or _is_of_joint(element) == isinstance(part, Joint):
-                yield element
-
-
-def _is_of_joint(element: Element) -> bool:
-    if element.tag == "sensor":
-        return (element.get("type") or "").strip() == "force_torque"
-    return element.tag in JOINT_TAGS | LUMPING_TAGS
 
 
 def write_settings(node: Node, settings: Mapping[str, Value], rows: Iterable[Setting]) -> None:
@@ -67,7 +48,7 @@ def format_content(content: Content) -> str:
 
 def merge_elements(node: Node, t: Translation, link: Link, tag: str) -> None:
     """Merge the ``<visual>`` or ``<collision>`` elements of a link's blocks into a node."""
-    for element in block_elements(t.robot, link):
+    for element in list_part_elements(t.robot, link):
         if element.tag == tag:
             made = append_copy(node, element)
             remove_invalid(made, t, element, link)
@@ -83,7 +64,7 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
         write_settings(node, link.settings, OF_LINKS)
     else:
         _report_merged_flags(t, link)
-    for element in block_elements(t.robot, link):
+    for element in list_part_elements(t.robot, link):
         tag = element.tag
         if tag == "plugin":
             if not is_body_sensor(t, element):
@@ -112,7 +93,7 @@ def _report_merged_flags(t: Translation, link: Link) -> None:
 def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     """Convert the settings of a joint, except sensors."""
     _report_settings(t, joint, joint.settings)
-    for element in block_elements(t.robot, joint):
+    for element in list_part_elements(t.robot, joint):
         tag = element.tag
         if tag == "plugin":
             if not is_body_sensor(t, element):
@@ -142,7 +123,7 @@ def _is_of_axis(row: Setting) -> bool:
 
 def report_dissolved_joint(t: Translation, joint: Joint) -> None:
     """Report the settings that are lost with a dissolved joint."""
-    lost = [e for e in block_elements(t.robot, joint) if e.tag not in LUMPING_TAGS | IGNORED]
+    lost = [e for e in list_part_elements(t.robot, joint) if e.tag not in LUMPING_TAGS | IGNORED]
     if lost and joint.name not in t.robot.link:
         tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
         t.report_loss(

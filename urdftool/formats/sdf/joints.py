@@ -44,7 +44,7 @@ def add_joint(model: Node, t: Translation, part: Joint) -> None:
         add_planar(model, t, part)
         _report_mimic_loss(t, part)
         return
-    kind = _format_type(t, part)
+    kind = _choose_type(t, part)
     node = start(model, t, part, t.names.get_joint(part.name), kind)
     if kind in ("revolute", "prismatic"):
         _add_axis(node, t, part)
@@ -55,7 +55,8 @@ def add_joint(model: Node, t: Translation, part: Joint) -> None:
     convert_joint_extensions(node, t, part)
 
 
-def _format_type(t: Translation, part: Joint) -> str:
+def _choose_type(t: Translation, part: Joint) -> str:
+    """Return the type in SDF, and report a type or axis that it cannot have."""
     if part.has_axis and part.axis is not None and compute_norm(part.axis.xyz) < 1e-6:
         text = (
             f"axis of joint '{part.name}' is zero, so its motion is undefined; it is exported "

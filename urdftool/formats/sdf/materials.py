@@ -5,12 +5,13 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.appearance import APPEARANCE, convert_color, convert_material, resolve_material
+from ...model.block_elements import list_part_elements
 from ...model.elements import Link, Material, Visual
 from ...model.gazebo_colors import COLORS, PICTURED
 from ...model.settings import Settings, get_text
 from ...source.document import Element
-from .extensions import block_elements, write_settings
-from .raw_sdf import copy_raw_element
+from .copied_elements import copy_raw_element
+from .extensions import write_settings
 from .translation import Translation
 from .xml import Node, add, get_or_create
 
@@ -26,7 +27,7 @@ SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
 def add_material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     """Add the material of a visual, and its transparency."""
-    said = [e for e in block_elements(t.robot, link) if e.tag == "material"]
+    said = [e for e in list_part_elements(t.robot, link) if e.tag == "material"]
     if said and _from_gazebo(node, t, link, part, said[-1]):
         return
     _report_script(t, link, part)

@@ -141,14 +141,14 @@ def _give_places(robot: Robot, meshes: MeshFiles, wanted: list[Path]) -> None:
         if len(parts) > 1 and parts[0] == "meshes":
             parts = parts[1:]
         place = "/".join([meshes.options.mesh_dir, *([package] if several else []), *parts])
-        place = _format_free(place, taken)
+        place = _choose_free_path(place, taken)
         meshes.places[path] = place
         taken.add(place)
     for path in wanted:
         _add_companions(robot, meshes, path, meshes.places[path])
 
 
-def _format_free(place: str, taken: set[str]) -> str:
+def _choose_free_path(place: str, taken: set[str]) -> str:
     stem, dot, suffix = place.rpartition(".")
     return get_first_free(chain((place,), list_numbered_names(stem, suffix=dot + suffix)), taken)
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...model.elements import ZERO, GazeboExtension, Origin
-from ...model.read import parse_numbers
-from ...model.settings import get_text, is_true
-from ...rules.gazebo.block_values import is_flag
+from ...model.block_elements import list_dangling_blocks, list_model_elements
+from ...model.settings import OF_ROBOT
+from ...model.world import find_model_origin
 from ...source.document import Element
 from ..common.naming import get_first_free, list_numbered_names
 from .body_sensors import add_body_sensors, is_body_sensor
 from .control import keep_control
+from .copied_elements import copy_raw_element, is_frame
+from .extensions import write_settings
 from .frames import add_frames
 from .joints import add_joint
 from .links import link
@@ -19,9 +20,8 @@ from .names import get_model_name
 from .plan import WORLD, get_links
 from .plugins import add_plugin
 from .pose import set_origin
-from .raw_sdf import copy_raw_element, is_frame
 from .translation import Translation
-from .xml import Node, add, append_copy
+from .xml import Node, add
 
 
 def add_model(parent: Node, t: Translation) -> Node:
@@ -56,42 +56,24 @@ def _name_canonical(node: Node, t: Translation) -> None:
             node.set("canonical_link", name)
 
 
-def _collect_blocks(t: Translation) -> list[GazeboExtension]:
-    return [block for block in t.robot.gazebo if not block.reference]
-
-
 def _set_whole(node: Node, t: Translation) -> None:
     """Set whether the model is static, and its pose."""
-    for block in _collect_blocks(t):
-        for element in block.element.list_children("static"):
-            text = get_text(element)
-            if is_flag(text):
-                for old in node.findall("static"):
-                    node.remove(old)
-                add(node, "static", "true" if is_true(text) else "false")
-    if t.robot.base is not None and t.robot.base.origin is not None:
-        set_origin(node, t.robot.base.origin, exact=t.options.is_at_least("1.9"))
-    origin = t.robot.find_child_xml("origin")
+    write_settings(node, t.robot.settings, [row for row in OF_ROBOT if row.name == "static"])
+    origin = find_model_origin(t.robot)
     if origin is not None:
-        xyz, rpy = (parse_numbers(origin.get(name), 3) or ZERO for name in ("xyz", "rpy"))
-        set_origin(node, Origin(origin, xyz, rpy))  # type: ignore[arg-type]
+        set_origin(node, origin, exact=t.options.is_at_least("1.9"))
 
 
 def _add_parts(node: Node, t: Translation) -> None:
     """Add plugins, and SDF elements that are copied unchanged."""
-    for block in _collect_blocks(t):
-        for element in block.element.children:
-            if element.tag == "plugin":
-                if not is_body_sensor(t, element):
-                    add_plugin(node, t, element)
-            elif element.tag == "joint":
-                _add_closing_joint(node, t, element)
-            elif element.tag == "pose":
-                for old in node.findall("pose"):
-                    node.remove(old)
-                node.insert(0, append_copy(node, element))
-            elif element.tag not in ("static", "canonicalBody"):
-                copy_raw_element(node, t, element)
+    for element in list_model_elements(t.robot):
+        if element.tag == "plugin":
+            if not is_body_sensor(t, element):
+                add_plugin(node, t, element)
+        elif element.tag == "joint":
+            _add_closing_joint(node, t, element)
+        elif element.tag not in ("pose", "static", "canonicalBody"):
+            copy_raw_element(node, t, element)
     add_body_sensors(node, t)
     _report_dangling(t)
 
@@ -143,20 +125,11 @@ def _can_join(t: Translation, end: str, name: str) -> bool:
 
 
 def _report_dangling(t: Translation) -> None:
-    for block in t.robot.gazebo:
-        name = block.reference
-        if name and name not in t.robot.link and name not in t.robot.joint:
-            shapes = {s.name: link for link, s in t.robot.shapes if s.name}
-            of = f"; it is a shape of link '{shapes[name].name}'" if name in shapes else ""
-            t.report_loss(
-                "reference",
-                (
-                    f"<gazebo> refers to '{name}', which is neither a link nor a joint{of}; it is "
-                    "not "
-                    "exported"
-                ),
-                block,
-            )
+    for name, block in list_dangling_blocks(t.robot):
+        shapes = {s.name: link for link, s in t.robot.shapes if s.name}
+        of = f"; it is a shape of link '{shapes[name].name}'" if name in shapes else ""
+        text = f"<gazebo> refers to '{name}', which is neither a link nor a joint{of}"
+        t.report_loss("reference", f"{text}; it is not exported", block)
 
 
 def _report_world(t: Translation) -> None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
 from ...mechanics.tensor import get_noise, measure_consistency
+from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
@@ -100,9 +101,8 @@ def _get_loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
 
 def _senses_force(robot: Robot, joint: Joint) -> bool:
     return any(
-        sensor.type == "force_torque"
-        for block in robot.extensions.get(joint.name, [])
-        for sensor in block.sensors
+        element.tag == "sensor" and (element.get("type") or "").strip() == "force_torque"
+        for element in list_part_elements(robot, joint)
     )
 
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from copy import deepcopy
 
 from ...diagnostic import Severity
+from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link
 from ...rules.gazebo.sensors import TYPES
 from ...source.document import Element
 from ..common.naming import get_free_name
-from .extensions import block_elements
+from .copied_elements import copy_raw_element, move_to_owner, rename_frames
 from .imu import write_imu_noise
 from .plugins import add_plugin
-from .raw_sdf import copy_raw_element, move_to_owner, rename_frames
 from .sensor_plugins import convert_sensor_plugin
 from .sensor_types import TO_CLASSIC, TO_GZ
 from .shape_names import choose_shape_names
@@ -24,7 +24,7 @@ _LUMP = "_fixed_joint_lump__"
 
 def add_sensors(node: Node, t: Translation, link: Link) -> None:
     """Add the sensors of a link to its owner."""
-    for element in block_elements(t.robot, link):
+    for element in list_part_elements(t.robot, link):
         if element.tag == "sensor":
             if (element.get("type") or "").strip() == "force_torque":
                 text = f"force_torque sensor '{element.get('name')}' is on link '{link.name}'; "
@@ -38,7 +38,7 @@ def add_sensors(node: Node, t: Translation, link: Link) -> None:
 
 def add_joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
     """Add the sensors of a joint."""
-    for element in block_elements(t.robot, joint):
+    for element in list_part_elements(t.robot, joint):
         if element.tag == "sensor":
             for made in _convert_made(node, t, joint, element):
                 rename_frames(made, t, joint)

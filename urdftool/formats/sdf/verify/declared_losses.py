@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from ....compare.proof import Excuse
 from ....diagnostic import Severity
 from ....finding import Finding
+from ....model.block_elements import find_references_at, list_model_elements
 from ....model.elements import Robot
 from ...common.losses import DeclaredLosses
 
@@ -55,8 +56,7 @@ def list_added_bodies(robot: Robot) -> Iterator[Finding]:
 
     Their reader joins the roots to the world.
     """
-    blocks = [block.element for block in robot.gazebo if not block.reference]
-    added = [e for block in blocks for e in block.children if e.tag in ("link", "model", "include")]
+    added = [e for e in list_model_elements(robot) if e.tag in ("link", "model", "include")]
     if added:
         roots = [link.name for link in robot.tree.roots]
         for name in (*roots, *(element.get("name") or "" for element in added)):
@@ -71,14 +71,7 @@ def declare_losses(robot: Robot, losses: Sequence[Finding]) -> DeclaredLosses:
         if loss.severity > Severity.INFO:
             declared.add((loss.code, loss.name))
             if loss.code in BLOCKS and not loss.name:
-                declared |= {(loss.code, block) for block in _list_blocks_at(robot, loss)}
+                declared |= {
+                    (loss.code, block) for block in find_references_at(robot, loss.location)
+                }
     return DeclaredLosses(frozenset(declared))
-
-
-def _list_blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
-    """Yield the reference of the ``<gazebo>`` block in which a loss occurred."""
-    for block in robot.gazebo:
-        element, place = block.element, loss.location
-        same = element.place.path == place.path
-        if same and element.start <= place.start < element.end:
-            yield block.reference or ""

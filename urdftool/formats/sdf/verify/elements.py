@@ -9,10 +9,10 @@ import numpy as np
 
 from ....compare.check import Check
 from ....model.appearance import APPEARANCE
+from ....model.block_elements import list_model_elements, list_part_elements
 from ....model.elements import Joint, Link
 from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS, OF_JOINTS, SURFACE
 from ....source.document import Element
-from .blocks import NOWHERE, list_elements, list_elements_of_whole
 from .declared_losses import BLOCKS, MOTION
 from .facts import EXACT, Facts, compare_facts, format_value, get_facts
 from .frames import invert_pose
@@ -23,7 +23,7 @@ OTHER_ROWS = frozenset(
     ("sensor", "plugin", "visual", "collision", "material", "velocity_decay", "inertial", "pose",
      "parent", "child", "axis", "axis2", "physics", "static", "link", "joint", "frame",
      "allow_auto_disable", "placement_frame", *JOINT_TAGS, *LINK_TAGS,
-     *LUMPING_TAGS, *NOWHERE)
+     *LUMPING_TAGS, "canonicalBody")
 )  # fmt: skip
 """Tags that other rows compare, or that SDF does not have."""
 
@@ -92,7 +92,7 @@ def _list_written(pair: Pair) -> Iterator[tuple[str, Any]]:
 
 def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
     """Yield the copied elements, with their owner in the file and name in the description."""
-    for element in list_elements_of_whole(pair.robot):
+    for element in list_model_elements(pair.robot):
         if element.tag not in OTHER_ROWS:
             yield "", "", element
     parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
@@ -106,7 +106,7 @@ def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
             owner = pair.get_joint(part.name)
             if owner not in pair.joints or part.name in pair.robot.link:
                 continue
-        for element in list_elements(pair.robot, part):
+        for element in list_part_elements(pair.robot, part):
             if element.tag not in OTHER_ROWS:
                 yield owner, part.name, element
 
@@ -141,7 +141,7 @@ def _compare_loops(pair: Pair, check: Check) -> None:
     """Compare the loop-closing joints of blocks."""
     elements = {e.get("name", ""): e for e in pair.where.model.findall("joint")}
     own = {pair.get_joint(joint.name) for joint in pair.robot.joints}
-    for block in list_elements_of_whole(pair.robot):
+    for block in list_model_elements(pair.robot):
         if block.tag != "joint":
             continue
         name = block.get("name") or ""
@@ -215,7 +215,7 @@ def _list_raw(pair: Pair, kind: str) -> Iterator[tuple[str, str, Facts]]:
     if kind == "joint":
         for joint in pair.robot.joints:
             name = pair.get_joint(joint.name)
-            for element in list_elements(pair.robot, joint) if name in pair.joints else ():
+            for element in list_part_elements(pair.robot, joint) if name in pair.joints else ():
                 if element.tag in ("physics", "axis", "axis2"):
                     yield joint.name, name, _add_prefix(element)
         return
@@ -228,7 +228,7 @@ def _list_raw(pair: Pair, kind: str) -> Iterator[tuple[str, str, Facts]]:
 
 def _list_facts(pair: Pair, kind: str, link: Link) -> Iterator[Facts]:
     """Yield the values that blocks give the collisions or visuals of a link."""
-    elements = list(list_elements(pair.robot, link))
+    elements = list(list_part_elements(pair.robot, link))
     yield from (get_facts(element) for element in elements if element.tag == kind)
     materials = [element for element in elements if element.tag == "material"]
     if kind == "visual" and materials and materials[-1].children:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ....compare.check import Check
+from ....model.block_elements import list_model_elements, list_part_elements
 from ....model.elements import Joint, Link
 from ....model.gazebo_plugins import (
     CONTROL_PLUGINS,
@@ -21,7 +22,6 @@ from ....model.gazebo_plugins import (
 )
 from ....model.read import number
 from ....source.document import Element
-from .blocks import list_elements, list_elements_of_whole
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .frames import Array, make_pose_of_six
 from .pair import Pair
@@ -107,7 +107,7 @@ def _list_written(pair: Pair) -> Iterator[tuple[str, Any]]:
 
 
 def _list_expected(pair: Pair) -> Iterator[Expected]:
-    for element in list_elements_of_whole(pair.robot):
+    for element in list_model_elements(pair.robot):
         if element.tag == "plugin":
             yield from _list_one(pair, element, "")
     elements = {
@@ -121,7 +121,7 @@ def _list_expected(pair: Pair) -> Iterator[Expected]:
         else:
             owner = pair.get_joint(part.name)
         there = owner in elements["link" if isinstance(part, Link) else "joint"]
-        for element in list_elements(pair.robot, part) if there else ():
+        for element in list_part_elements(pair.robot, part) if there else ():
             if element.tag == "plugin":
                 yield from _list_one(pair, element, owner)
             elif element.tag == "sensor":

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ....model.block_elements import list_plugins
 from ....model.elements import Joint, Link
 from ....model.gazebo_plugins import get_library
 from ....model.read import number, parse_numbers
@@ -65,14 +66,10 @@ def get_sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
 
 def list_sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
     """Yield the plugins outside of sensors that become sensors."""
-    for block in pair.robot.gazebo:
-        name = block.element.get("reference")
-        if name and name not in pair.robot.link and name not in pair.robot.joint:
-            continue
-        for plugin in block.element.list_children("plugin"):
-            part = get_sensed_part(pair, plugin)
-            if part is not None:
-                yield plugin, part
+    for plugin in list_plugins(pair.robot):
+        part = get_sensed_part(pair, plugin)
+        if part is not None:
+            yield plugin, part
 
 
 def offset_of(plugin: Element) -> Array:

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from ....compare.check import Check
+from ....model.block_elements import list_part_elements
 from ....model.elements import Joint, Link, Robot
 from ....model.gazebo_plugins import SENSOR_PLUGINS, get_library
 from ....model.kinematics import link_poses
 from ....model.read import number, parse_numbers
 from ....model.world import WORLD
 from ....source.document import Element
-from .blocks import list_elements
 from .declared_losses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, get_facts, get_value
 from .frames import Array, invert_pose, make_pose, make_pose_of_six, read_pose
@@ -149,7 +149,7 @@ def list_expected_sensors(pair: Pair) -> Iterator[Expected]:
     for part in parts:
         if isinstance(part, Joint) and not _is_joint(pair, part):
             continue
-        for element in list_elements(pair.robot, part):
+        for element in list_part_elements(pair.robot, part):
             if element.tag == "sensor":
                 kind = (element.get("type") or "").strip()
                 if isinstance(part, Link) and kind == "force_torque":

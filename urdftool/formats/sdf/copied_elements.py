@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...model.block_elements import list_model_elements
 from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_from_rpy
 from ...model.read import parse_numbers
@@ -172,5 +173,5 @@ def is_frame(t: Translation, name: str) -> bool:
     """Tell whether a link, joint or frame exists; scoped names are accepted unchecked."""
     if name in t.robot.link or name in t.robot.joint or name in ("", "__model__") or "::" in name:
         return True
-    blocks = (block.element for block in t.robot.gazebo if not block.reference)
-    return any(e.get("name") == name for b in blocks for e in b.children if e.tag in OWN_FRAMES)
+    elements = list_model_elements(t.robot)
+    return any(e.get("name") == name for e in elements if e.tag in OWN_FRAMES)
