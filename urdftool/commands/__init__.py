@@ -1,1 +1,1 @@
-"""One door per command: read the line, call the room, print, return the exit code."""
+"""The commands, one module each: parse arguments, call a feature, print, return the exit code."""

@@ -56,10 +56,6 @@ def command(
     output: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
-    overwrite: bool,
-    strict: bool,
-    verified: bool,
-    style: str,
     **choices: Any,
 ) -> int:
     """Convert the robot IN to a MuJoCo model (MJCF).
@@ -94,8 +90,5 @@ def command(
         model,
         options,
         place,
-        strict=strict,
-        verify=verified,
-        overwrite=overwrite,
-        as_json=style == "json",
+        choices,
     )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -47,11 +47,8 @@ def run_export(
     robot: Robot,
     options: ExportOptions,
     output: str,
+    values: Mapping[str, Any],
     *,
-    strict: bool,
-    verify: bool,
-    overwrite: bool,
-    as_json: bool,
     more_checks: Callable[[Robot], list[Finding]] | None = None,
 ) -> int:
     """Export a robot, and report what was lost, compared and written.
@@ -62,10 +59,9 @@ def run_export(
         robot: Robot.
         options: Options of the format's writer.
         output: File or folder; ``-`` is standard output.
-        strict: Treat losses as errors.
-        verify: Compare the result with the robot.
-        overwrite: Overwrite files not written by urdftool.
-        as_json: Print the report as JSON.
+        values: Values of ``make_export_options``: whether losses are errors (``strict``), the
+            result is compared (``verified``), other files are replaced (``overwrite``), and the
+            format of the report (``style``).
         more_checks: Returns further findings about the robot.
 
     Returns:
@@ -78,11 +74,12 @@ def run_export(
     from ..formats.export import finish_export
     from ..refusal import Refused
 
+    as_json, verify = values["style"] == "json", values["verified"]
     try:
         written = target.write(robot, options)
         if more_checks is not None:
             written.losses += more_checks(robot)
-        if strict and (lost := raise_losses_as_errors(written.losses)):
+        if values["strict"] and (lost := raise_losses_as_errors(written.losses)):
             raise Refused(lost)
     except Refused as refused:
         return report_refused(console, refused.findings, as_json=as_json)
@@ -90,7 +87,7 @@ def run_export(
     if place is not None:
         restore_output(console, place)
     checks = finish_export(
-        target, robot, options, written, place, verify=verify, overwrite=overwrite
+        target, robot, options, written, place, verify=verify, overwrite=values["overwrite"]
     )
     if place is None:
         _print_model(written, as_json=as_json)

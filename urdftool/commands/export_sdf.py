@@ -42,10 +42,6 @@ def command(
     output: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
-    overwrite: bool,
-    strict: bool,
-    verified: bool,
-    style: str,
     **choices: Any,
 ) -> int:
     """Convert the robot IN to SDF for Gazebo.
@@ -75,9 +71,6 @@ def command(
         model,
         options,
         place,
-        strict=strict,
-        verify=verified,
-        overwrite=overwrite,
-        as_json=style == "json",
+        choices,
         more_checks=partial(check_plugins, target=options.target),
     )

@@ -56,10 +56,6 @@ def command(
     package_path: tuple[str, ...],
     isaaclab: Path | None,
     isaaclab_version: str,
-    overwrite: bool,
-    strict: bool,
-    verified: bool,
-    style: str,
     **choices: Any,
 ) -> int:
     """Convert the robot IN to a stage of OpenUSD, for Isaac Sim, Isaac Lab and Newton.
@@ -84,7 +80,7 @@ def command(
     options = make_options(Options, choices, file=file, cutter=make_cutter(model))
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
-    if options.file and not overwrite:
+    if options.file and not choices["overwrite"]:
         from ..formats.usd.files import check_replaced
 
         check_replaced(Path(place))
@@ -94,10 +90,7 @@ def command(
         model,
         options,
         place,
-        strict=strict,
-        verify=verified,
-        overwrite=overwrite,
-        as_json=style == "json",
+        choices,
     )
     if isaaclab is not None and code < 2:
         from ..formats.usd.isaaclab import write_config
@@ -105,7 +98,12 @@ def command(
 
         stage = Path(place) if options.file else Path(place) / get_stage_name(model)
         assumed = write_config(
-            model, options, stage, isaaclab, version=int(isaaclab_version), overwrite=overwrite
+            model,
+            options,
+            stage,
+            isaaclab,
+            version=int(isaaclab_version),
+            overwrite=choices["overwrite"],
         )
         for sentence in assumed:
             console.print_note(f"{isaaclab}: assumed: {sentence}")
