@@ -184,10 +184,10 @@ class Harness:
                 continue
             text = f"{d.row}: {d.title}"
             if d.is_convention:
-                result.is_convention |= bool({*d.names} & change.names)
+                result.is_convention |= bool({*d.names, *d.owners} & change.names)
             elif d.kind == "robot":
                 result.of_robot.append(d.row)
-            elif {*d.names} & change.names:
+            elif {*d.names, *d.owners} & change.names:
                 result.at_its_part.append(text)
             else:
                 result.elsewhere.append(text)

@@ -77,7 +77,10 @@ def load_tolerant(
     if not many:
         report_unknown_arguments(console, description, shown=shown)
     report_assumed_packages(console, description, shown=shown)
-    return add_implicit_world(console, make_robot(description), shown=shown)
+    robot = make_robot(description)
+    for rejected in robot.rejected_settings:
+        console.print_note(f"{shown(str(rejected.place))}: warning: {rejected.message}")
+    return add_implicit_world(console, robot, shown=shown)
 
 
 def add_implicit_world(

@@ -30,6 +30,7 @@ from .origins import (
     has_same_parent,
 )
 from .pair import Match, Pair, add_presence, locate, make_pair
+from .plugins import compare_plugins
 from .rows import ROWS, Row
 from .sensors import compare_sensors
 from .settings import compare_flags, compare_joint_settings, compare_robot_flags
@@ -38,6 +39,9 @@ from .shapes import compare_shapes
 _MANY = 3
 """Number of differences from which another frame is considered."""
 
+
+_SAME = 1e-6
+"""Distance [m] and angle [rad] of equal frames; above the rounding errors of printed angles."""
 
 _FARTHEST = 0.02
 """Distance of two axes [m] up to which their frames may have different conventions."""
@@ -104,6 +108,7 @@ def compare_robots(
     compare_sensors(pair, comparison)
     compare_drives(pair, comparison)
     skip_looks(pair, comparison)
+    compare_plugins(pair, comparison)
     compare_equipment(pair, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)
@@ -137,6 +142,8 @@ def _add_base_pose(pair: Pair, match: Match, comparison: Comparison) -> None:
     It is a difference if the root has the same name in both files and another link is fixed to it;
     otherwise it is a convention.
     """
+    if _has_root_at(match):
+        return
     members = pair.match_members(match.one, match.two)
     others = [(x, y) for x, y in members if x != match.one.name and y != match.two.name]
     if others and (match.one.name, match.two.name) in members:
@@ -145,6 +152,16 @@ def _add_base_pose(pair: Pair, match: Match, comparison: Comparison) -> None:
         return
     poses = "identity", describe_pose(match.frame)
     _add_frame_convention(comparison, "base", pair, match, poses)
+
+
+def _has_root_at(match: Match) -> bool:
+    """Tell whether the root of one body is a link or frame of the other at that pose."""
+    one, two, back = match.one, match.two, invert(match.frame)
+    for body, name, pose in ((two, one.name, back), (one, two.name, match.frame)):
+        known = body.members.get(name, body.frames.get(name, (None, None))[1])
+        if name != body.name and known is not None:
+            return measure_largest(invert(known) @ pose) <= _SAME
+    return False
 
 
 def _align_base(walk: _Walk, one: Body, two: Body) -> Array:
@@ -173,7 +190,7 @@ def _choose(
         two: Body of the second.
         candidates: Poses of the second body in the first, 4 × 4.
         prefers_first: Whether to choose the first one, unless that causes several differences and
-            another at most half of them.
+            another none.
     """
     different: list[Array] = []
     for pose in candidates:
@@ -183,7 +200,7 @@ def _choose(
         return different[0]
     counts = [_count(walk, Match(one, two, pose)) for pose in different]
     least = min(counts)
-    is_better = not prefers_first or (2 * least <= counts[0] and counts[0] >= _MANY)
+    is_better = not prefers_first or (not least and counts[0] >= _MANY)
     return different[counts.index(least)] if is_better else different[0]
 
 

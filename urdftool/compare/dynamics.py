@@ -12,7 +12,9 @@ from ..mechanics.reference import SLIDING, TURNING, Array, Mechanics
 from ..model.elements import Joint
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE
+from ..model.world import WORLD
 from .difference import Comparison, Difference
+from .freedoms import BASE, SEVERAL, add_free_base, expand_joints, place_root
 from .pair import Pair
 from .rows import GLOBAL_ROWS
 
@@ -29,7 +31,7 @@ A robot without mass has elements of 1e-12 of rounding or of the least masses th
 def compare_dynamics(
     pair: Pair, frame: Array, signs: Mapping[str, float], comparison: Comparison
 ) -> None:
-    """Compare joint-space mass matrices and gravity forces with a fixed base.
+    """Compare joint-space mass matrices and gravity forces with a fixed base, then with a free one.
 
     Args:
         pair: Both robots.
@@ -39,27 +41,55 @@ def compare_dynamics(
     """
     if not set(GLOBAL_ROWS) & set(comparison.tolerances):
         return
-    one, two = Mechanics(pair.a.robot), Mechanics(pair.b.robot)
-    names = [joint.name for joint in one.joints]
-    others = [pair.joints.get(name, "") for name in names]
-    why = ""
-    if sorted(others) != sorted(joint.name for joint in two.joints):
-        why = "the joints differ"
-    elif any(d.row == "tree" and d.what == "type" for d in comparison.differences):
-        why = "the types of joints differ"
-    elif len(names) > _MOST_JOINTS:
-        why = f"there are more than {_MOST_JOINTS} joints"
-    elif not names:
-        why = "there are no joints with one position"
-    elif any(j.type not in TURNING + SLIDING for j in pair.a.joints.values()):
-        why = "some joints have several positions"
+    one, two, names = expand_joints(pair)
+    roots = one.tree.roots[0].name, two.tree.roots[0].name
+    two = place_root(two, roots[1], frame)
+    why = _find_obstacle(pair, Mechanics(one), Mechanics(two), names, comparison)
     if why:
         comparison.skipped |= dict.fromkeys(GLOBAL_ROWS, why)
         return
+    _compare(Mechanics(one), Mechanics(two), names, signs, comparison)
+    is_fixed = False in (pair.a.is_free, pair.b.is_free) or WORLD in roots
+    if not is_fixed and roots == (pair.a.root, pair.b.root):
+        free, free2 = Mechanics(add_free_base(one)), Mechanics(add_free_base(two))
+        names |= {f"{BASE}~{i}": f"{BASE}~{i}" for i in range(6)}
+        _compare(free, free2, names, signs, comparison)
+
+
+def _find_obstacle(
+    pair: Pair,
+    one: Mechanics,
+    two: Mechanics,
+    names: Mapping[str, str],
+    comparison: Comparison,
+) -> str:
+    """Return why the matrices cannot be compared; empty if they can."""
+    others = [names.get(joint.name, "") for joint in one.joints]
+    if sorted(others) != sorted(joint.name for joint in two.joints):
+        return "the joints differ"
+    if any(d.row == "tree" and d.what == "type" for d in comparison.differences):
+        return "the types of joints differ"
+    if len(one.joints) > _MOST_JOINTS:
+        return f"there are more than {_MOST_JOINTS} joints"
+    if not one.joints:
+        return "there are no joints with positions"
+    known = (*TURNING, *SLIDING, *SEVERAL)
+    return "" if all(j.type in known for j in pair.a.joints.values()) else "some joints are planar"
+
+
+def _compare(
+    one: Mechanics,
+    two: Mechanics,
+    pairs: Mapping[str, str],
+    signs: Mapping[str, float],
+    comparison: Comparison,
+) -> None:
+    """Compare mass matrices and gravity forces of two robots at some configurations."""
+    names = [joint.name for joint in one.joints]
+    others = [pairs[name] for name in names]
     columns = [[joint.name for joint in two.joints].index(name) for name in others]
     sign = np.array([signs.get(name, 1.0) for name in names])
     generator = random.Random(0)
-    upright = abs(frame[2, 2] - 1.0) < 1e-9
     for number in range(_CONFIGURATIONS):
         values = [_draw(joint, generator) if number else 0.0 for joint in one.joints]
         here = dict(zip(names, values, strict=True))
@@ -70,15 +100,12 @@ def compare_dynamics(
             one.compute_mass_matrix(here),
             two.compute_mass_matrix(there)[np.ix_(columns, columns)] * np.outer(sign, sign),
         )
-        if upright:
-            _add_matrix(
-                comparison,
-                "gravity",
-                one.compute_gravity(here),
-                two.compute_gravity(there)[columns] * sign,
-            )
-    if not upright:
-        comparison.skipped["gravity"] = "the bases are inclined to each other"
+        _add_matrix(
+            comparison,
+            "gravity",
+            one.compute_gravity(here),
+            two.compute_gravity(there)[columns] * sign,
+        )
 
 
 def _draw(joint: Joint, generator: random.Random) -> float:

@@ -43,7 +43,7 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     if pair.formats[0] == "urdf":  # its actuators are elements of blocks
         comparison.skipped.update(dict.fromkeys(rows - {_BLOCKS}, f"in the row of {_BLOCKS}"))
     elif _BLOCKS in rows:
-        comparison.skipped[_BLOCKS] = "plugins are not read"
+        comparison.skipped[_BLOCKS] = _WHY[_BLOCKS]
     for change in _list_changes(pair):
         if change.kind in _ROW_OF:
             comparison.add(_make_difference(_ROW_OF[change.kind], change))

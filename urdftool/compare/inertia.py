@@ -263,12 +263,9 @@ def _compare_properties(
             f"{distance * 1000:.4g} mm apart",
         )
     )
-    size = max(abs(np.trace(tensor)), abs(np.trace(tensor2)))
-    if mass and mass2:  # that of another mass differs with it, which is one difference
-        tensor2 = tensor2 * (mass / mass2) if relative > 1e-12 else tensor2
-        size = max(abs(np.trace(tensor)), abs(np.trace(tensor2)))
-    size = max(size, 3 * get_noise(larger))
-    spread = float(np.abs(tensor - tensor2).max()) / size if size else 0.0
+    spread = _measure_tensors(tensor, tensor2, larger)
+    if mass and mass2 and relative > 1e-12:  # that of a body of another mass is one difference
+        spread = min(spread, _measure_tensors(tensor, tensor2 * (mass / mass2), larger))
     texts = [
         _format_tensor(f[:3, :3].T @ t @ f[:3, :3])
         for f, t in zip(frames, (values[0][2], values[1][2]), strict=True)
@@ -286,6 +283,12 @@ def _compare_properties(
             f"{100 * spread:.3g} % of the trace",
         )
     )
+
+
+def _measure_tensors(one: Array, two: Array, mass: float) -> float:
+    """Return the largest difference of elements, relative to the larger trace."""
+    size = max(abs(np.trace(one)), abs(np.trace(two)), 3 * get_noise(mass))
+    return float(np.abs(one - two).max()) / size if size else 0.0
 
 
 def _format_tensor(tensor: Array) -> str:

@@ -156,9 +156,9 @@ def measure(x: float, y: float) -> float:
 _FORMATS_OF = {
     "damping": ("urdf", "sdf", "mjcf", "usd"),
     "friction": ("urdf", "sdf", "mjcf"),
-    "armature": ("mjcf", "usd"),
+    "armature": ("urdf", "sdf", "mjcf", "usd"),
 }
-"""Formats that have each property of the dynamics."""
+"""Formats that have each property of the dynamics; a rotor that a format lacks has no inertia."""
 
 
 def _compare_dynamics(pair: Pair, match: JointMatch, comparison: Comparison) -> None:

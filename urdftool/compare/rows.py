@@ -45,6 +45,7 @@ ROWS = (
     Row("contact pairs", "links without contact, in two files of one format", 0.0),
     Row("loops", "connections that close loops, in two files of one format", 0.0),
     Row("configurations", "named joint positions, of two files of one format", 0.0),
+    Row("plugins", "plugins of URDF and SDF: class and parameters", 0.0),
     Row("simulator data", "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),
     Row("mass matrix", "at 5 configurations, relative to the largest element", 1e-4),
     Row("gravity", "joint forces at 5 configurations, relative to the largest", 1e-4),
@@ -55,11 +56,12 @@ GLOBAL_ROWS = ("mass matrix", "gravity")
 """Properties of the whole robot, which follow from those of its parts."""
 
 EQUIPMENT_ROWS = (
-    *("sensors", "actuators", "contact pairs", "loops", "configurations", "simulator data"),
+    *("sensors", "actuators", "contact pairs", "loops", "configurations", "plugins"),
+    "simulator data",
 )
 """Properties that are compared in two files of one format."""
 
-NOT_COMPARED = ("contact bits", "world settings", "plugins of SDF")
+NOT_COMPARED = ("contact bits", "world settings")
 """Parts of a description that are not compared."""
 
 

@@ -16,7 +16,7 @@ from ..mechanics.reference import Array, get_origin_matrix, turn
 from ..model.elements import Robot
 from ..model.mechanism import Camera, MountedSensor
 from ..model.sensors import KINDS, MAX_RAYS, get_kind, get_sensor_row
-from ..model.settings import Content, Settings, get_number
+from ..model.settings import Settings, get_number
 from .difference import Comparison, Difference
 from .frames import describe_motion, describe_pose, measure_largest
 from .origins import find_least_offset
@@ -262,7 +262,7 @@ def _compare_parameter(name: str, one: _Sensor, two: _Sensor, add: Callable[...,
     if name.startswith("collision") and isinstance(x, str) and isinstance(y, str):
         if _shorten(x) == _shorten(y):
             return
-    amount = _measure(x, y)
+    amount = measure_content(x, y)
     values = format_content(x), format_content(y)
     add(name.replace("/", " "), values, amount if amount > _NUMBERS else 0.0, unit=row.unit)
 
@@ -270,18 +270,3 @@ def _compare_parameter(name: str, one: _Sensor, two: _Sensor, add: Callable[...,
 def _shorten(collision: str) -> str:
     """Return the name of a collision without the scope that Gazebo gives it."""
     return collision.rpartition("__")[2].rpartition("::")[2]
-
-
-def _measure(x: Content, y: Content) -> float:
-    """Return how far two values are apart; of texts, the largest of their numbers."""
-    if not (isinstance(x, str) and isinstance(y, str)):
-        return measure_content(x, y)
-    if x == y:
-        return 0.0
-    try:
-        one, two = ([float(word) for word in text.split()] for text in (x, y))
-    except ValueError:
-        return math.inf
-    if len(one) != len(two) or not one:
-        return math.inf
-    return max(measure_content(a, b) for a, b in zip(one, two, strict=True))

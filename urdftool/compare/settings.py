@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from ..model.numbers import number
 from ..model.part import Part
 from ..model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
 from .difference import Comparison, Difference
@@ -24,11 +25,14 @@ def compare_surfaces(
 
 
 def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
-    """Compare the settings of whole robots, except ``static``, a row of its own."""
+    """Compare the settings of whole robots; that of ``static`` in the base, if both write it."""
     robots = pair.a.robot, pair.b.robot
     settings = robots[0].settings, robots[1].settings
-    rows = [row for row in OF_ROBOT if row.name != "static"]
     names = robots[0].name, robots[1].name
+    base = [row for row in OF_ROBOT if row.name == "static"]
+    rows = [row for row in OF_ROBOT if row.name != "static"]
+    if set(pair.formats) == {"urdf", "sdf"}:
+        compare_settings(pair, comparison, "base", "robot", names, base, settings, robots)
     compare_settings(pair, comparison, "link flags", "robot", names, rows, settings, robots)
 
 
@@ -111,11 +115,25 @@ def measure_content(x: Content, y: Content) -> float:
     """Return how far two values are apart, relative above 1; infinite for unequal texts."""
     if isinstance(x, tuple) and isinstance(y, tuple):
         return max(abs(a - b) for a, b in zip(x, y, strict=True))
+    if isinstance(x, str) and isinstance(y, str):
+        return measure_text(x, y)
     if isinstance(x, tuple | str) or isinstance(y, tuple | str):
         return 0.0 if x == y else math.inf
     if isinstance(x, bool) or isinstance(y, bool):
         return 0.0 if bool(x) == bool(y) else math.inf
     return measure(x, y)
+
+
+def measure_text(x: str, y: str) -> float:
+    """Return how far the numbers of two texts are apart; infinite for other unequal texts."""
+    if x == y:
+        return 0.0
+    one, two = ([number(word) for word in text.split()] for text in (x, y))
+    if len(one) != len(two) or not one:
+        return math.inf
+    return max(
+        math.inf if a is None or b is None else measure(a, b) for a, b in zip(one, two, strict=True)
+    )
 
 
 def format_content(content: Content) -> object:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from ..source.document import Element
 from .elements import GazeboExtension, Robot
@@ -11,10 +12,14 @@ from .kinematics import link_poses
 from .mechanism import Camera, Closure, MountedSensor
 from .numbers import parse_numbers
 from .part import Vector
+from .plugins import read_plugin
 from .pose import IDENTITY, Pose, compute_norm, get_origin_at, rotate
 from .sensors import read_body_sensor, read_sensor, read_sensor_pose
 from .settings import Rejected
 from .world import WORLD
+
+if TYPE_CHECKING:
+    from .provenance import Provenance
 
 LOOP_TYPES = ("revolute", "continuous", "prismatic", "ball", "fixed", "screw", "universal")
 """Types of joints of SDF that close a loop."""
@@ -37,7 +42,7 @@ def add_blocks(robot: Robot) -> None:
         for sensor in block.sensors:
             _add_sensor(robot, block, sensor.element)
         for plugin in block.plugins:
-            _add_plugin(robot, block, plugin.element)
+            add_plugin(robot, plugin.element, block.reference or "")
         if not block.reference:
             for element in block.element.list_children("joint"):
                 _add_loop(robot, element)
@@ -80,16 +85,27 @@ def add_parts(robot: Robot, parts: Iterator[Camera | MountedSensor]) -> None:
             robot.mounted_sensors.append(part)
 
 
-def _add_plugin(robot: Robot, block: GazeboExtension, element: Element) -> None:
-    """Add the sensor of a plugin that measures a link or joint itself."""
+def add_plugin(
+    robot: Robot, element: Element, owner: str, provenance: Provenance | None = None
+) -> None:
+    """Add a plugin, and the sensor of one that measures a link or joint itself.
+
+    Args:
+        robot: The robot.
+        element: The plugin, in SDF or in a ``<gazebo>`` block.
+        owner: Name of its link or joint; empty for the robot.
+        provenance: Location; None for the element.
+    """
+    robot.mounted_plugins.append(read_plugin(element, owner, provenance))
     kind = BODY_SENSORS.get(get_library(element))
     if kind is None:
         return
     named = (child.text.strip() for tag in kind.names for child in element.list_children(tag))
-    name = next(named, "") or block.reference or ""
+    name = next(named, "") or owner
     of_joint = kind.type == "force_torque"
     if name in (robot.joint if of_joint else robot.link):
         sensor = read_body_sensor(element, kind)
+        sensor.provenance = provenance or element
         sensor.link, sensor.joint = ("", name) if of_joint else (name, "")
         robot.mounted_sensors.append(sensor)
 

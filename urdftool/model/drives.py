@@ -98,7 +98,7 @@ class Drive(Part):
     Attributes:
         joint: Name of the joint.
         mode: ``motor``, ``position``, ``velocity`` or ``general``.
-        gear: Reduction of a motor.
+        gear: Reduction of a motor; None if not written.
         stiffness: Force for each unit of position [N·m/rad or N/m]; None if not written.
         damping: Force for each unit of velocity [N·m·s/rad or N·s/m]; None if not written.
         force: Largest force at the joint [N·m or N]; None if not limited.
@@ -108,7 +108,7 @@ class Drive(Part):
 
     joint: str = ""
     mode: str = "motor"
-    gear: float = 1.0
+    gear: float | None = None
     stiffness: float | None = None
     damping: float | None = None
     force: float | None = None
@@ -127,7 +127,7 @@ def list_drives(robot: Robot) -> Iterator[Drive]:
         shared = [name for actuator in part.actuators for name in actuator.hardware_interfaces]
         for joint in part.joints:
             mode = get_actuator_kind([*joint.hardware_interfaces, *shared])
-            gear = reduction if mode == "motor" else 1.0
+            gear = reduction if mode == "motor" else None
             if joint.name in robot.joint:
                 source = "transmission"
                 yield Drive(part.provenance, joint.name, mode, gear, source=source, owner=part.name)
@@ -155,7 +155,7 @@ def _list_actuators(robot: Robot) -> Iterator[Drive]:
             part.provenance,
             part.joint,
             part.mode,
-            part.gear if part.mode == "motor" else 1.0,
+            part.gear if part.mode == "motor" else None,
             -position * squared if part.mode in ("position", "general") else None,
             -velocity * squared if part.mode != "motor" else None,
             force if force is None or math.isfinite(force) else None,

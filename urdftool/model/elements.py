@@ -33,6 +33,7 @@ from .mechanism import (
     ContactExclusion,
     Frame,
     JointActuator,
+    MountedPlugin,
     MountedSensor,
 )
 from .part import ZERO as ZERO
@@ -316,6 +317,7 @@ class Robot(RobotConversions, Part):
         configurations: Named joint positions.
         cameras: Cameras on links.
         mounted_sensors: Sensors of links and joints.
+        mounted_plugins: Plugins of Gazebo that are not in a sensor.
         settings: Settings of ``settings.OF_ROBOT``.
         rejected_settings: Elements of settings whose text is not a value.
         unread: What the robot does not hold of its source, once for each kind.
@@ -339,6 +341,7 @@ class Robot(RobotConversions, Part):
     configurations: list[Configuration] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     mounted_sensors: list[MountedSensor] = field(default_factory=list)
+    mounted_plugins: list[MountedPlugin] = field(default_factory=list)
     settings: Settings = field(default_factory=dict)
     rejected_settings: list[Rejected] = field(default_factory=list)
     format: str = "urdf"

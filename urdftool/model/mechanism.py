@@ -147,3 +147,19 @@ class MountedSensor(Part):
     origin: Origin | None = None
     settings: Settings = field(default_factory=dict)
     quantities: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class MountedPlugin(Part):
+    """Plugin of Gazebo that is not in a sensor.
+
+    Attributes:
+        library: Library without folder, ``lib`` and ``.so``.
+        owner: Name of its link or joint; empty for one of the robot.
+        settings: Parameters as texts, by their path.
+    """
+
+    name: str = ""
+    library: str = ""
+    owner: str = ""
+    settings: Settings = field(default_factory=dict)

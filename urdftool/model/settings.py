@@ -179,9 +179,9 @@ class Rejected(Part):
     """Element of a setting whose text is not a value.
 
     Attributes:
-        kind: ``link``, ``joint``, ``robot`` or ``sensor``.
+        kind: ``link``, ``joint``, ``robot``, ``sensor`` or ``closed loop``.
         name: Name of that part.
-        tag: Tag of the element.
+        tag: Tag of the element, or what of it is wrong.
         text: Its text.
         required: What it has to be.
     """
@@ -191,6 +191,12 @@ class Rejected(Part):
     tag: str = ""
     text: str = ""
     required: str = ""
+
+    @property
+    def message(self) -> str:
+        """Return what is wrong and what would be right, in one sentence."""
+        known = f"{self.kind} '{self.name}': {self.tag}"
+        return f"{known} is '{self.text}', not {self.required}; it is ignored"
 
 
 @dataclass(slots=True)

@@ -15,6 +15,10 @@ LETTERS = "ABCDEFGH"
 """Letters of the robots."""
 
 _SHOWN = 60
+_ALIKE = 4
+"""Number of equal differences of several parts that are printed as one; chosen, no source."""
+_NAMED = 3
+"""Number of their names that are printed."""
 
 
 def to_json(paths: Sequence[str], agreement: Agreement) -> str:
@@ -80,9 +84,11 @@ def format_text(paths: Sequence[str], agreement: Agreement) -> str:
         if chosen:
             title = "Conventions that differ, with the same motion and mass:" if convention else ""
             text += f"\n{title}\n" if title else "\n"
-            text += "".join(_format_entry(entry) for entry in chosen[:_SHOWN])
-        if len(chosen) > _SHOWN:
-            text += f"… and {len(chosen) - _SHOWN} more; --format json lists all\n"
+            groups = _group(chosen)
+            text += "".join(_format_group(group) for group in groups[:_SHOWN])
+            if len(groups) > _SHOWN:
+                count = sum(map(len, groups[_SHOWN:]))
+                text += f"… and {count} more; --format json lists all\n"
     return text + _format_rest(agreement)
 
 
@@ -109,15 +115,43 @@ def _format_cell(comparison: Comparison, row: str) -> str:
     return f"{check.verdict}{count}"
 
 
-def _format_entry(entry: Disagreement) -> str:
+def _group(entries: Sequence[Disagreement]) -> list[list[Disagreement]]:
+    """Group the entries of one property with the same values in at least ``_ALIKE`` parts."""
+    groups: dict[object, list[Disagreement]] = {}
+    for number, entry in enumerate(entries):
+        shown = tuple(map(_format_value, entry.values))
+        key = entry.row, entry.kind, entry.what, entry.unit, entry.note, shown
+        groups.setdefault(key if entry.name else number, []).append(entry)
+    found = []
+    for group in groups.values():
+        found += [group] if len(group) >= _ALIKE else [[entry] for entry in group]
+    return found
+
+
+def _format_group(group: Sequence[Disagreement]) -> str:
+    """Format an entry; of several, the names and the values and places of the first."""
+    first = group[0]
+    if len(group) == 1:
+        return _format_entry(first, f"{first.kind} '{first.name}': " if first.name else "")
+    names = ", ".join(f"'{entry.name}'" for entry in group[:_NAMED])
+    rest = f" and {len(group) - _NAMED} more" if len(group) > _NAMED else ""
+    return _format_entry(first, f"{len(group)} {first.kind}s {names}{rest}: ")
+
+
+def _format_value(value: object) -> str:
+    if value is None:
+        return "none"
+    return f"{value:.8g}" if isinstance(value, float) else str(value)
+
+
+def _format_entry(entry: Disagreement, owner: str) -> str:
     unit = f" [{entry.unit}]" if entry.unit else ""
-    owner = f"{entry.kind} '{entry.name}': " if entry.name else ""
     note = f": {entry.note}" if entry.note else ""
     text = f"{owner}{entry.what}{unit}{note}\n"
     for number, (value, place) in enumerate(zip(entry.values, entry.places, strict=True)):
         if entry.kind == "robot":
             continue
-        shown = f"{value:.8g}" if isinstance(value, float) else "none" if value is None else value
+        shown = _format_value(value)
         where = f"  {place}" if place is not None else ""
         alone = "  (alone)" if entry.alone == number else ""
         text += f"  {LETTERS[number]}  {shown}{where}{alone}\n"

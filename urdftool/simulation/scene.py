@@ -77,5 +77,6 @@ def _select(robot: Robot, links: list[Link]) -> Robot:
         joint_actuators=[a for a in robot.joint_actuators if a.joint in kept],
         exclusions=[e for e in robot.exclusions if {e.link, e.other} <= names],
         cameras=[camera for camera in robot.cameras if camera.link in names],
+        mounted_plugins=[p for p in robot.mounted_plugins if p.owner in {"", *names, *kept}],
         mounted_sensors=[s for s in robot.mounted_sensors if s.joint in kept or s.link in names],
     )

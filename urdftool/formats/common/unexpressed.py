@@ -28,7 +28,7 @@ class _Kind(NamedTuple):
     severity: Severity = Severity.WARNING
 
 
-_IN_BLOCKS = ("closure", "camera", "sensor")
+_IN_BLOCKS = ("closure", "camera", "sensor", "plugin")
 """Codes of parts that a URDF has in its blocks."""
 
 
@@ -94,6 +94,8 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("configuration", "configuration", [*configurations], info)
     yield _Kind("camera", "camera", [(part, part.name) for part in robot.cameras], info)
     yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
+    plugins = [(part, part.name or part.library) for part in robot.mounted_plugins]
+    yield _Kind("plugin", "plugin", [*plugins], info)
     yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
     rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
     yield _Kind("joint-armature", "armature of joint", [*rotors])

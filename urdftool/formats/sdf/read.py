@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ModelError
+from ...model.blocks import add_plugin
 from ...model.elements import Link, Robot
 from ...model.mechanism import Base
 from ...model.pose import IDENTITY, get_origin_at
@@ -65,9 +66,19 @@ def read(
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
     robot.source.gltf_up = "z"  # Gazebo keeps the axes of the file
     _fill(Context(robot, losses, file.path), top)
+    _add_plugins(robot, top)
     found = losses.make_findings()
     robot.unread = found
     return Reading(robot, found)
+
+
+def _add_plugins(robot: Robot, top: Scope) -> None:
+    for prefix, scope in top.list_scopes():
+        owners = [(item.element, prefix + item.name) for item in scope.links.values()]
+        owners += [(item.element, prefix + item.name) for item in scope.joints.values()]
+        for element, owner in ((scope.element, ""), *owners):
+            for plugin in element.list_children("plugin"):
+                add_plugin(robot, plugin, owner, Written(plugin.place, plugin))
 
 
 def _choose(found: list[Scope], losses: Losses) -> Scope | None:

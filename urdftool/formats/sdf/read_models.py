@@ -115,10 +115,6 @@ class Models:
                 self._nest(scope, nested)
             elif child.tag == "include":
                 self._include(scope, child, home)
-            elif child.tag == "plugin":
-                text = "plugins are not read"
-                name = child.get("filename") or ""
-                self.losses.add("plugin", text, name, child.place, Severity.INFO)
             elif child.tag == "gripper":
                 text = "grippers are not read"
                 self.losses.add("gripper", text, child.get("name") or "", child.place)

@@ -235,6 +235,7 @@ def _report_unexpressed(t: Translation) -> None:
     kinds = (
         ("armature", "rotor inertia (armature) of joints is dropped", rotors),
         ("closure", "connections that close loops are dropped", robot.closures),
+        ("plugin", "plugins of Gazebo are dropped", robot.mounted_plugins),
     )
     for code, text, parts in kinds:
         if parts:

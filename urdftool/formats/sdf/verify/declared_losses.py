@@ -42,6 +42,7 @@ EXCUSES = (
         ends=("_x", "_y"),
     ),
     Excuse(("limits",), frozenset(("lossy-limit",))),
+    Excuse(("joint physics",), frozenset(("lossy-joint-armature",))),
     Excuse(("frames",), frozenset(("lossy-frame",)), "body"),
     Excuse(("tree",), frozenset(("lossy-mimic",))),
     Excuse(("collisions", "visuals"), SHAPES, "body"),
