@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ...diagnostic import Severity
 from ...errors import ModelError
-from ...model.appearance import read_sdf_appearance
+from ...model.appearance import find_script, read_sdf_appearance
 from ...model.blocks import add_parts
 from ...model.elements import (
     Box,
@@ -31,7 +31,7 @@ from ...model.elements import (
 from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
 from ...model.sensors import read_sensor
-from ...model.settings import OF_LINKS, SURFACE, read_sdf_settings
+from ...model.settings import OF_LINKS, SURFACE, Value, read_sdf_settings
 from ...source.document import Element
 from ..reading import Losses
 from .read_materials import read_material
@@ -127,6 +127,8 @@ def _read_visual(
     material, script = read_material(context.robot, element)
     visual = Visual(written, element.get("name"), origin, geometry, material)
     visual.appearance, visual.script = read_sdf_appearance(element), script
+    if material is not None and material.texture and find_script(element):
+        visual.appearance.setdefault("metalness", Value(written, 0.0))  # scripts have no metal
     if script:
         context.record_loss(
             "material-script", "scripts of materials are not read", element, Severity.INFO
