@@ -37,6 +37,7 @@ MENU = {
     ),
     "Measurements": (
         *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
+        "srdf-vendors",
         "collision-measurements",
         *("inertia-vendors", "vendors", "lint-precision"),
     ),

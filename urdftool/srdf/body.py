@@ -83,7 +83,7 @@ class Contacts:
         """Store the bodies."""
         self.bodies = a, b
 
-    def touches(self, pair: tuple[int, int], poses: Sequence[tuple[Array, Array]]) -> bool:
+    def find_contact(self, pair: tuple[int, int], poses: Sequence[tuple[Array, Array]]) -> bool:
         """Tell whether a link of A and one of B touch.
 
         Args:

@@ -45,7 +45,7 @@ def list_disabled(
 
 
 def describe_proof(verdict: Verdict) -> str:
-    """Describe why a pair is disabled; empty if its reason says it."""
+    """Describe why a pair is disabled; empty if its reason suffices."""
     if verdict.kind == NEVER:
         return f"proved, {verdict.boxes} boxes" if verdict.boxes > 1 else "proved"
     if verdict.kind == ALWAYS:

@@ -95,7 +95,7 @@ def make_hull(points: Points, inflation: float = 0.0) -> Piece:
 
 
 def _bound_hull(points: Points, hull: Any, inflation: float) -> Piece:
-    """Inflate a hull by what rounding has cut off its points.
+    """Make a piece of a hull, inflated by what rounding has cut off its points.
 
     That is measured; for very many points, the bound of :func:`compute_convex_hull` times ten is
     taken.

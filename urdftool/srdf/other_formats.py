@@ -55,11 +55,15 @@ def format_pyroki(robot: Robot, pairs: Sequence[DisabledPair]) -> str:
 
 
 def format_usd(robot: Robot, pairs: Sequence[DisabledPair]) -> str:
-    """Format the pairs as a layer for the stage that ``export usd`` writes for the robot."""
+    """Format the pairs as a layer for the stage that ``export usd`` writes for the robot.
+
+    Links that are fixed to each other are one body there. Two bodies are a pair if all their links
+    with collision geometry are.
+    """
     others: dict[str, list[str]] = {}
     root = _make_identifier(robot.name or "robot")
-    for pair in pairs:
-        others.setdefault(pair.link1, []).append(pair.link2)
+    for one, other in _pair_bodies(robot, pairs):
+        others.setdefault(one, []).append(other)
     lines = ["#usda 1.0", "(", f'    defaultPrim = "{root}"', ")", "", f'over "{root}"', "{"]
     for name, targets in others.items():
         paths = ", ".join(f"</{root}/{_make_identifier(target)}>" for target in targets)
@@ -72,6 +76,24 @@ def format_usd(robot: Robot, pairs: Sequence[DisabledPair]) -> str:
             "    }",
         ]
     return "\n".join([*lines, "}", ""])
+
+
+def _pair_bodies(robot: Robot, pairs: Sequence[DisabledPair]) -> list[tuple[str, str]]:
+    """List the pairs of bodies all of whose links with geometry are pairs, by topmost links."""
+    disabled = {pair.links for pair in pairs}
+    body_of = robot.tree.bodies
+    shaped = {
+        top: [name for name in names if robot.link[name].collisions]
+        for top, names in robot.tree.body_links.items()
+    }
+    found: dict[tuple[str, str], None] = {}
+    for pair in pairs:
+        one, other = body_of.get(pair.link1), body_of.get(pair.link2)
+        if one is None or other is None or one == other:
+            continue
+        if all(frozenset((a, b)) in disabled for a in shaped[one] for b in shaped[other]):
+            found[one, other] = None
+    return list(found)
 
 
 def _make_identifier(text: str) -> str:

@@ -20,7 +20,7 @@ MARGIN = 1e-4
 """Distance added to each displacement [m], above the errors of FCL (1e-6) and of sums (1e-8)."""
 
 BATCH = 256
-"""Boxes computed at once."""
+"""Boxes in one computation."""
 
 THIN = 0.01
 """Displacement below which triangles are asked for their distance [m]."""
@@ -140,7 +140,7 @@ class Prover:
                 done = 1.0 - sum(map(self._measure_volume, stack))
                 if done * HOPELESS * budget < self.boxes:
                     break
-        self._conclude(stack)
+        self._mark_free(stack)
         return Result(self.outcomes, self.boxes, self.tests)
 
     def _make_first(self) -> Boxes:
@@ -222,7 +222,7 @@ class Prover:
         c = c.choose(np.nonzero(self._list_open()[self.pair_of[c.one, c.other]])[0])
         if not len(c):
             return boxes.choose(np.zeros(0, dtype=np.int64), c)
-        boxes = boxes.choose(*_renumber(c))
+        boxes = boxes.choose(*_number_boxes(c))
         c = boxes.candidates
         self.boxes += len(boxes)
         placed = place(self.chain, boxes.values)
@@ -255,7 +255,7 @@ class Prover:
             rows = np.nonzero(depth[:, index] <= MARGIN)[0]
             for row in rows[np.argsort(depth[rows, index], kind="stable")][:tests]:
                 self.tests += 1
-                if self.contacts.touches(pair, get_pose_of(placed, row)):
+                if self.contacts.find_contact(pair, get_pose_of(placed, row)):
                     self.outcomes[pair].witness = values[row].copy()
                     break
 
@@ -280,7 +280,7 @@ class Prover:
         """Halve boxes in the coordinate that moves the pieces most."""
         if not len(candidates):
             return boxes.choose(np.zeros(0, dtype=np.int64), candidates)
-        kept, c = _renumber(candidates)
+        kept, c = _number_boxes(candidates)
         boxes, share = boxes.choose(kept, c), share[kept]
         rows = np.arange(len(boxes))
         column = share.argmax(axis=1)
@@ -301,7 +301,7 @@ class Prover:
             both,
         )
 
-    def _conclude(self, stack: list[Boxes]) -> None:
+    def _mark_free(self, stack: list[Boxes]) -> None:
         """Mark the pairs that no box has left as free."""
         left = np.zeros(len(self.pairs), dtype=bool)
         for boxes in stack:
@@ -312,7 +312,7 @@ class Prover:
             outcome.is_free = outcome.witness is None and not left[index]
 
 
-def _renumber(candidates: Candidates) -> tuple[np.ndarray, Candidates]:
+def _number_boxes(candidates: Candidates) -> tuple[np.ndarray, Candidates]:
     """Return the boxes of candidates, and the candidates with the boxes numbered from 0."""
     kept, box = np.unique(candidates.box, return_inverse=True)
     return kept, Candidates(box, candidates.one, candidates.other)

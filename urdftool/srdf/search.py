@@ -43,15 +43,15 @@ def _search_pair(prover: Prover, pair: tuple[int, int], outcome: Outcome) -> Non
         starts.insert(0, outcome.near_values)
     left = MEASURES
     for start in starts:
-        left -= _descend(prover, pair, outcome, start, left // 2 + 1)
+        left -= _search_downhill(prover, pair, outcome, start, left // 2 + 1)
         if outcome.witness is not None or left <= 0:
             return
 
 
-def _descend(
+def _search_downhill(
     prover: Prover, pair: tuple[int, int], outcome: Outcome, values: Array, most: int
 ) -> int:
-    """Descend from a pose; return the number of distances that were measured."""
+    """Search downhill from a pose; return the number of distances that were measured."""
     used = 1
     span = prover.upper - prover.lower
     best, step = _measure(prover, pair, outcome, values), _FIRST
@@ -79,7 +79,7 @@ def _descend(
 def _measure(prover: Prover, pair: tuple[int, int], outcome: Outcome, values: Array) -> float:
     """Measure a distance [m], and store it if it is the smallest, or a contact."""
     pose = get_pose_of(place(prover.chain, values[None]), 0)
-    if prover.contacts.touches(pair, pose):
+    if prover.contacts.find_contact(pair, pose):
         outcome.witness = values.copy()
         return 0.0
     distance = max(prover.contacts.measure(pair, pose), 0.0)

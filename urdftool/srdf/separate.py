@@ -1,4 +1,4 @@
-"""Separation of many pairs of convex pieces at once, each proved by a direction.
+"""Separation of many pairs of convex pieces in one computation, each proved by a direction.
 
 For any unit vector d, two convex sets are at least ``min d·b − max d·a`` apart. Directions come
 from FCL, or from boxes around. Only the projections onto them count, so no answer of FCL is part of

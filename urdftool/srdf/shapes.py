@@ -148,11 +148,11 @@ def _cover(solid: Solid, corners: Points, pieces: int) -> list[Piece]:
     if solid.kind == "capsule":
         half = solid.size[1] / 2 * solid.rotation[:, 2]
         return [Piece(solid.translation + np.stack([-half, half]), none, solid.size[0])]
-    points = circumscribe(solid.kind, solid.size) @ solid.rotation.T + solid.translation
+    points = make_circumscribed(solid.kind, solid.size) @ solid.rotation.T + solid.translation
     return [make_hull(points)]
 
 
-def circumscribe(kind: str, size: Sequence[float]) -> Points:
+def make_circumscribed(kind: str, size: Sequence[float]) -> Points:
     """Return the corners [m] of a polyhedron that contains a primitive."""
     if kind == "box":
         return tessellate(kind, size)[0]

@@ -149,7 +149,7 @@ def decide(
     shapes = {name: read_shapes(robot, name, visual=options.visual) for name in names}
     adjacent = find_adjacent_pairs(robot, names)
     tasks, found = _plan(robot, shapes, adjacent, options)
-    found |= _work(tasks, options, progress)
+    found |= _prove_all(tasks, options, progress)
     rank = {name: index for index, name in enumerate(names)}
     verdicts = sorted((_order(v, rank) for v in found.values()), key=lambda v: _rank(v, rank))
     ranges = {c.joint: (c.lower, c.upper) for task in tasks for c in task.chain.coordinates}
@@ -217,7 +217,7 @@ def _list_pairs(
     ]
 
 
-def _work(
+def _prove_all(
     tasks: Sequence[_Task], options: Options, progress: Progress | None
 ) -> dict[frozenset[str], Verdict]:
     """Prove all tasks in several processes."""
@@ -247,7 +247,7 @@ def _prove(task: _Task, options: Options) -> list[Verdict]:
     if options.search:
         search(prover, result.outcomes)
     if options.default:
-        resting = {key for key in task.pairs if _touches_at_rest(prover, key)}
+        resting = {key for key in task.pairs if _is_contact_at_rest(prover, key)}
     else:
         resting = set()
     joints = [coordinate.joint for coordinate in task.chain.coordinates]
@@ -257,11 +257,11 @@ def _prove(task: _Task, options: Options) -> list[Verdict]:
     ]
 
 
-def _touches_at_rest(prover: Prover, key: tuple[int, int]) -> bool:
+def _is_contact_at_rest(prover: Prover, key: tuple[int, int]) -> bool:
     """Tell whether two links touch at the default pose of MoveIt: 0, or the middle of a range."""
     lower, upper = prover.lower, prover.upper
     values = np.where((lower <= 0) & (upper >= 0), 0.0, (lower + upper) / 2)
-    return prover.contacts.touches(key, get_pose_of(place(prover.chain, values[None]), 0))
+    return prover.contacts.find_contact(key, get_pose_of(place(prover.chain, values[None]), 0))
 
 
 def _judge(
