@@ -23,7 +23,11 @@ MENU = {
         *(f"commands/{name}" for name in ("expand", "lint", "inertia", "collision", "graph")),
         *(f"commands/{name}" for name in ("info", "diff", "verify", "view", "simulate")),
         *(f"commands/{name}" for name in ("srdf", "fmt")),
-        *(f"commands/{name}" for name in ("bundle", "export")),
+        *(f"commands/{name}" for name in ("bundle", "edit", "export")),
+    ),
+    "Operations": (
+        *(f"edit/{name}" for name in ("attach", "prefix", "merge-fixed", "root", "mirror")),
+        *(f"edit/{name}" for name in ("zero", "sign", "cut", "round")),
     ),
     "How-to": (
         *("adopting", "building", "howto/two-wheels", "howto/cad-to-simulation"),

@@ -26,7 +26,7 @@ from urdftool.rules import get_all_rules
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help begins", "<!-- help ends -->"
-HELP = re.compile(rf"(?P<begin>{BEGIN}(?:: (?P<words>[a-z ]+))? -->).*?{END}", re.DOTALL)
+HELP = re.compile(rf"(?P<begin>{BEGIN}(?:: (?P<words>[a-z -]*[a-z]))? -->).*?{END}", re.DOTALL)
 
 
 def list_generated() -> Iterator[tuple[Path, str]]:

@@ -72,15 +72,20 @@ BELOW = {
         *("rules", "source", *BASE),
     ),
     "report": (
-        *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
-        "srdf",
+        *("graph", "info", "compare", "edit", "lint", "rules", "finding", "model", "source"),
+        *("formats", "srdf"),
         *("collision", "inertia", "mechanics", *BASE),
     ),
     "info": ("model", "geometry", *BASE),
     "compare": ("geometry", "mechanics", "model", "source", *BASE),
+    "edit": (
+        *("bundle", "compare", "mechanics", "rules", "finding", "geometry", "model", "source"),
+        *("output", *BASE),
+    ),
     "api": (
         *(
             "bundle",
+            "edit",
             "geometry",
             "compare",
             "formats",

@@ -26,7 +26,7 @@ from .terminal import install, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "verify", "view"),
-    *("simulate", "srdf", "bundle", "export", "fmt"),
+    *("simulate", "srdf", "bundle", "edit", "export", "fmt"),
 )
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"

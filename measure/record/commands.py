@@ -85,6 +85,7 @@ def commands() -> Iterator[Command]:
         yield Command(f"lint-targets-{name}", ["lint", *robot, "--no-cache", "--target", "gz"])
     yield Command("lint-two-wheels", ["lint", str(WHEELS), "--no-cache", "--all"])
     yield Command("diff", ["diff", str(DEMO), str(ARM), "--format", "json"])
+    yield Command("edit", ["edit", "root", str(ARM), "tool0", "--format", "json"])
     yield Command("verify", ["verify", str(DEMO), str(ARM), "--format", "json"])
     yield Command("list-rules", ["lint", "--list-rules"])
     cube = str(FIXTURES / "meshes" / "cube.stl")

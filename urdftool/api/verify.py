@@ -43,7 +43,7 @@ def verify(
         MissingDependency: A file is MJCF, and MuJoCo is not installed.
     """
     from ..compare.correspondence import Correspondence, read_correspondence
-    from ..compare.rows import select_rows, tighten
+    from ..compare.rows import limit_tolerances, select_rows
     from ..compare.several import compare_all
 
     if len(robots) < 2:
@@ -51,7 +51,7 @@ def verify(
     rows = select_rows(",".join(only), tolerance)
     declared = Correspondence() if names is None else read_correspondence(Path(names), len(robots))
     if declared.is_declared and tolerance is None:
-        rows = tighten(rows)
+        rows = limit_tolerances(rows, declared.tolerance)
     paths = tuple(package_paths)
     read = [
         robot if isinstance(robot, Robot) else load(robot, packages=packages, package_paths=paths)

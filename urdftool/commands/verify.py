@@ -85,7 +85,7 @@ def command(
     Exit code 1: the robots differ.
     """  # noqa: D301 -- click reads the escape
     from ..compare.correspondence import Correspondence, read_correspondence
-    from ..compare.rows import select_rows, tighten
+    from ..compare.rows import limit_tolerances, select_rows
     from ..compare.several import compare_all
     from ..output import write_result
     from ..report import verification as report
@@ -101,7 +101,7 @@ def command(
     rows = select_rows(only, tolerance)
     declared = Correspondence() if names is None else read_correspondence(names, len(sides))
     if declared.is_declared and tolerance is None:
-        rows = tighten(rows)
+        rows = limit_tolerances(rows, declared.tolerance)
     robots = [
         load_tolerant(console, path, arguments, package, package_path) for path, arguments in sides
     ]

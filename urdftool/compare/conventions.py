@@ -6,6 +6,7 @@ The arithmetic is of 4 × 4 matrices, and shares nothing with the code that edit
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from copy import copy
 from dataclasses import replace
 from typing import TypeVar
 
@@ -28,9 +29,11 @@ from ..model.elements import (
     SafetyController,
 )
 from ..model.settings import Settings
+from ..source.document import Element
 from .bodies import HINGES, compute_axis
 from .correspondence import PLANES, Correspondence, FrameMove, JointValue
 from .frames import invert
+from .shifted_blocks import shift_blocks
 
 _ONE_POSITION = (*HINGES, "prismatic")
 
@@ -122,7 +125,41 @@ def _keep(robot: Robot, is_gone: Callable[[str], bool]) -> Robot:
     if not links:
         raise ConfigError(f"the correspondence leaves no link of robot '{robot.name}'")
     joints = [j for j in robot.joints if not is_gone(j.child) and not is_gone(j.parent)]
-    return replace(robot, links=links, joints=joints)
+    lost = set(robot.link) - {link.name for link in links}
+    gone = set(robot.joint) - {joint.name for joint in joints}
+    sensors = [s for s in robot.mounted_sensors if s.link not in lost and s.joint not in gone]
+    return replace(
+        robot,
+        links=links,
+        joints=joints,
+        cameras=[camera for camera in robot.cameras if camera.link not in lost],
+        mounted_sensors=sensors,
+        provenance=robot.xml and _drop_blocks(robot.xml, lost, gone),
+    )
+
+
+def _drop_blocks(root: Element, links: set[str], joints: set[str]) -> Element:
+    """Return a description without the blocks about links and joints that are gone.
+
+    A ``<ros2_control>`` that is about other joints, too, keeps these.
+    """
+    made = copy(root)
+    made.children = []
+    for block in root.children:
+        cut = [e for e in block.list_children("joint") if e.get("name") in joints]
+        rest = [e for e in block.list_children("joint") if e not in cut]
+        if block.tag == "ros2_control" and cut and rest:
+            part = copy(block)
+            part.children = [e for e in block.children if e not in cut]
+            made.children.append(part)
+            continue
+        is_gone = bool(cut) or (block.tag == "gazebo" and block.get("reference") in links | joints)
+        if block.tag not in _BLOCKS or not is_gone:
+            made.children.append(block)
+    return made
+
+
+_BLOCKS = ("gazebo", "transmission", "ros2_control")
 
 
 def take_root(robot: Robot, name: str) -> Robot:
@@ -180,7 +217,7 @@ def mirror_robot(robot: Robot, plane: str) -> Robot:
 T = TypeVar("T")
 
 
-def _reflect(origin: Origin | None, flip: Array) -> Origin | None:
+def _mirror_origin(origin: Origin | None, flip: Array) -> Origin | None:
     if origin is None:
         return None
     return _make_origin(flip @ get_origin_matrix(origin) @ flip, origin)
@@ -188,17 +225,17 @@ def _reflect(origin: Origin | None, flip: Array) -> Origin | None:
 
 def _mirror_link(link: Link, flip: Array, index: int) -> Link:
     visuals = [
-        replace(v, origin=_reflect(v.origin, flip), geometry=_mirror_mesh(v.geometry, index))
+        replace(v, origin=_mirror_origin(v.origin, flip), geometry=_mirror_mesh(v.geometry, index))
         for v in link.visuals
     ]
     collisions = [
-        replace(c, origin=_reflect(c.origin, flip), geometry=_mirror_mesh(c.geometry, index))
+        replace(c, origin=_mirror_origin(c.origin, flip), geometry=_mirror_mesh(c.geometry, index))
         for c in link.collisions
     ]
     inertial = link.inertial
     if inertial is not None:
         tensor = inertial.inertia and _mirror_tensor(inertial.inertia, index)
-        inertial = replace(inertial, origin=_reflect(inertial.origin, flip), inertia=tensor)
+        inertial = replace(inertial, origin=_mirror_origin(inertial.origin, flip), inertia=tensor)
     return replace(link, visuals=visuals, collisions=collisions, inertial=inertial)
 
 
@@ -221,7 +258,7 @@ def _mirror_joint(joint: Joint, flip: Array) -> Joint:
     sign = 1.0 if joint.type == "prismatic" else -1.0
     x, y, z = (float(v) for v in sign * flip[:3, :3] @ np.array(_scale_axis(joint, 1.0).xyz))
     axis = replace(_scale_axis(joint, 1.0), xyz=(x, y, z)) if joint.has_axis else joint.axis
-    return replace(joint, origin=_reflect(joint.origin, flip), axis=axis)
+    return replace(joint, origin=_mirror_origin(joint.origin, flip), axis=axis)
 
 
 def move_frame(robot: Robot, move: FrameMove) -> Robot:
@@ -231,7 +268,15 @@ def move_frame(robot: Robot, move: FrameMove) -> Robot:
     back = invert(pose)
     links = [_move_link(link, back) if link.name == move.link else link for link in robot.links]
     joints = [_move_joint(joint, move.link, pose, back) for joint in robot.joints]
-    return replace(robot, links=links, joints=joints)
+    cameras = [
+        replace(c, origin=_move_origin(c.origin, back, np.eye(4))) if c.link == move.link else c
+        for c in robot.cameras
+    ]
+    sensors = [
+        replace(s, origin=_move_origin(s.origin, back, np.eye(4))) if s.link == move.link else s
+        for s in robot.mounted_sensors
+    ]
+    return replace(robot, links=links, joints=joints, cameras=cameras, mounted_sensors=sensors)
 
 
 def _move_origin(origin: Origin | None, before: Array, after: Array) -> Origin:
@@ -271,7 +316,8 @@ def shift_positions(robot: Robot, values: Iterable[JointValue]) -> Robot:
     for name in known:
         if name not in robot.joint or robot.joint[name].type not in _ONE_POSITION:
             raise ConfigError(f"joint '{name}' of the correspondence does not have one position")
-    return replace(robot, joints=[_shift_joint(joint, known) for joint in robot.joints])
+    joints = [_shift_joint(joint, known) for joint in robot.joints]
+    return shift_blocks(replace(robot, joints=joints), known)
 
 
 def _shift_joint(joint: Joint, known: dict[str, JointValue]) -> Joint:

@@ -10,7 +10,10 @@ second robot was made of the first::
     merged  base_link  imu_link camera_mount   # links of A that are part of base_link in B
     removed gripper_base                       # the branch of A from that link is not in B
     added   gripper_base                       # the branch of B from that link is not in A
+    mount   g_base tool0  xyz 0 0 0.1  rpy 0 0 0  # a fixed joint of B carries g_base
     branch  base  g_base                       # A, from link base, is the branch of B from g_base
+    tolerance 1e-7                             # numbers of B are rounded
+    part    arm_system  l_arm_system           # a transmission, hardware component or the like
 """
 
 from __future__ import annotations
@@ -45,6 +48,15 @@ class FrameMove(NamedTuple):
     rpy: tuple[float, float, float]
 
 
+class Mount(NamedTuple):
+    """Link of B that a fixed joint carries: its parent, and its pose there [m, rad]."""
+
+    link: str
+    parent: str
+    xyz: tuple[float, float, float]
+    rpy: tuple[float, float, float]
+
+
 class Correspondence(NamedTuple):
     """What a file for ``verify --map`` holds.
 
@@ -58,6 +70,9 @@ class Correspondence(NamedTuple):
         removed: Links of A whose branches B does not have.
         added: Links of B whose branches A does not have.
         branch: Links of A and B from which the robots are compared; empty for the roots.
+        mounts: Links of B that fixed joints carry, which A does not have.
+        tolerance: Tolerance of numbers that were rounded; 0 for that of the rows.
+        is_declared: Whether anything but names is declared.
     """
 
     names: Sequence[Line] = ()
@@ -69,6 +84,8 @@ class Correspondence(NamedTuple):
     removed: Sequence[str] = ()
     added: Sequence[str] = ()
     branch: tuple[str, str] = ("", "")
+    mounts: Sequence[Mount] = ()
+    tolerance: float = 0.0
     is_declared: bool = False
 
     @property
@@ -107,7 +124,7 @@ def parse_correspondence(
     found = Correspondence()
     for number, words in lines:
         reader = _READERS.get(words[0])
-        if words[0] in ("joint", "link") and len(words) == count + 1:
+        if words[0] in ("joint", "link", "part") and len(words) == count + 1:
             found = found._replace(names=[*found.names, (words[0], tuple(words[1:]))])
             continue
         try:
@@ -166,6 +183,14 @@ def _read_frame(found: Correspondence, words: Words) -> Correspondence:
     return found._replace(frames=[*found.frames, move])
 
 
+def _read_mount(found: Correspondence, words: Words) -> Correspondence:
+    if len(words) != 10 or words[2] != "xyz" or words[6] != "rpy":
+        raise _MalformedError
+    x, y, z, roll, pitch, yaw = map(_read_number, [*words[3:6], *words[7:10]])
+    mount = Mount(words[0], words[1], (x, y, z), (roll, pitch, yaw))
+    return found._replace(mounts=[*found.mounts, mount])
+
+
 def _read_merged(found: Correspondence, words: Words) -> Correspondence:
     if len(words) < 2:
         raise _MalformedError
@@ -200,6 +225,12 @@ def _read_number(word: str) -> float:
     return value
 
 
+def _read_tolerance(found: Correspondence, words: Words) -> Correspondence:
+    if len(words) != 1 or not 0.0 < _read_number(words[0]) < 1.0:
+        raise _MalformedError
+    return found._replace(tolerance=_read_number(words[0]))
+
+
 _READERS: dict[str, Callable[[Correspondence, Words], Correspondence]] = {
     "root": _read_root,
     "joint": _read_value,
@@ -209,6 +240,8 @@ _READERS: dict[str, Callable[[Correspondence, Words], Correspondence]] = {
     "removed": _read_removed,
     "added": _read_added,
     "branch": _read_branch,
+    "tolerance": _read_tolerance,
+    "mount": _read_mount,
 }
 
 _FORMS = {
@@ -220,4 +253,6 @@ _FORMS = {
     "removed": "removed LINK",
     "added": "added LINK",
     "branch": "branch LINK_OF_A LINK_OF_B",
+    "tolerance": "tolerance T",
+    "mount": "mount LINK PARENT xyz X Y Z rpy R P Y",
 }

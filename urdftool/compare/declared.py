@@ -8,15 +8,20 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from ..errors import ConfigError
-from ..mechanics.reference import Array, Mechanics, compute_mass_properties
-from ..model.elements import Joint, Link, Robot
+from ..mechanics.reference import (
+    Array,
+    Mechanics,
+    compute_mass_properties,
+    get_origin_matrix,
+)
+from ..model.elements import Joint, Link, Origin, Robot
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE
+from ..source.location import Place
 from .compare import compare_robots
 from .conventions import express_pair
 from .correspondence import Correspondence
@@ -25,7 +30,7 @@ from .frames import describe_motion, describe_pose, format_vector, invert, measu
 from .mesh_measure import MeshMeasures
 from .names import NameMap, get_pair
 from .pair import locate
-from .rows import Row
+from .rows import GLOBAL_ROWS, Row
 
 _CONFIGURATIONS = 6
 _WIDEST = 3.0
@@ -57,19 +62,69 @@ def compare_declared(
         ConfigError: The first robot cannot be what is declared.
         ModelError: The links of a robot do not form a tree.
     """
+    before = a, b
     a, b = express_pair(a, b, declared)
     _check_merged(a, declared)
     names = get_pair(declared.names, 0, 1)
     comparison = compare_robots(a, b, rows=rows, names=names, meshes=meshes)
-    _count_conventions(comparison)
+    _drop_conventions(comparison)
+    if declared.tolerance:
+        _leave_out_sums(comparison)
+    gone = tuple(_list_lost(old, new) for old, new in zip(before, (a, b), strict=True))
+    _drop_uncompared_blocks(comparison, before, gone)
     for difference in (
         *_compare_links(a, b, names, declared),
         *_compare_joints(a, b, names, declared),
+        *_compare_mounts(before[1], declared),
         *_compare_poses(a, b, names),
         *_compare_masses(a, b, names, declared, comparison.tolerances.get("mass", 0.0)),
     ):
         comparison.add(difference)
     return comparison
+
+
+def _leave_out_sums(comparison: Comparison) -> None:
+    """Leave rows of the whole robot out, which may be differences of nearly equal numbers."""
+    comparison.differences[:] = [d for d in comparison.differences if d.row not in GLOBAL_ROWS]
+    reason = "numbers are rounded"
+    comparison.skipped |= dict.fromkeys(comparison.tolerances.keys() & set(GLOBAL_ROWS), reason)
+
+
+def _list_lost(before: Robot, after: Robot) -> set[str]:
+    """Return the names of links and joints that are not compared."""
+    return {*before.link, *before.joint} - {*after.link, *after.joint}
+
+
+def _drop_uncompared_blocks(
+    comparison: Comparison, robots: tuple[Robot, Robot], gone: tuple[set[str], ...]
+) -> None:
+    """Remove differences of blocks that are about links and joints that are not compared."""
+    kept = []
+    for difference in comparison.differences:
+        side = 1 if difference.values[0] in (None, "none") else 0
+        place = difference.places[side]
+        if (
+            difference.row != "simulator data"
+            or not {None, "none"} & {difference.values[0], difference.values[1]}
+            or not _has_name_of(robots[side], place, gone[side])
+        ):
+            kept.append(difference)
+    if len(kept) < len(comparison.differences):
+        comparison.differences[:] = kept
+        amounts = [d.amount for d in kept if d.row == "simulator data"]
+        comparison.worst["simulator data"] = max(amounts, default=0.0)
+
+
+def _has_name_of(robot: Robot, place: Place, names: set[str]) -> bool:
+    """Tell whether the block at a place has one of some names, or is one of the whole robot."""
+    if not names or robot.xml is None:
+        return False
+    for block in robot.xml.children:
+        if block.start <= place.start < max(block.end, block.start + 1):
+            words = {w for e in block.walk() for w in (*e.attributes.values(), e.text.strip())}
+            is_whole = block.tag == "gazebo" and not block.get("reference")
+            return not names.isdisjoint(words) or is_whole
+    return False
 
 
 def _check_merged(a: Robot, declared: Correspondence) -> None:
@@ -82,18 +137,9 @@ def _check_merged(a: Robot, declared: Correspondence) -> None:
             raise ConfigError(f"link '{name}' is declared merged, but a joint moves it in '{into}'")
 
 
-def _count_conventions(comparison: Comparison) -> None:
-    """Make differences of conventions those of their rows, since none is declared."""
-    for number, difference in enumerate(comparison.differences):
-        if difference.is_convention:
-            comparison.differences[number] = replace(difference, is_convention=False)
-            comparison.worst[difference.row] = max(
-                comparison.worst.get(difference.row, 0.0), difference.amount
-            )
-
-
-def _list_expected(parts: Sequence[Link] | Sequence[Joint], names: dict[str, str]) -> list[str]:
-    return [names.get(part.name, part.name) for part in parts]
+def _drop_conventions(comparison: Comparison) -> None:
+    """Remove conventions: another link frame is found by its pose, which is compared, too."""
+    comparison.differences[:] = [d for d in comparison.differences if not d.is_convention]
 
 
 def _compare_links(
@@ -130,6 +176,24 @@ def _compare_joints(
                 yield _make("tree", "joint", (joint.name, ""), "name", values, math.inf, joint)
             continue
         yield from _compare_references(joint, b.joint[name])
+
+
+def _compare_mounts(b: Robot, declared: Correspondence) -> Iterator[Difference]:
+    """Yield differences of the fixed joints that carry what the first robot does not have."""
+    for link, parent, xyz, rpy in declared.mounts:
+        joint = b.tree.get_parent_joint(link) if link in b.link else None
+        if joint is None:
+            raise ConfigError(f"mounted link '{link}' has no joint in robot '{b.name}'")
+        pose, other = get_origin_matrix(Origin(None, xyz, rpy)), get_origin_matrix(joint.origin)
+        offset = invert(pose) @ other
+        places = NOWHERE, locate(joint.origin, joint)
+        names, values = (link, joint.name), (describe_pose(pose), describe_pose(other))
+        amount, note = measure_largest(offset), describe_motion(offset)
+        kind = ("frames", "joint", names, "mount")
+        yield Difference(*kind, values, "m, rad", amount, places, note)
+        ends = f"fixed to {parent}", f"{joint.type} to {joint.parent}"
+        amount = 0.0 if joint.is_fixed and joint.parent == parent else math.inf
+        yield Difference("tree", "joint", names, "mount", ends, "", amount, places)
 
 
 _REFERENCES = {

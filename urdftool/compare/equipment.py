@@ -51,7 +51,7 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
 
 def _list_changes(pair: Pair) -> Iterator[Change]:
     a, b = pair.a.robot, pair.b.robot
-    renamed = {**pair.joints, **pair.links}
+    renamed = {**pair.parts, **pair.joints, **pair.links}
     yield from compare_mechanisms(a, b, _TOLERANCE, renamed)
     for change in compare_extensions(a, b, _TOLERANCE, renamed):
         if change.what in ("added", "removed"):

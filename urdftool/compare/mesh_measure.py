@@ -79,6 +79,8 @@ class MeshMeasures:
             )
         except UrdftoolError:
             return None
+        if robot.source is not None and robot.source.workspace.get_overlay(path) is not None:
+            return robot.source.workspace.materialize(path)  # a mesh that is not written yet
         return path if path.is_file() else None
 
     def get_digest(self, path: Path) -> str:

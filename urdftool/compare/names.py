@@ -11,10 +11,18 @@ from ..errors import ConfigError
 
 
 class NameMap(NamedTuple):
-    """Names in a second robot by those in a first."""
+    """Names in a second robot by those in a first.
+
+    Attributes:
+        joints: Names of joints.
+        links: Names of links.
+        parts: Names of these and of transmissions, hardware and the like, for ``<gazebo>`` and
+            other blocks that refer to them.
+    """
 
     joints: Mapping[str, str]
     links: Mapping[str, str]
+    parts: Mapping[str, str] = {}
 
 
 EMPTY = NameMap({}, {})
@@ -75,10 +83,10 @@ def split_words(line: str) -> list[str]:
 
 def get_pair(lines: Iterable[tuple[str, tuple[str, ...]]], one: int, two: int) -> NameMap:
     """Return the names of two of the robots, by the numbers of the robots."""
-    maps: dict[str, dict[str, str]] = {kind: {} for kind in _KINDS}
+    maps: dict[str, dict[str, str]] = {kind: {} for kind in (*_KINDS, "part")}
     for kind, names in lines:
         maps[kind][names[one]] = names[two]
-    return NameMap(maps["joint"], maps["link"])
+    return NameMap(maps["joint"], maps["link"], {**maps["part"], **maps["joint"], **maps["link"]})
 
 
 def match_names(a: Sequence[str], b: Sequence[str], given: Mapping[str, str]) -> dict[str, str]:

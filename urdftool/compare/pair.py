@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..mechanics.reference import Array
@@ -27,6 +28,7 @@ class Pair:
         meshes: Measured meshes of both robots.
         frames: Of each body of the first robot that was compared, the body of the second and the
             pose of its frame in that of the first, 4 × 4.
+        parts: Given names of parts to which blocks for simulators refer.
     """
 
     a: Bodies
@@ -35,6 +37,7 @@ class Pair:
     links: dict[str, str]
     meshes: MeshMeasures = field(default_factory=MeshMeasures)
     frames: dict[str, tuple[str, Array]] = field(default_factory=dict)
+    parts: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def formats(self) -> tuple[str, str]:
@@ -66,7 +69,7 @@ def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
     if keep_root:
         for bodies in (one, two):
             bodies.reset_root()
-    return Pair(one, two, joints, links, meshes)
+    return Pair(one, two, joints, links, meshes, parts=names.parts)
 
 
 def _has_one_skipped_root(one: Bodies, two: Bodies) -> bool:

@@ -77,6 +77,18 @@ def tighten(rows: Iterable[Row], tolerance: float = DECLARED_TOLERANCE) -> tuple
     return tuple(row._replace(tolerance=min(row.tolerance, tolerance)) for row in rows)
 
 
+def limit_tolerances(rows: Iterable[Row], declared: float = 0.0) -> tuple[Row, ...]:
+    """Return rows with at most ``DECLARED_TOLERANCE``, or with a declared one.
+
+    Args:
+        rows: The rows; those whose values must be equal stay.
+        declared: Tolerance of rounded numbers; 0 if they are not rounded.
+    """
+    if declared:
+        return tuple(row._replace(tolerance=declared if row.tolerance else 0.0) for row in rows)
+    return tighten(rows)
+
+
 def select_rows(names: str, tolerance: float | None) -> tuple[Row, ...]:
     """Return the rows with the given names, separated by commas; all for an empty text.
 

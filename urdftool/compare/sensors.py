@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..mechanics.reference import Array, get_origin_matrix, turn
 from ..model.elements import Robot
 from ..model.mechanism import Camera, MountedSensor
 from ..model.sensors import KINDS, MAX_RAYS, get_kind, get_sensor_row
-from ..model.settings import Settings, get_number
+from ..model.settings import Settings, Value, get_number
 from .difference import Comparison, Difference
 from .frames import describe_motion, describe_pose, measure_largest
 from .origins import find_least_offset
@@ -236,6 +237,8 @@ def _compare(
     if not plain:
         _compare_images(one, two, add)
         return
+    settings = {name: _rename(pair, value) for name, value in one.settings.items()}
+    one = one._replace(settings=settings)
     for name in dict.fromkeys((*one.settings, *two.settings)):
         _compare_parameter(name, one, two, add)
 
@@ -265,6 +268,12 @@ def _compare_parameter(name: str, one: _Sensor, two: _Sensor, add: Callable[...,
     amount = measure_content(x, y)
     values = format_content(x), format_content(y)
     add(name.replace("/", " "), values, amount if amount > _NUMBERS else 0.0, unit=row.unit)
+
+
+def _rename(pair: Pair, value: Value) -> Value:
+    """Return a parameter with the given new name, if it is the name of a renamed part."""
+    name = value.content if isinstance(value.content, str) else ""
+    return replace(value, content=pair.parts[name]) if name in pair.parts else value
 
 
 def _shorten(collision: str) -> str:

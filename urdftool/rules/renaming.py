@@ -58,24 +58,38 @@ def find_link_references(root: Element, name: str) -> Iterator[tuple[Element, st
     Yields:
         The element, and the attribute; empty for the element's text.
     """
+    return ((element, at) for element, at, known in list_link_references(root) if known == name)
+
+
+def list_link_references(root: Element) -> Iterator[tuple[Element, str, str]]:
+    """List what may refer to links.
+
+    Yields:
+        The element, the attribute, or an empty text for the element's own text, and the name.
+    """
     for element in root.walk():
         attribute = _LINK_AT.get(element.tag, "reference" if element.tag == "gazebo" else "")
-        if attribute and element.get(attribute) == name:
-            yield element, attribute
-        elif not attribute and element.text.strip() == name and not element.children:
+        if attribute and element.get(attribute):
+            yield element, attribute, element.get(attribute) or ""
+        elif not element.children and (text := element.text.strip()):
             if re.search("ame|ink|ody", element.tag):
-                yield element, ""
+                yield element, "", text
 
 
 def find_joint_references(root: Element, name: str) -> Iterator[tuple[Element, str]]:
     """Find the references to a joint, as :func:`find_link_references`."""
+    return ((element, at) for element, at, known in list_joint_references(root) if known == name)
+
+
+def list_joint_references(root: Element) -> Iterator[tuple[Element, str, str]]:
+    """List what may refer to joints, as :func:`list_link_references`."""
     for element in root.walk():
         attribute = {"joint": "name", "mimic": "joint", "gazebo": "reference"}.get(element.tag, "")
-        if attribute and element.get(attribute) == name:
-            yield element, attribute
-        elif element.text.strip() == name and not element.children:
+        if attribute and element.get(attribute):
+            yield element, attribute, element.get(attribute) or ""
+        elif not element.children and (text := element.text.strip()):
             if "oint" in element.tag or element.get("name") == "mimic":
-                yield element, ""
+                yield element, "", text
 
 
 def get_part(problem: Problem) -> Link | Joint | None:

@@ -195,6 +195,29 @@ def parse_yaml(file: SourceFile) -> Node:
     return first
 
 
+def list_scalars(file: SourceFile) -> list[Node]:
+    """Return all scalars of a file in their order: keys, whose ``key`` is ``":"``, and values.
+
+    Raises:
+        ConfigError: It is not valid YAML, or exceeds the limits.
+    """
+    import yaml
+
+    if len(file.data) > MOST_BYTES:
+        raise ConfigError(f"has more than {MOST_BYTES} bytes", path=file.path)
+    reader = _Reader(file, file.data.decode("utf-8", "replace"))
+    found: list[Node] = []
+    try:
+        is_key = False
+        for token in yaml.scan(reader.text, Loader=yaml.SafeLoader):
+            if isinstance(token, yaml.ScalarToken):
+                found.append(reader.build_scalar(token, ":" if is_key else ""))
+            is_key = isinstance(token, yaml.KeyToken)
+    except yaml.YAMLError as error:
+        raise ConfigError(f"is not valid YAML: {error}", path=file.path) from None
+    return found
+
+
 def _is_empty(root: Any) -> bool:
     """Tell whether a document is empty, as after a final ``---``."""
     return str(root.tag).endswith(":null") and not root.value
@@ -208,6 +231,11 @@ class _Reader:
 
     def _compute_byte(self, index: int) -> int:
         return index if self._ascii else len(self.text[:index].encode())
+
+    def build_scalar(self, token: Any, key: str) -> Node:
+        """Return the scalar of a token."""
+        start, end = (self._compute_byte(mark.index) for mark in (token.start_mark, token.end_mark))
+        return Node(self.file, start, end, key, token.value, not token.plain, None, None)
 
     def build_node(self, node: Any, key: str, depth: int) -> Node:
         import yaml

@@ -1,0 +1,292 @@
+"""Operations on robots: ``robot.attach`` and similar ones, each with a proof."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+from ..edit.draft import Draft, open_draft
+from ..edit.finish import Edited, finish
+from ..model.elements import Robot, Vector
+
+Paths = Iterable[str | Path]
+
+
+def attach(
+    robot: Robot,
+    other: Robot,
+    *,
+    to: str,
+    prefix: str = "",
+    xyz: Vector = (0.0, 0.0, 0.0),
+    rpy: Vector = (0.0, 0.0, 0.0),
+    joint: str = "",
+    files: Paths = (),
+    other_files: Paths = (),
+    output: str | Path | None = None,
+) -> Edited:
+    """Attach another robot to a link by a fixed joint, such as a gripper to an arm.
+
+    Args:
+        robot: The first robot.
+        other: The robot to attach.
+        to: Link of the first robot.
+        prefix: Prefix of all names of the other robot; empty for none.
+        xyz: Position of its first link in ``to`` [m].
+        rpy: Its rotation [rad].
+        joint: Name of the joint; empty for ``TO_to_LINK``.
+        files: SRDF and YAML files of the first robot, in addition to those that are found.
+        other_files: Those of the other robot.
+        output: Path of the URDF, to which relative paths refer; None keeps the folder. It is not
+            written; ``Edited.write`` does.
+
+    Raises:
+        ModelError: A link does not exist, or names clash.
+    """
+    from ..edit.around import apply_changes
+    from ..edit.attach import Mount, attach_robot, list_origin_lines
+    from ..edit.prefix import add_prefix
+
+    draft, part = _open(robot, files), _open(other, other_files)
+    if prefix:
+        add_prefix(part, prefix)
+        part = apply_changes(part)
+    first = attach_robot(draft, part, Mount(to, joint, xyz, rpy))
+    draft.notes += part.notes
+    names = [words for words in part.lines if words[0] != "root"]
+    lines = [*names, *list_origin_lines(part, first)]
+    sources = [
+        (robot, _get_path(robot), draft.lines),
+        (other, _get_path(other), lines),
+    ]
+    edited = finish(draft, sources, output)
+    edited.inputs += [file.path for file in part.description.files]
+    return edited
+
+
+def prefix(
+    robot: Robot, text: str, *, files: Paths = (), output: str | Path | None = None
+) -> Edited:
+    """Put a prefix before all names, also in the files around the description.
+
+    Args:
+        robot: The robot.
+        text: The prefix.
+        files: SRDF and YAML files, in addition to those that are found.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: A name is computed, or the text cannot be in a name.
+    """
+    from ..edit.prefix import add_prefix
+
+    return _run(robot, lambda draft: add_prefix(draft, text), files, output)
+
+
+def merge_fixed(
+    robot: Robot,
+    *,
+    keep: Sequence[str] = (),
+    frames: bool = False,
+    files: Paths = (),
+    output: str | Path | None = None,
+) -> Edited:
+    """Merge links that are fixed to others.
+
+    Args:
+        robot: The robot.
+        keep: Names of links to keep, with ``*`` and ``?``, in addition to those in use.
+        frames: Whether to merge links without mass and geometry, too.
+        files: As for :func:`prefix`.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: A name to keep does not exist.
+    """
+    from ..edit import merge_fixed as operation
+
+    def change(draft: Draft) -> None:
+        operation.merge_fixed(draft, keep, frames=frames)
+
+    return _run(robot, change, files, output)
+
+
+def change_root(
+    robot: Robot,
+    link: str,
+    *,
+    move_frames: bool = False,
+    files: Paths = (),
+    output: str | Path | None = None,
+) -> Edited:
+    """Make another link the root; link frames stay.
+
+    Args:
+        robot: The robot.
+        link: The new root.
+        move_frames: Whether frames of links on the way move to their joints, in place of links
+            without mass at the axes.
+        files: As for :func:`prefix`.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: The link does not exist, or a joint cannot be turned round.
+    """
+    from ..edit.reroot import take_root
+
+    return _run(robot, lambda draft: take_root(draft, link, move_frames=move_frames), files, output)
+
+
+def mirror(
+    robot: Robot,
+    plane: str = "xz",
+    *,
+    exchange: tuple[str, str] = ("", ""),
+    meshes: str = "files",
+    mesh_dir: str = "meshes",
+    files: Paths = (),
+    output: str | Path | None = None,
+) -> Edited:
+    """Make the mirror image of a robot.
+
+    Args:
+        robot: The robot.
+        plane: ``xy``, ``xz`` or ``yz``, through the frame of the root.
+        exchange: Parts of names to exchange, such as ``("l_", "r_")``.
+        meshes: ``"files"`` writes meshes with reversed faces, ``"scale"`` a negative scale.
+        mesh_dir: Folder of the new meshes, relative to the output.
+        files: As for :func:`prefix`.
+        output: As for :func:`attach`.
+
+    Raises:
+        MeshError: A mesh cannot be mirrored.
+        ModelError: Names clash, or a joint has several positions.
+    """
+    from ..edit.mirror import mirror_robot
+
+    def change(draft: Draft) -> None:
+        mirror_robot(draft, plane, exchange, meshes=meshes, mesh_dir=mesh_dir)
+
+    return _run(robot, change, files, output)
+
+
+def change_zero(
+    robot: Robot,
+    positions: Mapping[str, float],
+    *,
+    files: Paths = (),
+    output: str | Path | None = None,
+) -> Edited:
+    """Make positions of joints their new zeros; limits, mimic and states are shifted.
+
+    Args:
+        robot: The robot.
+        positions: Position of each joint [rad, m] that becomes 0.
+        files: As for :func:`prefix`.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: A joint does not exist, or does not have one position.
+    """
+    from ..edit.change import Change
+    from ..edit.positions import change_positions
+
+    changes = {name: Change(1.0, -value) for name, value in positions.items()}
+    return _run(robot, lambda draft: change_positions(draft, changes), files, output)
+
+
+def reverse_sign(
+    robot: Robot, joints: Iterable[str], *, files: Paths = (), output: str | Path | None = None
+) -> Edited:
+    """Reverse the sign of joints: axes, limits, mimic and states.
+
+    Args:
+        robot: The robot.
+        joints: Names of the joints.
+        files: As for :func:`prefix`.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: A joint does not exist, or does not have one position.
+    """
+    from ..edit.change import Change
+    from ..edit.positions import change_positions
+
+    changes = {name: Change(-1.0) for name in joints}
+    return _run(robot, lambda draft: change_positions(draft, changes), files, output)
+
+
+def cut(
+    robot: Robot,
+    link: str,
+    *,
+    force: bool = False,
+    files: Paths = (),
+    output: str | Path | None = None,
+) -> Edited:
+    """Remove a link and all below it.
+
+    Args:
+        robot: The robot.
+        link: The first link of the branch.
+        force: Whether to remove parts also if they are about kept joints, too.
+        files: As for :func:`prefix`.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: The link does not exist or is the root, or a kept part depends on the branch.
+    """
+    from ..edit.cut import cut_branch
+
+    return _run(robot, lambda draft: cut_branch(draft, link, force=force), files, output)
+
+
+def round_numbers(
+    robot: Robot, tolerance: float = 1e-9, *, output: str | Path | None = None
+) -> Edited:
+    """Write numbers with the fewest digits within a tolerance.
+
+    Args:
+        robot: The robot.
+        tolerance: Largest change, relative for masses, tensors, sizes and numbers above 1.
+        output: As for :func:`attach`.
+
+    Raises:
+        ModelError: The tolerance is not positive, or an extent would be zero.
+    """
+    from ..edit import rounding
+
+    bound = rounding.get_proof_tolerance(tolerance)
+
+    def change(draft: Draft) -> None:
+        rounding.round_numbers(draft, tolerance)
+        name = draft.robot.tree.roots[0].name
+        draft.declare("root", name, name)
+        draft.declare("tolerance", f"{bound:g}")
+
+    return _run(robot, change, (), output)
+
+
+def _open(robot: Robot, files: Paths) -> Draft:
+    from ..edit.around import add_files_around
+
+    draft = open_draft(robot)
+    add_files_around(draft, files)
+    return draft
+
+
+def _get_path(robot: Robot) -> str:
+    return "-" if robot.source is None else robot.source.path
+
+
+def _run(
+    robot: Robot,
+    change: Callable[[Draft], None],
+    files: Paths,
+    output: str | Path | None,
+) -> Edited:
+    """Open a draft, change it, and compare the result with the robot."""
+    draft = _open(robot, files)
+    change(draft)
+    sources = [(robot, _get_path(robot), draft.lines)]
+    return finish(draft, sources, output)

@@ -1,0 +1,147 @@
+"""Another zero or sign of a joint: frames, limits, mimic, and positions in files around."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..errors import ModelError
+from ..model.elements import Joint
+from ..model.kinematics import MOVABLE, compute_motion
+from ..model.numbers import number
+from ..model.pose import make_pose
+from ..source.document import Element
+from .around import shift_files
+from .change import SAME, Change
+from .draft import Draft
+from .numbers import format_number, negate_text
+from .references import list_gazebo_blocks, report_text
+
+
+def change_positions(draft: Draft, changes: Mapping[str, Change]) -> None:
+    """Give joints another sign and zero; all frames move as before.
+
+    Args:
+        draft: The robot.
+        changes: New positions by joint.
+
+    Raises:
+        ModelError: A joint does not exist, or does not have one position.
+    """
+    for name, change in changes.items():
+        joint = draft.find_joint(name)
+        if joint.type not in MOVABLE:
+            raise ModelError(
+                f"joint '{name}' is {joint.type or 'of no type'}; only revolute, continuous and "
+                "prismatic joints have one position",
+                at=joint.place,
+            )
+        _change_joint(draft, joint, change)
+        zero, sign = format_number(change.zero), format_number(change.sign)
+        draft.declare("joint", name, name, "sign", sign, "zero", zero)
+    for joint in draft.robot.joints:
+        if joint.mimic is not None:
+            _change_mimic(draft, joint, changes)
+    for block in draft.root.list_children("ros2_control"):
+        for element in block.list_children("joint"):
+            shift = changes.get(element.get("name") or "")
+            if shift is not None:
+                _change_interfaces(draft, element, shift)
+    shift_files(draft, changes)
+    for name in changes:
+        report_text(draft, name, "positions in it are not shifted", has_positions=True)
+
+
+def _change_joint(draft: Draft, joint: Joint, change: Change) -> None:
+    element = joint.element
+    if change.zero:
+        motion = compute_motion(joint, -change.sign * change.zero)
+        draft.set_pose(element, joint.origin, make_pose(joint.origin) @ motion)
+    if change.sign < 0:
+        negate_axis(draft, joint)
+    if joint.limit is not None and joint.type != "continuous":
+        _change_pair(draft, joint.limit.xml, ("lower", "upper"), change)
+    safety = joint.safety_controller
+    if safety is not None:
+        _change_pair(draft, safety.xml, ("soft_lower_limit", "soft_upper_limit"), change)
+    if joint.calibration is not None and joint.calibration.xml is not None:
+        _change_calibration(draft, joint.calibration.xml, change)
+    for block in list_gazebo_blocks(draft, joint.name):
+        rest = block.find_child("springReference")
+        if rest is not None and (text := change.format(rest.text)):
+            draft.set_text(rest, text)
+
+
+def negate_axis(draft: Draft, joint: Joint) -> None:
+    """Write the opposite axis; the default is x."""
+    if joint.axis is None or joint.axis.xml is None or joint.axis.xml.get("xyz") is None:
+        draft.append(joint.element, ['<axis xyz="-1 0 0"/>'])
+    else:
+        draft.set(joint.axis.xml, "xyz", negate_text(joint.axis.xml.get("xyz") or ""))
+
+
+def _change_pair(
+    draft: Draft, element: Element | None, names: tuple[str, str], change: Change
+) -> None:
+    """Shift two limits, which a negative sign exchanges; a missing one is 0."""
+    if element is None:
+        return
+    low, high = (change.format(element.get(name) or "0") for name in names)
+    if low is None or high is None:
+        raise ModelError("a limit is not a number", at=element.place)
+    if change.sign < 0:
+        low, high = high, low
+    for name, text in zip(names, (low, high), strict=True):
+        if name in element.attributes or number(text):
+            draft.set(element, name, text)
+
+
+def _change_calibration(draft: Draft, element: Element, change: Change) -> None:
+    texts = {
+        name: change.format(element.get(name))
+        for name in ("rising", "falling", "reference_position")
+        if element.get(name) is not None
+    }
+    if change.sign < 0:
+        swapped = {"rising": "falling", "falling": "rising"}
+        for name in set(swapped) & texts.keys():
+            draft.remove_attribute(element, name)
+        texts = {swapped.get(name, name): text for name, text in texts.items()}
+    for name, text in texts.items():
+        if text is not None:
+            draft.set(element, name, text)
+
+
+def _change_mimic(draft: Draft, joint: Joint, changes: Mapping[str, Change]) -> None:
+    """Write follower = multiplier · leader + offset in the new positions of both."""
+    mimic = joint.mimic
+    assert mimic is not None
+    own, leader = changes.get(joint.name, SAME), changes.get(mimic.joint, SAME)
+    if own is SAME and leader is SAME:
+        return
+    factor = own.sign * mimic.multiplier * leader.sign
+    offset = own.sign * mimic.offset + own.zero - factor * leader.zero
+    for name, old, new in (
+        ("multiplier", mimic.multiplier, factor),
+        ("offset", mimic.offset, offset),
+    ):
+        if format_number(old) != format_number(new):
+            draft.set(mimic.element, name, format_number(new))
+
+
+def _change_interfaces(draft: Draft, joint: Element, change: Change) -> None:
+    """Shift the positions and ranges in the ``<joint>`` of a ``<ros2_control>``."""
+    for interface in joint.children:
+        name = (interface.get("name") or "").rpartition("/")[2]
+        if name not in ("position", "velocity", "effort"):
+            continue
+        used = change if name == "position" else Change(change.sign)
+        params = {e.get("name"): e for e in interface.list_children("param")}
+        ends = params.get("min"), params.get("max")
+        texts = [None if end is None else used.format(end.text.strip()) for end in ends]
+        if change.sign < 0:
+            texts.reverse()
+        initial = params.get("initial_value")
+        new = None if initial is None else used.format(initial.text.strip())
+        for element, text in (*zip(ends, texts, strict=True), (initial, new)):
+            if element is not None and text is not None and element.text.strip() != text:
+                draft.set_text(element, text)
