@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..model.elements import Robot
-from ..model.settings import OF_JOINTS, OF_LINKS, SURFACE, Content, Setting, Value
+from ..model.settings import (
+    ALL_OF_JOINTS,
+    ALL_OF_LINKS,
+    ALL_SURFACE,
+    Content,
+    Setting,
+    Value,
+)
 from .change import Change
 from .tolerance import are_close, close
 
@@ -44,17 +51,17 @@ def _collect(robot: Robot, renamed: Mapping[str, str]) -> dict[_Key, tuple[Value
     found: dict[_Key, tuple[Value, Setting]] = {}
     for link in robot.links:
         name = renamed.get(link.name, link.name)
-        for row in OF_LINKS:
+        for row in ALL_OF_LINKS:
             if row.name in link.settings:
                 found["link", name, _show(row)] = link.settings[row.name], row
         for number, shape in enumerate(link.collisions, 1):
             about = f"collision {shape.name or number}: "
-            for row in SURFACE:
+            for row in ALL_SURFACE:
                 if row.name in shape.surface:
                     found["link", name, about + _show(row)] = shape.surface[row.name], row
     for joint in robot.joints:
         name = renamed.get(joint.name, joint.name)
-        for row in OF_JOINTS:
+        for row in ALL_OF_JOINTS:
             if row.name in joint.settings:
                 found["joint", name, _show(row)] = joint.settings[row.name], row
     return found
@@ -72,6 +79,6 @@ def _get_content(value: Value | None, row: Setting) -> Content:
 def _is_same(a: Content, b: Content, tolerance: float) -> bool:
     if isinstance(a, tuple) and isinstance(b, tuple):
         return are_close(a, b, tolerance)
-    if isinstance(a, tuple) or isinstance(b, tuple):
-        return False
+    if isinstance(a, tuple | str) or isinstance(b, tuple | str):
+        return a == b
     return close(float(a), float(b), tolerance)

@@ -33,7 +33,12 @@ from .pair import Match, Pair, add_presence, locate, make_pair
 from .plugins import compare_plugins
 from .rows import ROWS, Row
 from .sensors import compare_sensors
-from .settings import compare_flags, compare_joint_settings, compare_robot_flags
+from .settings import (
+    compare_flags,
+    compare_joint_settings,
+    compare_robot_flags,
+    compare_worlds,
+)
 from .shapes import compare_shapes
 
 _MANY = 3
@@ -109,6 +114,7 @@ def compare_robots(
     compare_drives(pair, comparison)
     skip_looks(pair, comparison)
     compare_plugins(pair, comparison)
+    compare_worlds(pair, comparison)
     compare_equipment(pair, comparison)
     compare_dynamics(pair, frame, walk.signs, comparison)
     comparison.joints, comparison.links = dict(pair.joints), dict(pair.links)

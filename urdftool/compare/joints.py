@@ -104,7 +104,7 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
         _add(comparison, match, "limits", what, values, unit, measure(x, y), note, parts)
     for what, unit in (("effort", force), ("velocity", rate)):
         limits = [_get_bound(limit, what) for limit in parts]
-        if "mjcf" in pair.formats and (what == "velocity" or _has_unknown_effort(pair, match)):
+        if _is_unknown(pair, match, what):
             comparison.record_not_comparable(f"limit of {what}: not in every MJCF")
             continue
         x, y = limits
@@ -121,10 +121,10 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
         )
 
 
-def _has_unknown_effort(pair: Pair, match: JointMatch) -> bool:
-    """Tell whether an MJCF does not bound the effort of a joint."""
-    return any(
-        name == "mjcf" and (joint.limit is None or joint.limit.effort is None)
+def _is_unknown(pair: Pair, match: JointMatch, what: str) -> bool:
+    """Tell whether an MJCF does not limit the effort or velocity of a joint of another format."""
+    return pair.formats[0] != pair.formats[1] and any(
+        name == "mjcf" and (joint.limit is None or getattr(joint.limit, what) is None)
         for name, joint in zip(pair.formats, match[:2], strict=True)
     )
 

@@ -7,7 +7,16 @@ from collections.abc import Iterable
 
 from ..model.numbers import number
 from ..model.part import Part
-from ..model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
+from ..model.settings import (
+    ALL_OF_JOINTS,
+    ALL_OF_LINKS,
+    ALL_SURFACE,
+    OF_ROBOT,
+    OF_WORLD,
+    Content,
+    Setting,
+    Settings,
+)
 from .difference import Comparison, Difference
 from .joints import JointMatch, measure
 from .pair import Match, Pair, locate
@@ -21,7 +30,7 @@ def compare_surfaces(
     parts: tuple[Part, Part],
 ) -> None:
     """Compare friction and contact of two collisions of links."""
-    compare_settings(pair, comparison, "surface", "link", names, SURFACE, settings, parts)
+    compare_settings(pair, comparison, "surface", "link", names, ALL_SURFACE, settings, parts)
 
 
 def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
@@ -36,12 +45,23 @@ def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
     compare_settings(pair, comparison, "link flags", "robot", names, rows, settings, robots)
 
 
+def compare_worlds(pair: Pair, comparison: Comparison) -> None:
+    """Compare gravity, medium and solver of the worlds of two MJCF."""
+    if set(pair.formats) != {"mjcf"}:
+        comparison.skipped["world"] = "of two MJCF only"
+        return
+    robots = pair.a.robot, pair.b.robot
+    settings = robots[0].world, robots[1].world
+    names = robots[0].name, robots[1].name
+    compare_settings(pair, comparison, "world", "robot", names, OF_WORLD, settings, robots)
+
+
 def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
     """Compare the settings of the links of two bodies."""
     for x, y in pair.match_members(match.one, match.two):
         links = pair.a.robot.link[x], pair.b.robot.link[y]
         settings = links[0].settings, links[1].settings
-        compare_settings(pair, comparison, "link flags", "link", (x, y), OF_LINKS, settings, links)
+        compare_settings(pair, comparison, "link flags", "link", (x, y), ALL_OF_LINKS, settings, links)
 
 
 def compare_joint_settings(
@@ -52,7 +72,7 @@ def compare_joint_settings(
     settings = _turn(one.settings, 1.0), _turn(two.settings, sign)
     names = one.name, two.name
     sprung = one.spring is not None or two.spring is not None
-    rows = [row for row in OF_JOINTS if sprung or row.name != "spring_reference"]
+    rows = [row for row in ALL_OF_JOINTS if sprung or row.name != "spring_reference"]
     compare_settings(pair, comparison, "joint physics", "joint", names, rows, settings, (one, two))
 
 
@@ -94,7 +114,7 @@ def compare_settings(
         if parts == (None, None):
             continue
         what = setting.name.replace("_", " ")
-        if not setting.path:
+        if not setting.path and not setting.mjcf:
             continue
         if not all(_has(form, setting) for form in pair.formats):
             if x != setting.default or y != setting.default:
@@ -108,13 +128,13 @@ def compare_settings(
 
 def _has(form: str, setting: Setting) -> bool:
     """Tell whether a format has a setting."""
-    return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, "SDF or a tag"))
+    return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, setting.path))
 
 
 def measure_content(x: Content, y: Content) -> float:
     """Return how far two values are apart, relative above 1; infinite for unequal texts."""
     if isinstance(x, tuple) and isinstance(y, tuple):
-        return max(abs(a - b) for a, b in zip(x, y, strict=True))
+        return max((abs(a - b) for a, b in zip(x, y, strict=True)), default=0.0)
     if isinstance(x, str) and isinstance(y, str):
         return measure_text(x, y)
     if isinstance(x, tuple | str) or isinstance(y, tuple | str):

@@ -319,6 +319,7 @@ class Robot(RobotConversions, Part):
         mounted_sensors: Sensors of links and joints.
         mounted_plugins: Plugins of Gazebo that are not in a sensor.
         settings: Settings of ``settings.OF_ROBOT``.
+        world: Settings of the world around it, of ``settings.OF_WORLD``.
         rejected_settings: Elements of settings whose text is not a value.
         unread: What the robot does not hold of its source, once for each kind.
         source: Description from which it was read; None if it was read from a bare element.
@@ -343,6 +344,7 @@ class Robot(RobotConversions, Part):
     mounted_sensors: list[MountedSensor] = field(default_factory=list)
     mounted_plugins: list[MountedPlugin] = field(default_factory=list)
     settings: Settings = field(default_factory=dict)
+    world: Settings = field(default_factory=dict)
     rejected_settings: list[Rejected] = field(default_factory=list)
     format: str = "urdf"
     unread: Sequence[Finding] = field(default=(), repr=False)

@@ -31,8 +31,8 @@ class Setting(NamedTuple):
 
     Attributes:
         name: Name in the model.
-        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``color`` (red,
-            green, blue, and alpha, 1 by default), ``flag`` or ``text``.
+        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``list`` (several
+            numbers), ``color`` (red, green, blue, and alpha, 1 by default), ``flag`` or ``text``.
         unit: Unit of the value; empty for none.
         path: Path of the SDF element below the collision, link or joint.
         default: What SDF's specification says where it is not written.
@@ -137,7 +137,61 @@ OF_ROBOT = (
 )
 """Settings of the whole robot, in blocks without a reference."""
 
+SURFACE_OF_MUJOCO = (
+    Setting("contype", "count", "", "", 1.0, mjcf="geom contype"),
+    Setting("conaffinity", "count", "", "", 1.0, mjcf="geom conaffinity"),
+    Setting("spinning_friction", "number", "m", "", 0.005, mjcf="geom friction"),
+    Setting("rolling_friction", "number", "m", "", 0.0001, mjcf="geom friction"),
+    Setting("condim", "count", "", "", 3.0, mjcf="geom condim"),
+    Setting("priority", "count", "", "", 0.0, mjcf="geom priority"),
+    Setting("margin", "number", "m", "", 0.0, mjcf="geom margin"),
+    Setting("gap", "number", "m", "", 0.0, mjcf="geom gap"),
+    Setting("solmix", "number", "", "", 1.0, mjcf="geom solmix"),
+    Setting("solref", "list", "", "", (0.02, 1.0), mjcf="geom solref"),
+    Setting("solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0), mjcf="geom solimp"),
+)
+"""Settings of a collision that only MuJoCo has, with its defaults."""
+
+LINKS_OF_MUJOCO = (
+    Setting("gravity_compensation", "number", "", "", 0.0, mjcf="body gravcomp"),
+)
+"""Settings of a link that only MuJoCo has: the part of its weight that is carried."""
+
+JOINTS_OF_MUJOCO = (
+    Setting("limit_solref", "list", "", "", (0.02, 1.0), mjcf="joint solreflimit"),
+    Setting("limit_solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0),
+            mjcf="joint solimplimit"),
+    Setting("limit_margin", "number", "rad or m", "", 0.0, mjcf="joint margin"),
+    Setting("friction_solref", "list", "", "", (0.02, 1.0), mjcf="joint solreffriction"),
+    Setting("friction_solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0),
+            mjcf="joint solimpfriction"),
+    Setting("actuator_gravity_compensation", "flag", "", "", False, mjcf="joint actuatorgravcomp"),
+)  # fmt: skip
+"""Settings of a joint that only MuJoCo has, with its defaults."""
+
+OF_WORLD = (
+    Setting("gravity", "vector", "m/s²", "", (0.0, 0.0, -9.81), mjcf="option gravity"),
+    Setting("wind", "vector", "m/s", "", (0.0, 0.0, 0.0), mjcf="option wind"),
+    Setting("magnetic", "vector", "", "", (0.0, -0.5, 0.0), mjcf="option magnetic"),
+    Setting("density", "number", "kg/m³", "", 0.0, mjcf="option density"),
+    Setting("viscosity", "number", "Pa·s", "", 0.0, mjcf="option viscosity"),
+    Setting("timestep", "number", "s", "", 0.002, mjcf="option timestep"),
+    Setting("impratio", "number", "", "", 1.0, mjcf="option impratio"),
+    Setting("tolerance", "number", "", "", 1e-8, mjcf="option tolerance"),
+    Setting("iterations", "count", "", "", 100.0, mjcf="option iterations"),
+    Setting("integrator", "text", "", "", "Euler", mjcf="option integrator"),
+    Setting("cone", "text", "", "", "pyramidal", mjcf="option cone"),
+    Setting("jacobian", "text", "", "", "auto", mjcf="option jacobian"),
+    Setting("solver", "text", "", "", "Newton", mjcf="option solver"),
+    Setting("disabled", "text", "", "", "", mjcf="option disableflags"),
+    Setting("enabled", "text", "", "", "", mjcf="option enableflags"),
+)
+"""Settings of the world around a robot, of ``<option>`` of MJCF, with MuJoCo's defaults."""
+
 TABLES = (SURFACE, OF_LINKS, OF_JOINTS)
+ALL_SURFACE, ALL_OF_LINKS, ALL_OF_JOINTS = (
+    SURFACE + SURFACE_OF_MUJOCO, OF_LINKS + LINKS_OF_MUJOCO, OF_JOINTS + JOINTS_OF_MUJOCO
+)  # fmt: skip
 
 SURFACE_TAGS = frozenset(tag for row in SURFACE for tag in row.tags)
 """Tags in ``<gazebo>`` that apply to each collision of a link."""
@@ -294,7 +348,9 @@ def _is_within(row: Setting, content: Content) -> bool:
 def get_number(settings: Mapping[str, Value], name: str) -> float | None:
     """Return the number of a setting; None if it is not set."""
     value = settings.get(name)
-    return None if value is None or isinstance(value.content, tuple) else float(value.content)
+    if value is None or isinstance(value.content, tuple | str):
+        return None
+    return float(value.content)
 
 
 def is_set(settings: Mapping[str, Value], name: str, default: bool = False) -> bool:
@@ -314,12 +370,12 @@ def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], S
     The settings of several collisions of a link are yielded once if they are the same.
     """
     for link in robot.links:
-        yield "link", link.name, OF_LINKS, link.settings
+        yield "link", link.name, ALL_OF_LINKS, link.settings
         surfaces = {id(shape.surface): shape.surface for shape in link.collisions}
         for surface in surfaces.values():
-            yield "link", link.name, SURFACE, surface
+            yield "link", link.name, ALL_SURFACE, surface
     for joint in robot.joints:
-        yield "joint", joint.name, OF_JOINTS, joint.settings
+        yield "joint", joint.name, ALL_OF_JOINTS, joint.settings
 
 
 def read_sdf_settings(element: Element, rows: Iterable[Setting], *, axis: str = "axis") -> Settings:

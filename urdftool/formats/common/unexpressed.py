@@ -8,7 +8,7 @@ from typing import NamedTuple
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
-from ...model.settings import OF_LINKS, Setting, list_settings
+from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting, list_settings
 from ..written import Written
 
 
@@ -43,6 +43,8 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
         expressed: Codes after ``lossy-`` of the kinds that the writer expresses.
     """
     written.losses += robot.unread
+    if "setting" not in expressed:
+        report_unwritten_settings(robot, written, lambda row: row.path)
     for code, what, parts, severity in _list_kinds(robot):
         if code in expressed:
             continue
@@ -68,7 +70,7 @@ def report_unwritten_settings(
             value = settings.get(row.name)
             if value is None or value.content == row.default:
                 continue
-            if not row.path or has_counterpart(row):
+            if has_counterpart(row) or not LUMPING_TAGS.isdisjoint(row.tags):
                 continue
             written.report_loss(
                 "setting",
@@ -76,7 +78,7 @@ def report_unwritten_settings(
                 value.place,
                 kind=kind,
                 name=name,
-                severity=Severity.WARNING if rows is OF_LINKS else Severity.INFO,
+                severity=Severity.WARNING if rows is ALL_OF_LINKS else Severity.INFO,
             )
 
 
@@ -96,6 +98,8 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
     plugins = [(part, part.name or part.library) for part in robot.mounted_plugins]
     yield _Kind("plugin", "plugin", [*plugins], info)
+    world = [(value, name) for name, value in robot.world.items()]
+    yield _Kind("world", "setting of the world", [*world], info)
     yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
     rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
     yield _Kind("joint-armature", "armature of joint", [*rotors])

@@ -156,13 +156,18 @@ def _list_bodies(spec: Any, model: Any, _: Any) -> list[Row]:
 def _list_joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("bodyid", "pos", "axis", "range", "limited", "stiffness", "qposadr", "dofadr"),
-        *("actfrclimited", "actfrcrange"),
+        *("actfrclimited", "actfrcrange", "margin"),
     )
     rows = []
     for i, joint in enumerate(_sort_by_id(spec.joints)):
         row = {**_make_row(joint), **_list_values(model, "jnt", i, names)}
         row["type"] = _get_enum_name(mujoco.mjtJoint(model.jnt_type[i]), "mjJNT_")
         row |= _list_values(model, "dof", row["dofadr"], ("damping", "frictionloss", "armature"))
+        for kind, end in (("jnt", "limit"), ("dof", "friction")):
+            number = i if kind == "jnt" else row["dofadr"]
+            soft = _list_values(model, kind, number, ("solref", "solimp"))
+            row |= {name + end: value for name, value in soft.items()}
+        row["actuatorgravcomp"] = bool(model.jnt_actgravcomp[i])
         row["ref"] = float(model.qpos0[row["qposadr"]])
         row["springref"] = float(model.qpos_spring[row["qposadr"]])
         poly = getattr(model, "dof_dampingpoly", None)
@@ -174,7 +179,8 @@ def _list_joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
 def _list_geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("bodyid", "pos", "quat", "size", "dataid", "contype", "conaffinity", "group"),
-        *("rgba", "matid", "friction"),
+        *("rgba", "matid", "friction", "condim", "priority", "margin", "gap", "solmix"),
+        *("solref", "solimp"),
     )
     paired = {int(i) for pair in (model.pair_geom1, model.pair_geom2) for i in pair}
     rows = []
@@ -268,6 +274,34 @@ def _list_excludes(spec: Any, *_: Any) -> list[Row]:
     return [{**_make_row(e), "body1": e.bodyname1, "body2": e.bodyname2} for e in spec.excludes]
 
 
+def _list_options(_: Any, model: Any, mujoco: Any) -> list[Row]:
+    option = model.opt
+    row: Row = {"name": "", "line": 0}
+    for name in ("gravity", "wind", "magnetic"):
+        row[name] = getattr(option, name).tolist()
+    for name in ("density", "viscosity", "timestep", "impratio", "tolerance", "iterations"):
+        row[name] = getattr(option, name)
+    for name, enum, prefix in (
+        ("integrator", mujoco.mjtIntegrator, "mjINT_"),
+        ("cone", mujoco.mjtCone, "mjCONE_"),
+        ("jacobian", mujoco.mjtJacobian, "mjJAC_"),
+        ("solver", mujoco.mjtSolver, "mjSOL_"),
+    ):
+        row[name] = _get_enum_name(enum(getattr(option, name)), prefix)
+    for name, enum, prefix in (
+        ("disableflags", mujoco.mjtDisableBit, "mjDSBL_"),
+        ("enableflags", mujoco.mjtEnableBit, "mjENBL_"),
+    ):
+        bits = {n: int(getattr(enum, n)) for n in dir(enum) if n.startswith(prefix)}
+        on = [n for n, bit in bits.items() if bit & getattr(option, name)]
+        row[name] = " ".join(sorted(n.removeprefix(prefix).lower() for n in on))
+    return [row]
+
+
+def _list_numbers(spec: Any, *_: Any) -> list[Row]:
+    return [{**_make_row(e), "data": list(e.data)[:1]} for e in spec.numerics]
+
+
 def _make_lister(attribute: str) -> Callable[..., list[Row]]:
     def read(spec: Any, *_: Any) -> list[Row]:
         return [_make_row(element) for element in getattr(spec, attribute, ())]
@@ -291,6 +325,8 @@ _READERS: dict[str, Callable[..., list[Row]]] = {
     "equality": _list_equalities,
     "sensor": _list_sensors,
     "exclude": _list_excludes,
+    "option": _list_options,
+    "numeric": _list_numbers,
     "tendon": _make_lister("tendons"),
     "light": _make_lister("lights"),
     "flex": _make_lister("flexes"),

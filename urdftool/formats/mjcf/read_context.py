@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ...model.pose import IDENTITY, Pose, rotation_from_quaternion
 from ...model.provenance import Written
+from ...model.settings import Setting, Settings, Value
 from ...model.world import WORLD
 from ...source.document import Element
 from ..reading import Losses
@@ -59,6 +61,19 @@ def read_pose(row: Row, position: str = "pos", quaternion: str = "quat") -> Pose
     w, x, y, z = row[quaternion]
     turned = rotation_from_quaternion((w, x, y, z))
     return Pose(IDENTITY.rotation if w == 1.0 else turned, tuple(row[position]))
+
+
+def read_settings(row: Row, settings: Iterable[Setting], written: Written) -> Settings:
+    """Return the settings in a row that are not MuJoCo's defaults."""
+    found: Settings = {}
+    for setting in settings:
+        value = row[setting.mjcf.partition(" ")[2]]
+        content = tuple(value) if isinstance(value, list) else value
+        if setting.kind == "word" and str(content).lower() == str(setting.default).lower():
+            continue
+        if content != setting.default:
+            found[setting.name] = Value(written, content)
+    return found
 
 
 def make_unique(wanted: str, taken: set[str]) -> str:

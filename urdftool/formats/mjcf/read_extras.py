@@ -18,8 +18,9 @@ from ...model.mechanism import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotation_from_quaternion
 from ...model.provenance import Written
+from ...model.settings import OF_WORLD
 from .read_compile import Row
-from .read_context import Context
+from .read_context import Context, read_settings
 
 _CAMERA = Pose(((0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)))
 """Axes of a camera that looks along x with z up, in one that looks along −z with y up."""
@@ -39,6 +40,9 @@ def add_extras(context: Context, robot: Robot) -> None:
         for row in context.list_rows(kind):
             place = context.get_element(row).place
             context.losses.add(kind, text, row["name"], place, severity)
+    (option,) = context.list_rows("option")
+    element = context.expanded.root.find_child("option") or context.expanded.root
+    robot.world = read_settings(option, OF_WORLD, Written(element.place))
     _add_frames(context, robot)
     for row in context.list_rows("actuator"):
         _add_actuator(context, robot, row)

@@ -22,9 +22,9 @@ from ...model.elements import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate, rotation_from_quaternion
 from ...model.provenance import Written
-from ...model.settings import Settings, Value
+from ...model.settings import SURFACE_OF_MUJOCO, Settings, Value
 from .read_compile import Row
-from .read_context import Context, read_pose
+from .read_context import Context, read_pose, read_settings
 
 _PLAIN = [0.5, 0.5, 0.5, 1.0]
 """Color of a geom that has none; in 32-bit floats these are exact."""
@@ -32,7 +32,8 @@ _PLAIN = [0.5, 0.5, 0.5, 1.0]
 _HIDDEN_FROM = 3
 """MuJoCo's viewer does not show geoms of this group and above."""
 
-_FRICTION = [1.0, 0.005, 0.0001]
+_FRICTION = "geom friction"
+"""Attribute with the sliding, spinning and rolling friction of a geom."""
 
 
 def add_shapes(context: Context, robot: Robot) -> None:
@@ -53,30 +54,32 @@ def add_shapes(context: Context, robot: Robot) -> None:
         if visible:
             link.visuals.append(Visual(written, name, origin, geometry, material))
         if collides:
-            surface = _read_surface(context, row, written)
+            surface = _read_surface(row, written)
             link.collisions.append(Collision(written, name, origin, replace(geometry), surface))
-            _report_contact(context, row, written)
+            _report_pair(context, row, written)
         if not visible and not collides:
             text = "geoms that are neither seen nor touched count in the mass only"
             context.losses.add("hidden-geom", text, row["name"], written.place, Severity.INFO)
 
 
-def _report_contact(context: Context, row: Row, written: Written) -> None:
-    if (row["contype"], row["conaffinity"]) != (1, 1) and not row["paired"]:
-        text = "bits that choose which geoms touch (contype, conaffinity) are not read"
-        context.losses.add("contact-bits", text, row["name"], written.place)
+def _report_pair(context: Context, row: Row, written: Written) -> None:
     if row["paired"]:
         text = "pairs of geoms that touch are not read"
         context.losses.add("contact-pair", text, row["name"], written.place)
 
 
-def _read_surface(context: Context, row: Row, written: Written) -> Settings:
-    """Return the friction of a geom, unless it is MuJoCo's default."""
-    sliding, *turning = row["friction"]
-    if any(abs(a - b) > 1e-9 for a, b in zip(turning, _FRICTION[1:], strict=True)):
-        text = "torsional and rolling friction of geoms is not read"
-        context.losses.add("friction", text, row["name"], written.place, Severity.INFO)
-    return {"friction": Value(written, sliding)} if abs(sliding - _FRICTION[0]) > 1e-9 else {}
+def _read_surface(row: Row, written: Written) -> Settings:
+    """Return the friction and contact of a geom where they are not MuJoCo's defaults."""
+    sliding, spinning, rolling = row["friction"]
+    rows = [one for one in SURFACE_OF_MUJOCO if one.mjcf != _FRICTION]
+    settings = read_settings(row, rows, written)
+    numbers = {"spinning_friction": spinning, "rolling_friction": rolling}
+    for setting in SURFACE_OF_MUJOCO:
+        if setting.mjcf == _FRICTION and numbers[setting.name] != setting.default:
+            settings[setting.name] = Value(written, numbers[setting.name])
+    if sliding != 1.0:
+        settings["friction"] = Value(written, sliding)
+    return settings
 
 
 def _read_geometry(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:

@@ -28,10 +28,20 @@ from ...model.mechanism import Base, Frame
 from ...model.part import ZERO
 from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
-from ...model.settings import Settings, Value
+from ...model.settings import JOINTS_OF_MUJOCO, LINKS_OF_MUJOCO, Settings, Value
 from ...model.world import WORLD
 from .read_compile import Row
-from .read_context import Context, make_unique, name_bodies, name_joints, read_pose
+from .read_context import (
+    Context,
+    make_unique,
+    name_bodies,
+    name_joints,
+    read_pose,
+    read_settings,
+)
+
+VELOCITY = "_velocity_limit"
+"""End of the name of a number in ``<custom>``: the limit of velocity of the joint, which MJCF lacks."""
 
 UNLIMITED = 1e9
 """Range beyond which a joint counts as unlimited."""
@@ -82,11 +92,10 @@ def add_tree(context: Context, robot: Robot) -> None:
         if row["mocapid"] >= 0:
             text = "bodies that the program moves are fixed"
             context.losses.add("mocap", text, row["name"], link.place, Severity.INFO)
-        if row["gravcomp"]:
-            link.settings["gravity"] = Value(link.provenance, row["gravcomp"] != 1.0)
-            if row["gravcomp"] != 1.0:
-                text = "gravity compensation other than 0 and 1 is not read"
-                context.losses.add("gravcomp", text, row["name"], link.place)
+        if row["gravcomp"] == 1.0:
+            link.settings["gravity"] = Value(link.provenance, False)
+        else:
+            link.settings = read_settings(row, LINKS_OF_MUJOCO, context.get_place(row))
 
 
 def _needs_world(context: Context, joints: dict[int, list[int]]) -> bool:
@@ -164,14 +173,24 @@ def _read_joint(context: Context, row: Row, number: int, parent: str, child: str
         joint.axis = Axis(written, (x, y, z))
         joint.type = "continuous" if kind == "revolute" and not limited else kind
     joint.dynamics = _read_dynamics(context, row, written)
-    joint.settings = _read_spring(row, written)
+    joint.settings = _read_spring(row, written) | read_settings(row, JOINTS_OF_MUJOCO, written)
     effort = _compute_effort(context, row, number)
+    velocity = _read_velocity(context, joint.name)
     if limited:
-        joint.limit = Limit(written, lower, upper, effort)
-    elif effort is not None:
+        joint.limit = Limit(written, lower, upper, effort, velocity)
+    elif effort is not None or velocity is not None:
         bound = math.inf if kind == "prismatic" else None
-        joint.limit = Limit(written, None if bound is None else -bound, bound, effort)
+        low = None if bound is None else -bound
+        joint.limit = Limit(written, low, bound, effort, velocity)
     return joint
+
+
+def _read_velocity(context: Context, joint: str) -> float | None:
+    """Return the limit of velocity [rad/s or m/s] that exporters keep as a number."""
+    for row in context.list_rows("numeric"):
+        if row["name"] == joint + VELOCITY and row["data"]:
+            return float(row["data"][0])
+    return None
 
 
 def _place(context: Context, row: Row) -> Written:

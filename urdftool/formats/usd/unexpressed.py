@@ -19,6 +19,7 @@ EXPRESSED = (
     "base",
     "joint-spring",
     "joint-armature",
+    "setting",
 )
 """Codes of parts of SDF and MJCF that an export to USD writes, or reports itself."""
 
