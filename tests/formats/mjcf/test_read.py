@@ -196,7 +196,6 @@ def test_what_the_model_lacks_is_reported_once_each(mechanism):
     assert found == {
         "unread-actuator": ("warning", 1),
         "unread-coupling": ("warning", 1),
-        "unread-gravcomp": ("warning", 1),
         "unread-hidden-geom": ("info", 1),
         "unread-light": ("info", 1),
         "unread-mesh": ("warning", 1),
