@@ -152,9 +152,7 @@ SURFACE_OF_MUJOCO = (
 )
 """Settings of a collision that only MuJoCo has, with its defaults."""
 
-LINKS_OF_MUJOCO = (
-    Setting("gravity_compensation", "number", "", "", 0.0, mjcf="body gravcomp"),
-)
+LINKS_OF_MUJOCO = (Setting("gravity_compensation", "number", "", "", 0.0, mjcf="body gravcomp"),)
 """Settings of a link that only MuJoCo has: the part of its weight that is carried."""
 
 JOINTS_OF_MUJOCO = (

@@ -5,10 +5,12 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.elements import Joint, Link
+from ...model.settings import LINKS_OF_MUJOCO
 from ..common.naming import UniqueNames
 from ..written import Written
 from .digits import format_numbers_text
 from .frame import set_origin, set_pose
+from .gazebo import get_attributes
 from .geom import list_collision_geoms, list_visual_geoms
 from .home import Home, get_robot_origin
 from .inertials import get_massless_leaves
@@ -89,6 +91,9 @@ def fill_bodies(
         body[0:0] = parts
         if link.is_weightless and body.tag == "body":
             body.set("gravcomp", "1")
+        elif body.tag == "body":
+            for attribute, value in get_attributes(link.settings, LINKS_OF_MUJOCO).items():
+                body.set(attribute, value)
     for name, body in bodies.items():
         for geom in body.iterchildren("geom"):
             if geom.get("class") == "collision" and not geom.get("name"):

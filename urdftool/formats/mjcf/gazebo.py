@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ...diagnostic import Severity
 from ...model.elements import Collision, GazeboExtension, Link, Robot
-from ...model.settings import Setting, get_number
+from ...model.settings import SURFACE_OF_MUJOCO, Content, Setting, Settings, get_number
 from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
-from .digits import number_text
+from .digits import format_numbers_text, number_text
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
 """MuJoCo's sliding, torsional [m] and rolling [m] friction."""
@@ -48,18 +50,42 @@ KNOWN = frozenset(
 """Keywords that are exported or need no export."""
 
 
-def get_friction_attributes(collision: Collision) -> dict[str, str]:
-    """Return the friction attributes of the geoms of a collision.
+def get_surface_attributes(collision: Collision) -> dict[str, str]:
+    """Return the attributes of the geoms of a collision for its friction and contact.
 
     MuJoCo uses the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
     default gets a ``priority``, so that it is used unchanged; a caster with friction 0 slides.
     """
-    sliding = get_number(collision.surface, "friction")
-    if sliding is None:
-        return {}
-    usual = DEFAULT_FRICTION.split()
-    attributes = {"friction": " ".join([number_text(sliding), *usual[1:]])}
-    return attributes | ({"priority": "1"} if sliding < float(usual[0]) else {})
+    found, surface = {}, collision.surface
+    usual = [float(part) for part in DEFAULT_FRICTION.split()]
+    names = ("friction", "spinning_friction", "rolling_friction")
+    numbers = [get_number(surface, name) for name in names]
+    if any(number is not None for number in numbers):
+        pairs = zip(numbers, usual, strict=True)
+        found["friction"] = format_numbers_text(
+            default if number is None else number for number, default in pairs
+        )
+    if numbers[0] is not None and numbers[0] < usual[0]:
+        found["priority"] = "1"
+    rows = [row for row in SURFACE_OF_MUJOCO if row.name not in names]
+    return found | get_attributes(surface, rows)
+
+
+def get_attributes(settings: Settings, rows: Iterable[Setting]) -> dict[str, str]:
+    """Return the attributes of MJCF for settings, by name."""
+    return {
+        row.mjcf.partition(" ")[2]: _format(settings[row.name].content)
+        for row in rows
+        if row.name in settings
+    }
+
+
+def _format(content: Content) -> str:
+    if isinstance(content, bool):
+        return "true" if content else "false"
+    if isinstance(content, str):
+        return content
+    return format_numbers_text(content) if isinstance(content, tuple) else number_text(content)
 
 
 def report_surface_losses(link: Link, written: Written) -> None:

@@ -18,7 +18,7 @@ from ..common.shape_box import get_shape_size
 from ..written import Written
 from .digits import format_numbers_text
 from .frame import set_origin
-from .gazebo import get_friction_attributes, report_surface_losses
+from .gazebo import get_surface_attributes, report_surface_losses
 from .material import Materials
 from .meshes import Assets, MeshPiece
 
@@ -46,7 +46,7 @@ def list_collision_geoms(
         for index, (geom, _) in enumerate(_list_geoms(link, collision, assets, written)):
             _set_name(geom, link, collision, names, index)
             geom.set("class", "collision")
-            for name, value in get_friction_attributes(collision).items():
+            for name, value in get_surface_attributes(collision).items():
                 geom.set(name, value)
             yield geom
 

@@ -10,8 +10,10 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import compute_cross, compute_norm
+from ...model.settings import JOINTS_OF_MUJOCO
 from ..written import Written
 from .digits import format_numbers_text, number_text
+from .gazebo import get_attributes
 from .inertials import LEAF_ARMATURE
 from .structure import Structure, get_bounds
 
@@ -49,6 +51,8 @@ def build_joint_elements(
         if leaf:
             element.set("armature", number_text(LEAF_ARMATURE))
         _set_spring(element, joint.spring)
+        for name, value in get_attributes(joint.settings, JOINTS_OF_MUJOCO).items():
+            element.set(name, value)
     return elements
 
 

@@ -9,6 +9,7 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.pose import Pose, quaternion_from_rotation
+from ...model.settings import OF_WORLD
 from ..common.naming import UniqueNames
 from ..common.srdf import Srdf
 from ..written import Written
@@ -23,7 +24,7 @@ from .equality import build_equality_section
 from .extension import apply_extension
 from .frame import simplify_quaternion
 from .fuse import fuse_links
-from .gazebo import report_gazebo_losses
+from .gazebo import get_attributes, report_gazebo_losses
 from .home import Home
 from .home_contacts import exclude_overlapping
 from .joint import PLANAR_SUFFIXES
@@ -148,6 +149,14 @@ def _build_option(structure: Structure) -> etree._Element:
     option = etree.Element("option", integrator="implicitfast")
     if structure.free or any(structure.get_kind(joint) == "free" for joint in structure.moving):
         option.set("cone", "elliptic")
+    attributes = get_attributes(structure.robot.world, OF_WORLD)
+    for state in ("disable", "enable"):
+        words = attributes.pop(f"{state}flags", "")
+        if words:
+            flags = dict.fromkeys(words.split(), state)
+            flag = option.find("flag")
+            (etree.SubElement(option, "flag") if flag is None else flag).attrib.update(flags)
+    option.attrib.update(attributes)
     return option
 
 

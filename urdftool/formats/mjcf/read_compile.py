@@ -274,6 +274,10 @@ def _list_excludes(spec: Any, *_: Any) -> list[Row]:
     return [{**_make_row(e), "body1": e.bodyname1, "body2": e.bodyname2} for e in spec.excludes]
 
 
+_WORDS = {word.lower(): word for word in ("Euler", "RK4", "PGS", "CG", "Newton")}
+"""Words of ``<option>`` that are not in lower case."""
+
+
 def _list_options(_: Any, model: Any, mujoco: Any) -> list[Row]:
     option = model.opt
     row: Row = {"name": "", "line": 0}
@@ -287,7 +291,8 @@ def _list_options(_: Any, model: Any, mujoco: Any) -> list[Row]:
         ("jacobian", mujoco.mjtJacobian, "mjJAC_"),
         ("solver", mujoco.mjtSolver, "mjSOL_"),
     ):
-        row[name] = _get_enum_name(enum(getattr(option, name)), prefix)
+        word = _get_enum_name(enum(getattr(option, name)), prefix)
+        row[name] = _WORDS.get(word, word)
     for name, enum, prefix in (
         ("disableflags", mujoco.mjtDisableBit, "mjDSBL_"),
         ("enableflags", mujoco.mjtEnableBit, "mjENBL_"),

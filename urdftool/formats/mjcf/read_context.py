@@ -69,8 +69,6 @@ def read_settings(row: Row, settings: Iterable[Setting], written: Written) -> Se
     for setting in settings:
         value = row[setting.mjcf.partition(" ")[2]]
         content = tuple(value) if isinstance(value, list) else value
-        if setting.kind == "word" and str(content).lower() == str(setting.default).lower():
-            continue
         if content != setting.default:
             found[setting.name] = Value(written, content)
     return found

@@ -41,7 +41,7 @@ from .read_context import (
 )
 
 VELOCITY = "_velocity_limit"
-"""End of the name of a number in ``<custom>``: the limit of velocity of the joint, which MJCF lacks."""
+"""End of the name of a number in ``<custom>``: the velocity limit of a joint, which MJCF lacks."""
 
 UNLIMITED = 1e9
 """Range beyond which a joint counts as unlimited."""

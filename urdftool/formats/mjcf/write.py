@@ -32,6 +32,9 @@ from .structure import Structure, create_structure
 
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
 
+EXPRESSED = ("base", "joint-spring", "joint-armature", "setting", "world")
+"""Codes of parts of other formats that an export writes, or reports itself."""
+
 MAX_DEPTH = 490
 """Maximum nesting of bodies: MuJoCo's XML reader stops at 500 elements."""
 
@@ -56,7 +59,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     robot, world = report_taken_world(robot)
     model = get_model_name(robot)
     written = Written(options.file or f"{model}.xml")
-    report_unexpressed(robot, written, expressed=("base", "joint-spring", "joint-armature"))
+    report_unexpressed(robot, written, expressed=EXPRESSED)
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),
