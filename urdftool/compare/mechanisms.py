@@ -76,6 +76,8 @@ def _index_by_name(
             for field in fields(part)
             if field.name not in ("provenance", "name")
         }
+        if values.get("damping_ratio") is not None:  # of which MuJoCo computes the damping
+            values["bias"] = (*values["bias"][:2], 0.0)
         for key in _REFERENCES:
             if key in values:
                 values[key] = renamed.get(values[key], values[key])

@@ -9,6 +9,7 @@ from pathlib import Path
 from ..compare.check import Check
 from ..diagnostic import Severity
 from ..finding import Finding
+from ..model.elements import Robot
 from ..source.location import Place
 
 
@@ -24,6 +25,7 @@ class Written:
         checks: Results of the comparison with the source, if requested.
         summary: Short properties of the model, such as ``12 actuators``.
         advice: Sentences about properties that the user may not expect.
+        planned: The robot with every choice of the export; None if its writer makes none.
     """
 
     main: str
@@ -33,6 +35,7 @@ class Written:
     checks: list[Check] = field(default_factory=list)
     summary: list[str] = field(default_factory=list)
     advice: list[str] = field(default_factory=list)
+    planned: Robot | None = field(default=None, repr=False)
 
     @property
     def text(self) -> str:

@@ -75,6 +75,8 @@ class JointActuator(Part):
         mode: ``motor``, ``position``, ``velocity`` or ``general``.
         control_range: Lower and upper limit of the control; None if not limited.
         force_range: Limits of the force before ``gear`` [N or N·m]; None if not limited.
+        damping_ratio: Ratio of the damping of a servo to the critical one, of which MuJoCo computes
+            ``bias[2]``; None if the source gives ``bias[2]``.
     """
 
     name: str = ""
@@ -85,6 +87,7 @@ class JointActuator(Part):
     bias: Vector = (0.0, 0.0, 0.0)
     control_range: tuple[float, float] | None = None
     force_range: tuple[float, float] | None = None
+    damping_ratio: float | None = None
 
 
 @dataclass(slots=True)

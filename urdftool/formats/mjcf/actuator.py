@@ -14,6 +14,7 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.drives import get_actuator_kind, get_plugin_drives
 from ...model.elements import Joint, Robot
+from ...model.mechanism import JointActuator
 from ..common.actuator_config import JointSettings
 from ..written import Written
 from .digits import format_numbers_text, number_text
@@ -32,14 +33,14 @@ class Drive:
     reduction: float = 1.0
 
 
-def build_actuator_section(
+def plan_actuators(
     structure: Structure,
     actuators: Actuators,
     inertias: Mapping[str, float],
     settings: Mapping[str, JointSettings],
     written: Written,
-) -> tuple[etree._Element | None, list[Drive]]:
-    """Build ``<actuator>``; None if it is empty. Also return the drives in its order.
+) -> list[JointActuator]:
+    """Choose the actuators of a robot; those of its source if it has some.
 
     Args:
         structure: The kinematic tree.
@@ -48,17 +49,28 @@ def build_actuator_section(
         settings: Settings by joint name, from the user.
         written: Receives losses and the assumed gains.
     """
-    drives = list(_list_drives(structure, actuators, settings, written))
-    if not drives:
-        return None, []
-    section = etree.Element("actuator")
+    kinds = {joint.name: structure.get_kind(joint) for joint in structure.moving}
+    if structure.robot.joint_actuators and actuators == "auto":
+        return [a for a in structure.robot.joint_actuators if kinds.get(a.joint) in SINGLE]
     assumed: dict[str, Gain] = {}
-    for drive in drives:
+    made = []
+    for drive in _list_drives(structure, actuators, settings, written):
         own = settings.get(drive.joint.name, JointSettings())
-        section.append(_build_element(structure, drive, inertias, own, assumed))
+        name = drive.joint.name
+        made.append(_plan_actuator(drive, kinds[name], inertias.get(name, 0.0), own, assumed))
     if assumed:
         _report_assumed_gains(structure.robot, assumed, written)
-    return section, drives
+    return made
+
+
+def build_actuator_section(robot: Robot) -> etree._Element | None:
+    """Build ``<actuator>`` with the actuators of a robot; None if it has none."""
+    if not robot.joint_actuators:
+        return None
+    section = etree.Element("actuator")
+    for actuator in robot.joint_actuators:
+        section.append(_build_element(actuator, robot.joint[actuator.joint]))
+    return section
 
 
 def _list_drives(
@@ -67,14 +79,14 @@ def _list_drives(
     settings: Mapping[str, JointSettings],
     written: Written,
 ) -> Iterator[Drive]:
-    said = dict(_list_described(structure.robot, written)) if actuators == "auto" else {}
+    described = dict(_list_described(structure.robot, written)) if actuators == "auto" else {}
     for joint in structure.moving:
-        if structure.get_kind(joint) not in ("hinge", "slide") or get_locked_at(joint) is not None:
+        if structure.get_kind(joint) not in SINGLE or get_locked_at(joint) is not None:
             continue
         drive = None
         if actuators == "auto":
-            if joint.name in said:
-                kind, reduction = said[joint.name]
+            if joint.name in described:
+                kind, reduction = described[joint.name]
                 drive = Drive(joint, kind, reduction)
         elif actuators != "none":
             drive = Drive(joint, actuators)
@@ -171,49 +183,75 @@ def _list_described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple
                 yield component.name, (get_actuator_kind(names), 1.0)
 
 
-def _build_element(
-    structure: Structure,
+def _plan_actuator(
     drive: Drive,
-    inertias: Mapping[str, float],
+    kind: str,
+    inertia: float,
     settings: JointSettings,
     assumed: dict[str, Gain],
-) -> etree._Element:
-    joint, kind = drive.joint, structure.get_kind(drive.joint)
+) -> JointActuator:
+    """Choose gains and ranges of an actuator.
+
+    Args:
+        drive: Its joint and kind.
+        kind: ``hinge`` or ``slide``.
+        inertia: Inertia that the joint moves [kg·m² or kg].
+        settings: Settings from the user.
+        assumed: Receives the gains that are assumed.
+    """
+    joint = drive.joint
+    made = JointActuator(None, joint.name, joint.name, drive.kind, force_range=settings.force_range)
     effort = _drop_unlimited(get_effort(joint))
-    inertia = inertias.get(joint.name, 0.0)
-    element = etree.Element(drive.kind, name=joint.name, joint=joint.name)
     if settings.force_range is not None:
         effort = max(map(abs, settings.force_range))
-        element.set("forcerange", format_numbers_text(settings.force_range))
     if drive.kind == "position":
-        stiffness = settings.kp
-        if stiffness is None:
+        gain = settings.kp
+        if gain is None:
             assumed[joint.name] = position_gain(kind, effort, inertia)
-            stiffness = assumed[joint.name].value
-        element.set("kp", number_text(stiffness))
-        if settings.kd is None:
-            element.set("dampratio", "1")
-        else:
-            element.set("kv", number_text(settings.kd))
+            gain = assumed[joint.name].value
         limits = get_bounds(joint)
-        if limits is not None and limits[0] < limits[1]:
-            element.set("inheritrange", "1")
-    elif drive.kind == "velocity":
+        bounds = limits if limits is not None and limits[0] < limits[1] else None
+        ratio = 1.0 if settings.kd is None else None
+        bias = (0.0, -gain, -(settings.kd or 0.0))
+        return replace(made, gain=gain, bias=bias, damping_ratio=ratio, control_range=bounds)
+    if drive.kind == "velocity":
         limit = None if joint.limit is None else joint.limit.velocity
         velocity = abs(_drop_unlimited(limit) or 0.0)
-        damping = settings.kd
-        if damping is None:
+        gain = settings.kd
+        if gain is None:
             assumed[joint.name] = choose_velocity_gain(kind, effort, velocity)
-            damping = assumed[joint.name].value
-        element.set("kv", number_text(damping))
-        if velocity:
-            element.set("ctrlrange", format_numbers_text((-velocity, velocity)))
+            gain = assumed[joint.name].value
+        bounds = (-velocity, velocity) if velocity else None
+        return replace(made, gain=gain, bias=(0.0, 0.0, -gain), control_range=bounds)
+    bound = effort / abs(drive.reduction) if effort else 0.0
+    return replace(made, gear=drive.reduction, control_range=(-bound, bound) if bound else None)
+
+
+def _build_element(actuator: JointActuator, joint: Joint) -> etree._Element:
+    """Build the element of an actuator."""
+    element = etree.Element(actuator.mode, name=actuator.name or joint.name, joint=joint.name)
+    if actuator.gear != 1.0:
+        element.set("gear", number_text(actuator.gear))
+    if actuator.force_range is not None:
+        element.set("forcerange", format_numbers_text(actuator.force_range))
+    if actuator.mode == "position":
+        element.set("kp", number_text(actuator.gain))
+        if actuator.damping_ratio is not None:
+            element.set("dampratio", number_text(actuator.damping_ratio))
+        elif actuator.bias[2]:
+            element.set("kv", number_text(-actuator.bias[2]))
+    elif actuator.mode == "velocity":
+        element.set("kv", number_text(actuator.gain))
+    elif actuator.mode == "general":
+        element.set("gainprm", number_text(actuator.gain))
+        element.set("biastype", "affine")
+        element.set("biasprm", format_numbers_text(actuator.bias))
+    if actuator.control_range is None:
+        return element
+    if actuator.mode == "position" and actuator.control_range == get_bounds(joint):
+        element.set("inheritrange", "1")
     else:
-        if drive.reduction != 1.0:
-            element.set("gear", number_text(drive.reduction))
-        if effort:
-            bound = effort / abs(drive.reduction)
-            element.set("ctrlrange", format_numbers_text((-bound, bound)))
+        element.set("ctrlrange", format_numbers_text(actuator.control_range))
     return element
 
 
@@ -224,6 +262,9 @@ UNLIMITED = 1e9
 def _drop_unlimited(value: float | None) -> float | None:
     return None if value is None or abs(value) >= UNLIMITED else value
 
+
+SINGLE = ("hinge", "slide")
+"""Kinds of joints with one position, which actuators drive."""
 
 TIMESTEP = 0.002
 """Physics time step [s] for which gains are bounded: MuJoCo's default."""

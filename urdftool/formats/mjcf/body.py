@@ -8,12 +8,10 @@ from ...model.elements import Joint, Link
 from ...model.settings import LINKS_OF_MUJOCO
 from ..common.naming import UniqueNames
 from ..written import Written
-from .digits import format_numbers_text
 from .frame import set_origin, set_pose
 from .gazebo import get_attributes
 from .geom import list_collision_geoms, list_visual_geoms
 from .home import Home, get_robot_origin
-from .inertials import get_massless_leaves
 from .joint import build_joint_elements, create_locked_site
 from .link_inertia import LinkInertia, build_inertial_element
 from .material import Materials
@@ -44,8 +42,6 @@ def build_body_tree(
         body = etree.SubElement(world, "body", name=structure.root.name)
         bodies[structure.root.name] = body
         set_origin(body, get_robot_origin(robot))
-        if structure.free and any(home.start.translation):
-            body.set("pos", format_numbers_text(home.start.translation))
     for joint in structure.joints:
         body = etree.Element("body", name=structure.get_body_name(joint.child))
         parent = bodies[joint.parent]
@@ -76,7 +72,6 @@ def fill_bodies(
 ) -> None:
     """Insert inertial, joints and geoms of each link into its body, before its child bodies."""
     names = UniqueNames()
-    leaves = get_massless_leaves(structure)
     for name, body in bodies.items():
         link = structure.robot.link[name]
         parts: list[etree._Element] = []
@@ -85,7 +80,7 @@ def fill_bodies(
                 _report_world_mass(link, written)
             else:
                 parts.append(build_inertial_element(masses[name]))
-        parts.extend(_build_joints(structure, name, leaves, written))
+        parts.extend(_build_joints(structure, name, written))
         parts.extend(list_visual_geoms(link, assets, materials, names, written))
         parts.extend(list_collision_geoms(link, assets, names, written))
         body[0:0] = parts
@@ -100,9 +95,7 @@ def fill_bodies(
                 geom.set("name", names.take(f"{name}_collision"))
 
 
-def _build_joints(
-    structure: Structure, link: str, leaves: set[str], written: Written
-) -> list[etree._Element]:
+def _build_joints(structure: Structure, link: str, written: Written) -> list[etree._Element]:
     joint = structure.robot.tree.get_parent_joint(link)
     if joint is None:
         return [etree.Element("freejoint", name=f"{link}_freejoint")] if structure.free else []
@@ -110,7 +103,7 @@ def _build_joints(
         return [create_locked_site(joint, written)]
     if structure.get_kind(joint) == "weld":
         return []
-    return build_joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)
+    return build_joint_elements(structure, joint, written)
 
 
 def _report_detached_body(joint: Joint, written: Written) -> None:

@@ -7,48 +7,57 @@ excluded, in addition to the pairs that a loop-closing joint connects or an SRDF
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from lxml import etree
 
-from ..common.srdf import Srdf
-from .body import Bodies
+from ...model.mechanism import ContactExclusion
 from .loops import list_loops
 from .options import Exclude
 from .structure import Structure
 
 
-def build_contact_section(
-    structure: Structure, bodies: Bodies, srdf: Srdf | None, exclude: Exclude
-) -> etree._Element | None:
-    """Build ``<contact>``, or return None if no pair is excluded."""
-    pairs = _pair_beside_the_world(structure, bodies) if exclude != "none" else []
-    filtered = set(map(frozenset, pairs))
-    joined = (
-        [(loop.parent, loop.child) for loop in list_loops(structure)] if exclude != "none" else []
-    )
-    for one, other in (*joined, *(srdf.disabled if srdf is not None else ())):
-        pair = frozenset((one, other))
-        if pair in filtered or not _can_collide(structure, bodies, one, other):
-            continue
-        filtered.add(pair)
-        pairs.append((one, other))
-    if not pairs:
+def plan_exclusions(
+    structure: Structure, disabled: Iterable[tuple[str, str]], exclude: Exclude
+) -> list[ContactExclusion]:
+    """List the pairs of links that must be excluded from contact.
+
+    Args:
+        structure: The kinematic tree.
+        disabled: Pairs that an SRDF disables.
+        exclude: Which pairs the user excludes.
+    """
+    given = [(pair.link, pair.other) for pair in structure.robot.exclusions]
+    joined = []
+    if exclude != "none":
+        given += _pair_beside_the_world(structure)
+        joined = [(loop.parent, loop.child) for loop in list_loops(structure)]
+    filtered = set(map(frozenset, given))
+    for pair in (*joined, *disabled):
+        if frozenset(pair) not in filtered and _can_collide(structure, *pair):
+            filtered.add(frozenset(pair))
+            given.append(pair)
+    return [ContactExclusion(None, one, other) for one, other in given]
+
+
+def build_contact_section(structure: Structure) -> etree._Element | None:
+    """Build ``<contact>`` with the exclusions of a robot; None if it has none."""
+    if not structure.robot.exclusions:
         return None
     section = etree.Element("contact")
-    for one, other in pairs:
-        etree.SubElement(section, "exclude", body1=_name(bodies, one), body2=_name(bodies, other))
+    for pair in structure.robot.exclusions:
+        names = (structure.get_body_name(link) for link in (pair.link, pair.other))
+        body1, body2 = names
+        etree.SubElement(section, "exclude", body1=body1, body2=body2)
     return section
 
 
-def _get_touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
-    """Return the links of a rigid body that have a collision geom."""
-    return [
-        link.name
-        for link in structure.members[top]
-        if any(geom.get("class") == "collision" for geom in bodies[link.name].iterchildren("geom"))
-    ]
+def _list_touching(structure: Structure, top: str) -> list[str]:
+    """Return the links of a rigid body that have collision geometry."""
+    return [link.name for link in structure.members[top] if link.collisions]
 
 
-def _pair_beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[str, str]]:
+def _pair_beside_the_world(structure: Structure) -> list[tuple[str, str]]:
     """Pair the static links with the links of the moving bodies attached to them."""
     if structure.free:
         return []
@@ -57,15 +66,15 @@ def _pair_beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[s
     for joint in structure.moving:
         if structure.group[joint.parent] != root or structure.get_kind(joint) == "free":
             continue
-        for held in _get_touching(structure, bodies, root):
-            for moving in _get_touching(structure, bodies, joint.child):
+        for held in _list_touching(structure, root):
+            for moving in _list_touching(structure, joint.child):
                 pairs.append((held, moving))
     return pairs
 
 
-def _can_collide(structure: Structure, bodies: Bodies, one: str, other: str) -> bool:
+def _can_collide(structure: Structure, one: str, other: str) -> bool:
     """Tell whether two links would collide in MuJoCo without an exclusion."""
-    if one not in bodies or other not in bodies:
+    if one not in structure.group or other not in structure.group:
         return False
     tops = structure.group[one], structure.group[other]
     if tops[0] == tops[1]:
@@ -76,10 +85,4 @@ def _can_collide(structure: Structure, bodies: Bodies, one: str, other: str) -> 
             continue
         if structure.group[joint.parent] == neighbour and not structure.is_static(joint.parent):
             return False
-    return all(
-        name in _get_touching(structure, bodies, structure.group[name]) for name in (one, other)
-    )
-
-
-def _name(bodies: Bodies, link: str) -> str:
-    return bodies[link].get("name") or "world"
+    return all(structure.robot.link[name].collisions for name in (one, other))

@@ -51,11 +51,7 @@ KNOWN = frozenset(
 
 
 def get_surface_attributes(collision: Collision) -> dict[str, str]:
-    """Return the attributes of the geoms of a collision for its friction and contact.
-
-    MuJoCo uses the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
-    default gets a ``priority``, so that it is used unchanged; a caster with friction 0 slides.
-    """
+    """Return the attributes of the geoms of a collision for its friction and contact."""
     found, surface = {}, collision.surface
     usual = [float(part) for part in DEFAULT_FRICTION.split()]
     names = ("friction", "spinning_friction", "rolling_friction")
@@ -65,8 +61,6 @@ def get_surface_attributes(collision: Collision) -> dict[str, str]:
         found["friction"] = format_numbers_text(
             default if number is None else number for number, default in pairs
         )
-    if numbers[0] is not None and numbers[0] < usual[0]:
-        found["priority"] = "1"
     rows = [row for row in SURFACE_OF_MUJOCO if row.name not in names]
     return found | get_attributes(surface, rows)
 

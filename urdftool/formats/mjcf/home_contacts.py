@@ -17,6 +17,7 @@ from pathlib import Path
 from lxml import etree
 
 from ...errors import MissingDependency
+from ...model.mechanism import ContactExclusion
 from ..written import Written
 from .body import Bodies
 from .compiled import compile_file, import_mujoco_module
@@ -113,6 +114,7 @@ def exclude_overlapping(
             names = (bodies[link].get("name", "world") for link in (pair.one, pair.other))
             body1, body2 = names
             etree.SubElement(contact, "exclude", body1=body1, body2=body2)
+            structure.robot.exclusions.append(ContactExclusion(None, pair.one, pair.other))
     _report(structure, pairs, options, written)
 
 

@@ -14,7 +14,6 @@ from ...model.settings import JOINTS_OF_MUJOCO
 from ..written import Written
 from .digits import format_numbers_text, number_text
 from .gazebo import get_attributes
-from .inertials import LEAF_ARMATURE
 from .structure import Structure, get_bounds
 
 PLANAR_SUFFIXES = ("_TX", "_TY", "_RZ")
@@ -27,7 +26,7 @@ UNIT: Vector = (1.0, 0.0, 0.0)
 
 
 def build_joint_elements(
-    structure: Structure, joint: Joint, written: Written, *, leaf: bool = False
+    structure: Structure, joint: Joint, written: Written
 ) -> list[etree._Element]:
     """Build the elements of a movable joint, in the order in which MuJoCo applies them.
 
@@ -35,7 +34,6 @@ def build_joint_elements(
         structure: The kinematic tree.
         joint: A joint that is not welded.
         written: Receives losses.
-        leaf: Whether none of the links that it moves has mass.
     """
     kind = structure.get_kind(joint)
     if kind == "free":
@@ -45,11 +43,9 @@ def build_joint_elements(
     elif kind == "ball":
         elements = [etree.Element("joint", name=joint.name, type="ball")]
     else:
-        elements = [_build_single(joint, kind, written)]
+        elements = [_build_single(structure, joint, kind, written)]
     for element in elements:
         _set_dynamics(element, joint)
-        if leaf:
-            element.set("armature", number_text(LEAF_ARMATURE))
         _set_spring(element, joint.spring)
         for name, value in get_attributes(joint.settings, JOINTS_OF_MUJOCO).items():
             element.set(name, value)
@@ -76,7 +72,9 @@ def get_effort(joint: Joint) -> float | None:
     return abs(effort) if effort else None
 
 
-def _build_single(joint: Joint, kind: str, written: Written) -> etree._Element:
+def _build_single(
+    structure: Structure, joint: Joint, kind: str, written: Written
+) -> etree._Element:
     element = etree.Element("joint", name=joint.name)
     if kind == "slide":
         element.set("type", "slide")
@@ -85,7 +83,8 @@ def _build_single(joint: Joint, kind: str, written: Written) -> etree._Element:
     if limits is not None and limits[0] < limits[1] and all(map(math.isfinite, limits)):
         element.set("range", format_numbers_text(limits))
     effort = get_effort(joint)
-    if effort is not None:
+    actuators = [a for a in structure.robot.joint_actuators if a.joint == joint.name]
+    if effort is not None and all(actuator.force_range is None for actuator in actuators):
         element.set("actuatorfrcrange", format_numbers_text((-effort, effort)))
     for what, text, severity in _limit_losses(joint):
         place = joint.place if joint.limit is None else joint.limit.place

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lxml import etree
-
 from ...diagnostic import Severity
+from ...model.elements import Dynamics, Joint, Limit, Robot
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..written import Written
-from .body import Bodies
-from .digits import number_text
+from .inertials import LEAF_ARMATURE, get_massless_leaves
+from .joint import get_effort
 from .options import Options
 from .structure import Structure, get_locked_at
+
+MOVING = ("hinge", "slide", "ball", "planar")
+"""Kinds of joints with damping, friction and armature."""
 
 
 def choose_joint_settings(structure: Structure, options: Options) -> dict[str, JointSettings]:
@@ -36,46 +38,46 @@ def choose_joint_settings(structure: Structure, options: Options) -> dict[str, J
     return found
 
 
-def apply_settings(
-    structure: Structure, bodies: Bodies, settings: dict[str, JointSettings], written: Written
-) -> dict[str, float]:
-    """Write settings to the joints, and report changes of values of the description.
+def set_joint_values(
+    structure: Structure, settings: dict[str, JointSettings], written: Written
+) -> Robot:
+    """Return the robot with armature, damping, friction and effort of its joints as exported.
 
-    Returns:
-        The armature [kg·m² or kg] of each joint in the model.
+    Joints of massless leaf links get an armature. Changes of values of the description are
+    reported.
     """
-    armatures = {}
-    for body in bodies.values():
-        for element in body.iterchildren("joint"):
-            name = element.get("name", "")
-            if name in settings:
-                _apply(structure, element, settings[name], written)
-            armatures[name] = float(element.get("armature", "0"))
-    return armatures
+    leaves = get_massless_leaves(structure)
+    joints = []
+    for joint in structure.robot.joints:
+        if structure.get_kind(joint) in MOVING:
+            leaf = structure.group[joint.child] in leaves
+            joint = _set_values(joint, settings.get(joint.name), leaf, written)
+        joints.append(joint)
+    return replace(structure.robot, joints=joints)
 
 
-def _apply(
-    structure: Structure, element: etree._Element, settings: JointSettings, written: Written
-) -> None:
-    changed = []
-    for attribute, value in (
-        ("armature", settings.armature),
-        ("damping", settings.damping),
-        ("frictionloss", settings.friction),
-    ):
-        if value is None:
-            continue
-        written_as = float(element.get(attribute, "0"))
-        element.set(attribute, number_text(value))
-        if attribute != "armature" and written_as != value:
-            changed.append(f"{attribute} {value:g} instead of {written_as:g}")
+def _set_values(
+    joint: Joint, settings: JointSettings | None, leaf: bool, written: Written
+) -> Joint:
+    before = joint.dynamics or Dynamics(joint.provenance)
+    after = replace(before, armature=LEAF_ARMATURE) if leaf else before
+    if settings is None:
+        return joint if after is joint.dynamics else replace(joint, dynamics=after)
+    chosen = {name: getattr(settings, name) for name in ("armature", "damping", "friction")}
+    after = replace(after, **{name: value for name, value in chosen.items() if value is not None})
+    changed = [
+        f"{attribute} {getattr(after, name):g} instead of {getattr(before, name) or 0.0:g}"
+        for name, attribute in (("damping", "damping"), ("friction", "frictionloss"))
+        if (getattr(after, name) or 0.0) != (getattr(before, name) or 0.0)
+    ]
+    limit = joint.limit
     if settings.force_range is not None:
-        before = str(element.attrib.pop("actuatorfrcrange", ""))
         low, high = settings.force_range
-        if before and tuple(map(float, before.split())) != (low, high):
-            changed.append(f"force {low:g} to {high:g} instead of {before.replace(' ', ' to ')}")
+        effort = get_effort(joint)
+        if effort is not None and (low, high) != (-effort, effort):
+            changed.append(f"force {low:g} to {high:g} instead of {-effort:g} to {effort:g}")
+        limit = replace(limit or Limit(joint.provenance), effort=max(abs(low), abs(high)))
     if changed:
-        joint = structure.robot.joint[element.get("name", "")]
         written.report_loss(
             "actuator-config",
             f"joint '{joint.name}' has, from --actuator-config, {', '.join(changed)}",
@@ -84,3 +86,4 @@ def _apply(
             name=joint.name,
             severity=Severity.INFO,
         )
+    return replace(joint, dynamics=after, limit=limit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 
 from lxml import etree
 
@@ -11,9 +12,8 @@ from ...model.elements import Robot
 from ...model.pose import Pose, quaternion_from_rotation
 from ...model.settings import OF_WORLD
 from ..common.naming import UniqueNames
-from ..common.srdf import Srdf
 from ..written import Written
-from .actuator import Drive, build_actuator_section
+from .actuator import build_actuator_section
 from .base_sensors import add_base_sensors
 from .body import build_body_tree, fill_bodies
 from .contact import build_contact_section
@@ -28,81 +28,59 @@ from .gazebo import get_attributes, report_gazebo_losses
 from .home import Home
 from .home_contacts import exclude_overlapping
 from .joint import PLANAR_SUFFIXES
-from .joint_inertia import compute_joint_inertias
-from .joint_settings import apply_settings, choose_joint_settings
 from .light import put_lights
-from .link_inertia import LinkInertia
 from .material import Materials
 from .meshes import Assets
 from .options import Options
+from .plan import Plan
 from .sensor import build_sensor_section
 from .structure import WORLD, Structure
 
 
-def build_model_text(
-    structure: Structure,
-    home: Home,
-    name: str,
-    options: Options,
-    masses: dict[str, LinkInertia],
-    assets: Assets,
-    srdf: Srdf | None,
-    written: Written,
-) -> bytes:
+def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     """Build the model as XML.
 
     Args:
-        structure: The kinematic tree.
-        home: Initial configuration.
-        name: Name of the model.
-        options: Options of the export.
-        masses: Mass properties of each link.
+        plan: The robot with every choice of the export.
         assets: The meshes.
-        srdf: The SRDF, if there is one.
         written: Receives textures, new names and losses.
     """
-    robot = structure.robot
+    structure, options, robot = plan.structure, plan.options, plan.robot
     _rename_world(structure, written)
     materials = Materials(robot, written, options.mesh_dir)
-    world, bodies = build_body_tree(structure, home, name, written)
-    fill_bodies(structure, bodies, masses, assets, materials, written)
+    world, bodies = build_body_tree(structure, plan.home, plan.name, written)
+    fill_bodies(structure, bodies, plan.masses, assets, materials, written)
     put_lights(robot, bodies, written)
-    settings = choose_joint_settings(structure, options)
-    inertias = compute_joint_inertias(structure, masses, home.positions)
-    for joint, armature in apply_settings(structure, bodies, settings, written).items():
-        inertias[joint] = inertias.get(joint, 0.0) + armature
     sections: dict[str, etree._Element] = {
         "compiler": _build_compiler(options, assets, materials),
-        "option": _build_option(structure),
+        "option": _build_option(robot),
         "worldbody": world,
     }
-    actuators, drives = build_actuator_section(
-        structure, options.actuators, inertias, settings, written
-    )
-    _summarize(structure, options, len(drives), written)
-    sensors = build_sensor_section(structure.robot, bodies, written)
+    actuators = build_actuator_section(robot)
+    _summarize(structure, options, len(robot.joint_actuators), written)
+    sensors = build_sensor_section(robot, bodies, written)
     if options.base_sensors:
         sensors = add_base_sensors(structure, bodies, sensors, written)
     _put(
         sections,
-        build_contact_section(structure, bodies, srdf, options.exclude),
+        build_contact_section(structure),
         build_equality_section(structure, written),
         actuators,
         sensors,
-        build_keyframe_section(structure, home, drives),
-        _build_custom(structure, name),
+        build_keyframe_section(structure, plan.home),
+        _build_custom(structure, plan.name),
     )
-    exclude_overlapping(structure, home.positions, sections, bodies, assets, options, written)
+    exclude_overlapping(structure, plan.home.positions, sections, bodies, assets, options, written)
     report_gazebo_losses(robot, written)
     _report_controller_losses(robot, written)
     apply_extension(robot, sections, written)
     create_share_colors(world, materials.elements)
-    sections["default"] = build_default_section(name, world, actuators)
+    sections["default"] = build_default_section(plan.name, world, actuators)
     sections["asset"] = _build_asset(assets, materials)
     if options.fuse:
-        fuse_links(structure, bodies, sections, masses, written)
+        fuse_links(structure, bodies, sections, plan.masses, written)
     report_losses(written.losses, bodies)
-    return assemble(name, sections)
+    return assemble(plan.name, sections)
 
 
 def _summarize(structure: Structure, options: Options, actuators: int, written: Written) -> None:
@@ -138,26 +116,23 @@ def _put(sections: dict[str, etree._Element], *made: etree._Element | None) -> N
             sections[section.tag] = section
 
 
-def _build_option(structure: Structure) -> etree._Element:
-    """Build ``<option>``, with elliptic friction cones if a body is free.
-
-    With pyramidal cones, Newton's method may stop before the forces converge if a heavy base on the
-    ground carries light links, and velocities diverge: measured in MuJoCo 4.0 for 1 s on 13 free
-    robots of example-robot-data, in three (TIAGo's) of them; in none with elliptic cones, at no
-    higher cost.
-    """
-    option = etree.Element("option", integrator="implicitfast")
-    if structure.free or any(structure.get_kind(joint) == "free" for joint in structure.moving):
-        option.set("cone", "elliptic")
-    attributes = get_attributes(structure.robot.world, OF_WORLD)
+def _build_option(robot: Robot) -> etree._Element:
+    """Build ``<option>`` with the settings of the world."""
+    option = etree.Element("option")
+    attributes = get_attributes(robot.world, OF_WORLD)
     for state in ("disable", "enable"):
         words = attributes.pop(f"{state}flags", "")
         if words:
-            flags = dict.fromkeys(words.split(), state)
-            flag = option.find("flag")
-            (etree.SubElement(option, "flag") if flag is None else flag).attrib.update(flags)
-    option.attrib.update(attributes)
+            found = option.find("flag")
+            flag = etree.SubElement(option, "flag") if found is None else found
+            _set_all(flag, dict.fromkeys(words.split(), state))
+    _set_all(option, attributes)
     return option
+
+
+def _set_all(element: etree._Element, attributes: Mapping[str, str]) -> None:
+    for name, value in attributes.items():
+        element.set(name, value)
 
 
 def _build_compiler(options: Options, assets: Assets, materials: Materials) -> etree._Element:
@@ -255,19 +230,20 @@ def color_name(rgba: str) -> str:
     return name if alpha == 1 else f"{name}_alpha{round(100 * alpha)}"
 
 
-def build_keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> etree._Element:
+def build_keyframe_section(structure: Structure, home: Home) -> etree._Element:
     """Build ``<keyframe>`` with the key ``home``, whose controls hold the joints in place."""
     section = etree.Element("keyframe")
     key = etree.SubElement(section, "key", name="home")
     qpos = _get_positions(structure, home)
     if qpos:
         key.set("qpos", format_numbers_text(qpos))
-    if drives:
+    actuators = structure.robot.joint_actuators
+    if actuators:
         key.set(
             "ctrl",
             format_numbers_text(
-                home.positions.get(drive.joint.name, 0.0) if drive.kind == "position" else 0.0
-                for drive in drives
+                home.positions.get(one.joint, 0.0) if one.mode == "position" else 0.0
+                for one in actuators
             ),
         )
     return section

@@ -236,6 +236,9 @@ def _list_actuators(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     rows = []
     for i, actuator in enumerate(_sort_by_id(spec.actuators)):
         row = {**_make_row(actuator), **_list_values(model, "actuator", i, names)}
+        # a positive third number of a servo is the ratio of its damping to the critical one
+        ratio = float(actuator.biasprm[2])
+        row["dampratio"] = ratio if ratio > 0 and actuator.biasprm[1] < 0 else None
         for name, enum, prefix in (
             ("trntype", mujoco.mjtTrn, "mjTRN_"),
             ("gaintype", mujoco.mjtGain, "mjGAIN_"),

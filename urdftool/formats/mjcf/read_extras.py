@@ -115,6 +115,7 @@ def _add_actuator(context: Context, robot: Robot, row: Row) -> None:
             (a, b, c),
             tuple(row["ctrlrange"]) if row["ctrllimited"] else None,
             tuple(row["forcerange"]) if row["forcelimited"] else None,
+            row["dampratio"],
         )
     )
 

@@ -15,33 +15,25 @@ from ..written import Written
 from .digits import number_text
 from .document import serialize
 from .home import Home
+from .plan import Plan
 from .structure import Structure
 
 FLUSH = 1e-3
 """Depth [m] to which a fixed robot may reach below a floor that stays at z = 0."""
 
 
-def create_scene_file(
-    structure: Structure,
-    home: Home,
-    boxes: ShapeBoxes,
-    model: str,
-    text: bytes,
-    written: Written,
-) -> bytes:
+def create_scene_file(plan: Plan, text: bytes, written: Written) -> bytes:
     """Create ``scene.xml``, which includes the model.
 
     The floor is at z = 0. If a fixed robot reaches below it, at home or with every joint at zero,
     the floor is at its lowest point, which is reported.
 
     Args:
-        structure: The kinematic tree.
-        home: Initial configuration.
-        boxes: Boxes of its shapes.
-        model: Name of the model.
+        plan: The robot with every choice of the export.
         text: The model as XML, whose names the scene avoids.
         written: The export; receives a floor that is not at zero.
     """
+    structure, home, boxes = plan.structure, plan.home, plan.boxes
     ground = measure_ground(structure, boxes, home.positions, home.pose)
     low = 0.0 if structure.free else _get_lowest(structure, home, boxes, ground)
     center, extent = _get_around(ground, home)
@@ -51,7 +43,7 @@ def create_scene_file(
         element.get("name", "") for element in etree.fromstring(text, deep).iter("*")
     )
     plane, pattern = names.take("floor"), names.take("groundplane")
-    root = etree.Element("mujoco", model=f"{model} scene")
+    root = etree.Element("mujoco", model=f"{plan.name} scene")
     etree.SubElement(root, "include", file=main)
     statistic = etree.SubElement(root, "statistic")
     statistic.set("center", " ".join(number_text(round(value, 2)) for value in center))

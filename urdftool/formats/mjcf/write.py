@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostic import Severity
@@ -14,25 +13,23 @@ from ...lint.validate import validate
 from ...model.elements import Robot
 from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
-from ..common.base import decide_base
 from ..common.directory import mark
 from ..common.naming import replace_file_name
-from ..common.shape_box import ShapeBoxes
-from ..common.srdf import read_srdf
 from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
-from .home import choose_home_positions, place_home
-from .inertials import compute_inertials
 from .meshes import create_mesh_assets
 from .model import build_model_text
 from .options import Options
+from .plan import make_plan
 from .scene import create_scene_file
-from .structure import Structure, create_structure
+from .structure import Structure
 
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
 
-EXPRESSED = ("base", "joint-spring", "joint-armature", "setting", "world")
+EXPRESSED = (
+    *("base", "joint-spring", "joint-armature", "setting", "world", "joint-actuator", "exclusion"),
+)
 """Codes of parts of other formats that an export writes, or reports itself."""
 
 MAX_DEPTH = 490
@@ -69,30 +66,21 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     ]
     if any(finding.code in FATAL for finding in found):
         refuse(found, force=options.force)
-    packages = robot.source.packages if robot.source is not None else None
-    srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
-    if srdf is None:
+    if options.srdf is None:
         offer_srdf(robot, written)
-    structure = create_structure(robot, keep_locked=options.keep_locked_joints)
-    boxes = ShapeBoxes(robot)
-    positions = choose_home_positions(structure, options.pose, options.state, srdf, written)
-    virtual_joint = srdf.virtual_joint if srdf else None
-    free, reason = decide_base(structure, options.base, virtual_joint, boxes, positions, written)
-    structure = replace(structure, free=free, reason=reason)
-    home = place_home(structure, boxes, positions)
-    found += _find_too_deep(structure)
-    masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
+    plan = make_plan(robot, model, options, written)
+    found += _find_too_deep(plan.structure)
     assets, missing = create_mesh_assets(robot, written, options)
-    refuse([*found, *wrong, *missing], force=options.force)
-    for finding in (*found, *wrong, *missing):
-        written.losses.append(finding)
-
-    text = build_model_text(structure, home, model, options, masses, assets, srdf, written)
+    found += [*plan.wrong, *missing]
+    refuse(found, force=options.force)
+    written.losses += found
+    text = build_model_text(plan, assets, written)
+    written.planned = plan.robot
     source = Path(robot.source.path).name if robot.source is not None else "a robot"
     files: dict[str, bytes | Path] = {written.main: mark(text, source)}
     if options.scene:
         name = f"{Path(options.file).stem}_scene.xml" if options.file else "scene.xml"
-        files[name] = mark(create_scene_file(structure, home, boxes, model, text, written), source)
+        files[name] = mark(create_scene_file(plan, text, written), source)
     files.update(sorted(written.files.items()))
     written.files = files
     return written
