@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ...compare.proof import Excuse
+
 INERTIA = (
     "lossy-inertia", "lossy-massless", "lossy-point-mass", "lossy-world-mass", "negative-mass",
     "inertia-triangle-inequality",
@@ -38,8 +40,21 @@ SHAPES = (
 )  # fmt: skip
 """A shape was dropped or changed."""
 
-CUT = ("lossy-convex",)
-"""A collision mesh was decomposed into convex pieces."""
+EXCUSES = (
+    Excuse(("mass", "center of mass", "inertia"), frozenset(INERTIA), "body"),
+    Excuse(("tree", "axes", "frames", "limits", "joint physics", "actuators"), frozenset(TREE)),
+    Excuse(("frames", "tree", "base"), frozenset(TORN), "robot"),
+    Excuse(("limits", "actuators"), frozenset((*LIMITS, *EFFORT))),
+    Excuse(("collisions", "visuals", "surface", "colors"), frozenset(SHAPES)),
+    Excuse(("collisions", "surface"), frozenset(("lossy-convex",))),
+    Excuse(("colors",), frozenset(("lossy-material", "lossy-texture"))),
+    Excuse(
+        ("configurations",),
+        frozenset(("lossy-home", "lossy-limit-inverted", "lossy-mimic")),
+        "robot",
+    ),
+)
+"""Rows whose differences a loss explains."""
 
 LOOKS = ("lossy-material", "lossy-texture")
 """A color or texture was changed."""

@@ -7,12 +7,14 @@ translate it, and the proof compares the file with it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ...finding import Finding
-from ...model.elements import Link, Origin, Robot
+from ...model.elements import Axis, Limit, Link, Origin, Robot
 from ...model.mechanism import Base, Configuration
+from ...model.pose import compute_norm
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
 from ..common.shape_box import ShapeBoxes
@@ -22,11 +24,12 @@ from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
 from .home import Home, choose_home_positions, get_robot_origin, place_home
 from .inertials import compute_inertials
+from .joint import PLANAR_SUFFIXES, get_axis, get_plane
 from .joint_inertia import compute_joint_inertias
 from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
 from .options import Options
-from .structure import Structure, create_structure
+from .structure import ZERO_AXIS, Structure, create_structure
 
 USUAL_FRICTION = 1.0
 """MuJoCo's sliding friction of a geom."""
@@ -155,3 +158,29 @@ def _choose_world(structure: Structure) -> Settings:
     if structure.free or any(structure.get_kind(joint) == "free" for joint in structure.moving):
         world["cone"] = Value(None, "elliptic")
     return world
+
+
+def split_planar(robot: Robot) -> Robot:
+    """Return a robot with two slides and a hinge in place of each planar joint."""
+    joints, links = [], list(robot.links)
+    for joint in robot.joints:
+        if joint.type != "planar" or compute_norm(get_axis(joint)) < ZERO_AXIS:
+            joints.append(joint)
+            continue
+        names = [joint.name + suffix for suffix in PLANAR_SUFFIXES]
+        places = [joint.parent, names[0], names[1], joint.child]
+        links += [Link(joint.provenance, name, is_virtual=True) for name in names[:2]]
+        for number, axis in enumerate(get_plane(get_axis(joint))):
+            joints.append(
+                replace(
+                    joint,
+                    name=names[number],
+                    type="continuous" if number == 2 else "prismatic",
+                    parent=places[number],
+                    child=places[number + 1],
+                    origin=joint.origin if number == 0 else None,
+                    axis=Axis(joint.provenance, axis),
+                    limit=None if number == 2 else Limit(joint.provenance, -math.inf, math.inf),
+                )
+            )
+    return replace(robot, links=links, joints=joints)

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from ...diagnostic import Severity
-from ...model.elements import Joint, Mimic, Robot
+from ...model.elements import Joint, Limit, Mimic, Robot
 from ...model.mechanism import (
     Camera,
     Closure,
@@ -144,19 +144,26 @@ def _add_equality(context: Context, robot: Robot, row: Row) -> None:
 
 
 def _couple(context: Context, robot: Robot, row: Row, written: Written) -> None:
-    """Add a ``Mimic`` for a linear coupling.
+    """Add a ``Mimic`` for a linear coupling; equal limits for a joint that is held.
 
     MuJoCo's is y − y0 = c0 + c1 (x − x0) + c2 (x − x0)² + c3 (x − x0)³ + c4 (x − x0)⁴.
     """
     follower = robot.joint[context.joints[row["obj1id"]]]
     polynomial = row["data"][:5]
+    joints = context.list_rows("joint")
+    y0 = joints[row["obj1id"]]["ref"]
+    if row["obj2id"] < 0 and row["active0"] and follower.type != "ball":
+        held = polynomial[0] + y0
+        limit = replace(follower.limit or Limit(written), lower=held, upper=held)
+        kind = "prismatic" if follower.type == "prismatic" else "revolute"
+        _replace(robot, follower, replace(follower, type=kind, limit=limit))
+        return
     linear = row["obj2id"] >= 0 and not any(polynomial[2:]) and row["active0"]
     if not linear or follower.mimic is not None:
-        text = "couplings of joints that are not linear, not active or to a constant are not read"
+        text = "couplings of joints that are not linear or not active are not read"
         context.losses.add("coupling", text, row["name"] or follower.name, written.place)
         return
-    joints = context.list_rows("joint")
-    y0, x0 = joints[row["obj1id"]]["ref"], joints[row["obj2id"]]["ref"]
+    x0 = joints[row["obj2id"]]["ref"]
     offset = polynomial[0] + y0 - polynomial[1] * x0
     mimic = Mimic(written, context.joints[row["obj2id"]], polynomial[1], offset)
     _replace(robot, follower, replace(follower, mimic=mimic))

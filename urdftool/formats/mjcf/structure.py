@@ -13,6 +13,9 @@ from ..common.lumping import LumpingPlan, plan_lumping
 WORLD = "world"
 """A root link of this name is MuJoCo's world."""
 
+ZERO_AXIS = 1e-6
+"""Length of an axis below which it has no direction; chosen, no source."""
+
 KINDS = {
     "revolute": "hinge",
     "continuous": "hinge",
@@ -53,7 +56,7 @@ class Structure:
         """Return the kind of a joint: one of the values of ``KINDS``."""
         if joint.name in self.locked:
             return "weld"
-        if joint.has_axis and joint.axis is not None and compute_norm(joint.axis.xyz) < 1e-6:
+        if joint.has_axis and joint.axis is not None and compute_norm(joint.axis.xyz) < ZERO_AXIS:
             return "weld"
         return KINDS.get(joint.type, "weld")
 

@@ -1,7 +1,9 @@
-"""Comparison of an export with its description: MuJoCo's compiled model, number by number.
+"""Comparison of an export with its robot: the file read back, and the model that MuJoCo compiles.
 
-The expected values are computed in ``mechanics``, which shares no code with the exporter. A
-difference is accepted only if the export reported a loss for the same link or joint.
+The file is read by ``read.py`` and compared with the source, which has the choices of the export
+(``plan.py``) where URDF says nothing. In addition, MuJoCo's compiled model is compared with the
+reference arithmetic of ``mechanics``. Only a reported loss of the same link or joint excuses a
+difference.
 """
 
 from __future__ import annotations
@@ -14,36 +16,46 @@ from pathlib import Path
 import numpy as np
 
 from ...compare.check import Check
+from ...compare.proof import Claims, prove
+from ...compare.rows import GLOBAL_ROWS, ROWS, Row
+from ...finding import Finding
 from ...mechanics.reference import Mechanics
-from ...model.elements import Joint, Robot
+from ...model.elements import Joint, Link, Robot
+from ...model.kinematics import get_limits
 from ...model.load import read_again
 from ...model.world import add_world
 from ..common.losses import DeclaredLosses
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
-from .declared_losses import EFFORT, FREE, INERTIA, LIMITS, TORN, TREE
+from .declared_losses import EXCUSES, FREE, INERTIA, TORN
 from .options import Options
-from .verify_contact import check_contact, check_surface
-from .verify_drives import check_actuator
+from .read import read
+from .verify_defaults import check_defaults
 from .verify_fuse import fuse_check
-from .verify_home import check_base, check_home
-from .verify_looks import check_material
-from .verify_loops import compare_loops, list_loop_ends
+from .verify_home import check_home
+from .verify_looks import check_material, list_look_names
+from .verify_loops import compare_loops
 from .verify_meshes import SourceMeshes
-from .verify_physics import check_gravity_flag, check_joint_physics, check_option
 from .verify_runs import check_runs
 from .verify_scene import check_scene
 from .verify_sensors import check_sensor
-from .verify_shapes import check_collision, check_visual
 from .verify_source import Source
 from .write import write
 
 CONFIGURATIONS = 20
-
-STIFF = (0.005, 1.0, 0.95, 0.99, 0.001, 0.5, 2.0)
-"""``solref`` and ``solimp`` of every equality."""
+"""Random configurations of the dynamics; chosen, no source."""
 
 POSE, FORCE, MASS = 1e-9, 1e-8, 1e-12
+"""Tolerances of positions [m], of forces and of masses, relative; chosen above rounding errors."""
+
+_EXACT = 1e-9
+"""Tolerance of numbers that the model has as written; chosen above rounding errors."""
+
+_SINGLE = 1e-6
+"""Tolerance of what MuJoCo or a mesh file stores in single precision."""
+
+_NOT_READ = (*GLOBAL_ROWS, "simulator data", "sensors", "loops")
+"""Rows that are compared in the compiled model, or do not exist in MJCF."""
 
 
 def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]:
@@ -101,43 +113,118 @@ def verify(
         MissingDependency: MuJoCo is not installed.
         OutputError: MuJoCo does not compile the model.
     """
+    options = options or Options()
     robot, _ = add_world(read_again(robot))
+    assert again.planned is not None
+    expected = _make_expected(robot, again.planned)
+    checks = [*_compare_read(expected, written, model)]
+    checks += _compare_compiled(robot, expected, written, model, options)
+    checks.append(
+        check_runs(
+            stepped or model,
+            DeclaredLosses.from_findings(written.losses),
+            excluded=options.exclude == "touching",
+        )
+    )
+    return [*checks, _check_repeats(written, again)]
+
+
+def _make_expected(source: Robot, planned: Robot) -> Robot:
+    """Return the robot that the file must hold: the source with the choices of the export.
+
+    Args:
+        source: The robot as its description defines it.
+        planned: The robot that a second export writes.
+    """
+    return replace(
+        planned,
+        links=[
+            *(_expect_link(link, planned) for link in source.links),
+            *(link for link in planned.links if link.is_virtual and link.name not in source.link),
+        ],
+        joints=[_expect_joint(joint, source) for joint in planned.joints],
+        format="mjcf",
+        source=source.source,
+        gazebo=[],
+        transmissions=[],
+        ros2_controls=[],
+    )
+
+
+def _expect_link(link: Link, planned: Robot) -> Link:
+    """Return a link of the source with the friction and contact that are chosen."""
+    chosen = planned.link[link.name].collisions
+    shapes = [
+        replace(one, surface=other.surface)
+        for one, other in zip(link.collisions, chosen, strict=True)
+    ]
+    return replace(link, collisions=shapes)
+
+
+def _expect_joint(joint: Joint, source: Robot) -> Joint:
+    """Return a joint of the source with the dynamics and effort that are chosen."""
+    origin = source.joint.get(joint.name)
+    if origin is None:
+        return joint
+    limit = origin.limit
+    if joint.limit is not None and (limit is None or joint.limit.effort != limit.effort):
+        lower, upper = (limit.lower, limit.upper) if limit is not None else (None, None)
+        limit = replace(joint.limit, lower=lower, upper=upper)
+    return replace(origin, dynamics=joint.dynamics, limit=limit)
+
+
+def _compare_read(expected: Robot, written: Written, model: Path) -> list[Check]:
+    """Compare the robot that is read from the file."""
+    reading = read(model)
+    losses = list(_name_links(expected, written.losses))
+    claims = Claims(losses, written.renamed, EXCUSES, reading.losses)
+    return prove(expected, reading.robot, claims, rows=_choose_rows())
+
+
+def _choose_rows() -> tuple[Row, ...]:
+    single = ("collisions", "visuals", "colors", "inertia", "mass matrix", "gravity", "sensors")
+    return tuple(
+        row._replace(tolerance=min(row.tolerance, _SINGLE if row.name in single else _EXACT))
+        for row in ROWS
+        if row.name not in _NOT_READ
+    )
+
+
+def _name_links(robot: Robot, losses: list[Finding]) -> Iterator[Finding]:
+    """Yield losses, those of meshes and materials also for each link that has them."""
+    yield from losses
+    named = [loss for loss in losses if loss.kind in ("mesh", "material")]
+    for link in robot.links if named else ():
+        names = list_look_names(link)
+        yield from (replace(loss, name=link.name) for loss in named if loss.name in names)
+
+
+def _compare_compiled(
+    robot: Robot, expected: Robot, written: Written, model: Path, options: Options
+) -> Iterator[Check]:
+    """Compare MuJoCo's compiled model: dynamics, home, sensors, materials and defaults."""
     declared = DeclaredLosses.from_findings(written.losses)
     mechanics = Mechanics(robot)
     compiled = Compiled(model, mechanics.root, written.renamed)
-    configurations = list(_list_configurations(mechanics, compiled))
-    source = Source(
-        robot, options or Options(), declared.has_for((FREE,), robot.tree.roots[0].name)
-    )
-    meshes = SourceMeshes(robot)
-    checks = [
-        check_base(source, compiled),
-        _check_tree(robot, compiled, declared),
-        _check_frames(mechanics, compiled, configurations, declared),
-        *_compare_dynamics(mechanics, compiled, configurations, declared),
-        _check_centroid(mechanics, compiled, configurations, declared),
-        check_gravity_flag(source, compiled),
-        _check_limits(mechanics, compiled, declared),
-        check_joint_physics(source, compiled, declared),
-        check_option(source, compiled, declared),
-        check_collision(robot, meshes, mechanics, compiled, configurations, declared),
-        check_contact(source, compiled, declared),
-        check_surface(source, compiled, declared),
-        check_actuator(source, compiled, declared),
-        check_home(source, compiled, declared),
-        check_sensor(source, mechanics, compiled, configurations[0], declared),
-        check_visual(robot, meshes, mechanics, compiled, configurations, declared),
-        check_material(source, meshes, compiled, declared),
-        check_runs(stepped or model, declared, excluded=source.options.exclude == "touching"),
-        _check_repeats(written, again),
-    ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
+    yield clean
+    configurations = list(_list_configurations(mechanics, compiled))
+    yield _check_frames(mechanics, compiled, configurations, declared)
+    yield from _compare_dynamics(mechanics, compiled, configurations, declared)
+    yield _check_centroid(mechanics, compiled, configurations, declared)
+    yield check_defaults(compiled)
+    yield check_home(expected, compiled)
+    source = Source(robot, options, declared.has_for((FREE,), robot.tree.roots[0].name))
+    yield check_sensor(source, mechanics, compiled, configurations[0], declared)
+    yield check_material(source, SourceMeshes(robot), compiled, declared)
+    loops = Check("loops", "joints that close loops", 0)
+    compare_loops(robot, compiled, declared, loops)
+    yield loops
     for warning in compiled.warnings:
         clean.compare(math.inf, warning, known=declared.has_any("lossy-massless"))
-    if source.options.scene:
-        name = f"{Path(source.options.file).stem}_scene.xml" if source.options.file else "scene.xml"
-        checks.append(check_scene(source, compiled, model.parent / name))
-    return [clean, *checks]
+    if options.scene:
+        name = f"{Path(options.file).stem}_scene.xml" if options.file else "scene.xml"
+        yield check_scene(expected, compiled, model.parent / name)
 
 
 def _list_configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[str, float]]:
@@ -149,119 +236,24 @@ def _list_configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[d
         positions = {}
         for joint in mechanics.joints:
             reach = math.pi if joint.type != "prismatic" else 1.0
-            low, high = -reach, reach
-            if joint.is_limited and joint.limit is not None:
-                written = joint.limit.lower or 0.0, joint.limit.upper or 0.0
-                low, high = written if written[0] < written[1] else (low, high)
-            positions[joint.name] = float(random.uniform(max(low, -1e3), min(high, 1e3)))
+            low, high = get_limits(joint)
+            low, high = (max(low, -1e3), min(high, 1e3)) if low < high else (-reach, reach)
+            if not joint.is_limited:
+                low, high = -reach, reach
+            positions[joint.name] = float(random.uniform(low, high))
         yield positions | welded
 
 
 def _get_welded(mechanics: Mechanics, compiled: Compiled) -> dict[str, float]:
     """Return the position [rad or m] of each locked joint that MuJoCo's model does not have."""
     return {
-        joint.name: position
+        joint.name: get_limits(joint)[0]
         for joint in mechanics.joints
-        if compiled.get_id("JOINT", joint.name) < 0
-        if (position := _get_locked(joint)) is not None
+        if joint.is_limited
+        and joint.limit is not None
+        and compiled.get_id("JOINT", joint.name) < 0
+        and get_limits(joint)[0] == get_limits(joint)[1]
     }
-
-
-def _get_locked(joint: Joint) -> float | None:
-    """Return the only position that the limits of a joint allow [rad or m]; None if it can move."""
-    if joint.type not in ("revolute", "prismatic") or joint.limit is None:
-        return None
-    lower, upper = joint.limit.lower or 0.0, joint.limit.upper or 0.0
-    return lower if lower == upper else None
-
-
-def _check_tree(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare joints by name: type, parent, child, and mimic joint."""
-    check = Check("tree", "joints, their types, parents and children, mimics", 0)
-    kinds = {
-        "revolute": 3,
-        "continuous": 3,
-        "prismatic": 2,
-        "floating": 0,
-        "spherical": 1,
-        "ball": 1,
-    }
-    model = compiled.model
-    freedom = 6 if compiled.get_id("JOINT", f"{robot.tree.roots[0].name}_freejoint") >= 0 else 0
-    for joint in robot.joints:
-        known = declared.has_for(TREE, joint.name)
-        body = compiled.get_body(joint.child)
-        if body < 0:
-            check.compare(math.inf, f"link '{joint.child}' is missing", known=known)
-            continue
-        parent = compiled.get_body(joint.parent)
-        if joint.type != "floating" and model.body_parentid[body] != parent:
-            check.compare(math.inf, f"link '{joint.child}' has another parent", known=known)
-        if joint.type == "planar":
-            found = [compiled.get_id("JOINT", joint.name + end) for end in ("_TX", "_TY", "_RZ")]
-            freedom += 3
-            check.compare(0 if min(found) >= 0 else math.inf, f"joint '{joint.name}'", known=known)
-            continue
-        if joint.type not in kinds:
-            continue
-        number = compiled.get_id("JOINT", joint.name)
-        if number < 0 and _get_locked(joint) is not None and not model.body_jntnum[body]:
-            here = compiled.get_id("SITE", joint.name)
-            right = here >= 0 and model.site_bodyid[here] == body
-            check.compare(0 if right else math.inf, f"site of welded joint '{joint.name}'")
-            continue
-        freedom += {0: 6, 1: 3}.get(kinds[joint.type], 1)
-        right = number >= 0 and model.jnt_type[number] == kinds[joint.type]
-        right = right and model.jnt_bodyid[number] == body
-        check.compare(0 if right else math.inf, f"joint '{joint.name}'", known=known)
-        if joint.mimic is not None:
-            same = _follows(joint, compiled)
-            check.compare(0 if same else math.inf, f"mimic of joint '{joint.name}'", known=known)
-    compare_loops(robot, compiled, declared, check)
-    _report_unasked(robot, compiled, check)
-    if freedom != model.nv:
-        text = f"{model.nv} degrees of freedom instead of {freedom}"
-        check.compare(math.inf, text, known=declared.has_any(*TREE))
-    return check
-
-
-def _report_unasked(robot: Robot, compiled: Compiled, check: Check) -> None:
-    """Report constraints between bodies that are not in the description."""
-    model, kinds = compiled.model, compiled.mujoco.mjtEq
-    follower = {joint.name for joint in robot.joints if joint.mimic is not None}
-    ends = {frozenset(pair) for pair in list_loop_ends(robot, compiled)}
-    for number in range(model.neq):
-        kind = int(model.eq_type[number])
-        one, other = int(model.eq_obj1id[number]), int(model.eq_obj2id[number])
-        if kind == int(kinds.mjEQ_JOINT):  # without a second joint it holds a joint, see _limits
-            asked = other < 0 or compiled.name("JOINT", one) in follower
-        else:
-            asked = kind in (int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD))
-            asked = asked and frozenset((one, other)) in ends
-        if not asked:
-            check.compare(math.inf, f"equality {number} is not in the description")
-        soft = *model.eq_solref[number], *model.eq_solimp[number]
-        if not np.allclose(soft, STIFF, rtol=1e-9, atol=0):
-            check.compare(math.inf, f"softness of equality {number}")
-    for field in ("ntendon", "nflex", "nplugin", "nmocap"):
-        if getattr(model, field, 0):
-            check.compare(math.inf, f"{field[1:]} that is not in the description")
-
-
-def _follows(joint: Joint, compiled: Compiled) -> bool:
-    assert joint.mimic is not None
-    model = compiled.model
-    for number in _list_couplings(compiled):
-        if not model.eq_active0[number]:
-            continue
-        if model.eq_obj1id[number] == compiled.get_id("JOINT", joint.name):
-            leader = compiled.get_id("JOINT", joint.mimic.joint)
-            data = model.eq_data[number][:5]
-            wanted = [joint.mimic.offset, joint.mimic.multiplier, 0, 0, 0]
-            same = np.allclose(data, wanted, rtol=1e-14, atol=0)
-            if same and model.eq_obj2id[number] == leader >= 0:
-                return True
-    return False
 
 
 def _check_frames(
@@ -348,75 +340,3 @@ def _check_centroid(
         size = max(float(abs(tensor).max()), 1e-300)
         check.compare(float(abs(found_tensor - tensor).max()) / size, "inertia", known=known)
     return check
-
-
-def _check_limits(mechanics: Mechanics, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare limits, damping and friction of each joint; a locked joint is an equality."""
-    check = Check("limits", "lower, upper, effort, velocity, damping, friction", POSE)
-    model = compiled.model
-    for joint in mechanics.joints:
-        number = compiled.get_id("JOINT", joint.name)
-        if number < 0:
-            continue
-        dof = model.jnt_dofadr[number]
-        found = {
-            "lower": float(model.jnt_range[number][0]) if model.jnt_limited[number] else -math.inf,
-            "upper": float(model.jnt_range[number][1]) if model.jnt_limited[number] else math.inf,
-            "effort": math.inf,
-            "velocity": _compute_custom(compiled, f"{joint.name}_velocity_limit"),
-            "damping": float(np.ravel(model.dof_damping[dof])[0]),
-            "friction": float(model.dof_frictionloss[dof]),
-        }
-        if model.jnt_actfrclimited[number]:
-            backward, found["effort"] = (float(bound) for bound in model.jnt_actfrcrange[number])
-            if backward != -found["effort"]:
-                text = f"lower bound of the effort of joint '{joint.name}' is {backward:g}"
-                check.compare(math.inf, text, known=declared.has_for(EFFORT, joint.name))
-        for held in _list_held(compiled, number):
-            found["lower"] = found["upper"] = held
-        for what, expected in _collect_expected(joint).items():
-            both = abs(found[what]) >= 1e15 and abs(expected) >= 1e15
-            scale = max(abs(expected), 1.0) if math.isfinite(expected) else 1.0
-            difference = 0.0 if both else abs(found[what] - expected) / scale
-            known = declared.has_for(EFFORT if what == "effort" else LIMITS, joint.name)
-            check.compare(difference, f"{what} of joint '{joint.name}'", known=known)
-    return check
-
-
-def _collect_expected(joint: Joint) -> dict[str, float]:
-    limit, dynamics = joint.limit, joint.dynamics
-    bounded = joint.is_limited and limit is not None
-    return {
-        "lower": (limit.lower or 0.0) if bounded and limit else -math.inf,
-        "upper": (limit.upper or 0.0) if bounded and limit else math.inf,
-        "effort": _bound(limit.effort if limit else None),
-        "velocity": _bound(limit.velocity if limit else None),
-        "damping": (dynamics.damping or 0.0) if dynamics else 0.0,
-        "friction": (dynamics.friction or 0.0) if dynamics else 0.0,
-    }
-
-
-def _bound(value: float | None) -> float:
-    return math.inf if value is None else abs(value)
-
-
-def _compute_custom(compiled: Compiled, name: str) -> float:
-    number = compiled.get_id("NUMERIC", name)
-    if number < 0:
-        return math.inf
-    return float(compiled.model.numeric_data[compiled.model.numeric_adr[number]])
-
-
-def _list_couplings(compiled: Compiled) -> Iterator[int]:
-    """Yield the indices of the joint equalities."""
-    kind = compiled.mujoco.mjtEq.mjEQ_JOINT
-    yield from (n for n in range(compiled.model.neq) if compiled.model.eq_type[n] == kind)
-
-
-def _list_held(compiled: Compiled, joint: int) -> Iterator[float]:
-    """Yield the position at which an equality holds a joint."""
-    model = compiled.model
-    for number in _list_couplings(compiled):
-        active = bool(model.eq_active0[number])
-        if active and model.eq_obj1id[number] == joint and model.eq_obj2id[number] < 0:
-            yield float(model.eq_data[number][0])

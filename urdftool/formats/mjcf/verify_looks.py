@@ -12,16 +12,16 @@ from typing import Any
 import numpy as np
 
 from ...compare.check import Check
+from ...compare.links import describe_shape
 from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
-from ...model.elements import Link, Material, Mesh, Robot, Visual
+from ...model.elements import Capsule, Collision, Geometry, Link, Material, Mesh, Robot, Visual
 from ...model.gazebo_colors import get_rgba
 from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
 from .verify_meshes import SourceMeshes
-from .verify_shapes import get_loss_names, has_size, link_geoms
 from .verify_source import Source
 
 Rgba = tuple[float, ...]
@@ -53,9 +53,9 @@ def check_material(
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.get_reference()
     for link in source.robot.links:
-        known = declared.has_for((*LOOKS, *SHAPES), *get_loss_names(link))
+        known = declared.has_for((*LOOKS, *SHAPES), link.name, *list_look_names(link))
         looks = list(_list_looks(source, meshes, link))
-        geoms = list(link_geoms(compiled, link, VISUAL_GROUP))
+        geoms = list(_list_geoms(compiled, link))
         if len(looks) != len(geoms):
             text = f"link '{link.name}': {len(geoms)} visual geoms, of {len(looks)}"
             check.compare(math.inf, text, known=known)
@@ -82,7 +82,7 @@ def check_material(
 def _list_looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
     """Yield the expected appearance of each geom of a link's visuals, in file order."""
     for visual in link.visuals:
-        if not has_size(meshes, visual):
+        if not _has_size(visual.geometry):
             continue
         own = _get_own(source, link, visual)
         if not isinstance(visual.geometry, Mesh):
@@ -100,6 +100,34 @@ def _list_looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Lo
                 yield Look(rgba)
             else:
                 yield own
+
+
+def _list_geoms(compiled: Compiled, link: Link) -> Iterator[int]:
+    """Yield the visual geoms of a link, in file order."""
+    for geom in compiled.get_geoms(compiled.get_body(link.name)):
+        if compiled.model.geom_group[geom] == VISUAL_GROUP:
+            yield geom
+
+
+def _has_size(geometry: Geometry | None) -> bool:
+    """Tell whether a shape has a size above zero; a mesh always does."""
+    if geometry is None or isinstance(geometry, Mesh):
+        return geometry is not None
+    lengths = describe_shape(geometry)
+    sizes = [
+        value for key in ("size", "radii", "radius", "length") for value in lengths.get(key) or ()
+    ]
+    return isinstance(geometry, Capsule) or (bool(sizes) and min(sizes) > 0)
+
+
+def list_look_names(link: Link) -> set[str]:
+    """Return the names of the materials and mesh files of a link, which losses have."""
+    names = {visual.material.name for visual in link.visuals if visual.material is not None}
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    for shape in shapes:
+        if isinstance(shape.geometry, Mesh):
+            names.add(shape.geometry.filename.rpartition("/")[2])
+    return names
 
 
 def _get_own(source: Source, link: Link, visual: Visual) -> Look:

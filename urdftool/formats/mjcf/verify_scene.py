@@ -9,10 +9,10 @@ import numpy as np
 
 from ...compare.check import Check
 from ...errors import OutputError
+from ...model.elements import Robot
 from .compiled import Compiled
 from .verify_fuse import compare_fields
 from .verify_home import get_lowest_point
-from .verify_source import Source
 
 FLOOR = 1e-4
 """Tolerance of the floor's height, relative to the size of the robot."""
@@ -29,11 +29,11 @@ ROBOT = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "eq_sol", "eq_active", 
 """Prefixes of the fields of MuJoCo's model that a scene does not change."""
 
 
-def check_scene(source: Source, compiled: Compiled, path: Path) -> Check:
+def check_scene(robot: Robot, compiled: Compiled, path: Path) -> Check:
     """Compare a scene with the model it includes.
 
     Args:
-        source: The expected values from the description.
+        robot: The robot that the file must hold, with its base.
         compiled: The model.
         path: The file of the scene.
 
@@ -42,7 +42,7 @@ def check_scene(source: Source, compiled: Compiled, path: Path) -> Check:
     """
     check = Check("scene", "the same robot, with a floor at z = 0 or at its lowest point", FLOOR)
     try:
-        scene = Compiled(path, source.root, compiled.renamed)
+        scene = Compiled(path, robot.tree.roots[0].name, compiled.renamed)
     except OutputError as error:
         check.differing.append(error.message)
         return check
@@ -58,7 +58,7 @@ def check_scene(source: Source, compiled: Compiled, path: Path) -> Check:
     floor = planes[-1] if planes else 0
     if not model.geom_contype[floor] == model.geom_conaffinity[floor] == 1:
         check.compare(math.inf, "no contact with the floor")
-    height, size = _get_floor_height(source, compiled)
+    height, size = _get_floor_height(robot, compiled)
     found = float(scene.data.geom_xpos[floor][2])
     off = max(abs(found - height) - ROUNDED, 0.0)
     check.compare(off / max(size, 0.1), f"the floor is at z = {found:g}")
@@ -67,7 +67,7 @@ def check_scene(source: Source, compiled: Compiled, path: Path) -> Check:
     return check
 
 
-def _get_floor_height(source: Source, compiled: Compiled) -> tuple[float, float]:
+def _get_floor_height(robot: Robot, compiled: Compiled) -> tuple[float, float]:
     """Return the expected height of the floor, and the height of the robot [m]."""
     compiled.set_pose({})
     low, size = get_lowest_point(compiled)
@@ -75,5 +75,6 @@ def _get_floor_height(source: Source, compiled: Compiled) -> tuple[float, float]
     if key >= 0:
         compiled.set_pose_at_key(key)
         low = min(low, get_lowest_point(compiled)[0])
-    held = not source.is_free and math.isfinite(low)
+    is_free = robot.base is not None and robot.base.is_free
+    held = not is_free and math.isfinite(low)
     return low if held and low < -FLUSH else 0.0, size if math.isfinite(size) else 0.0
