@@ -50,11 +50,11 @@ def _control(joint: str, value: str) -> Edit:
 
 CHANGES = (
     Planted("root held instead of free", "base", both(drop("//freejoint"), drop("//keyframe"))),
-    Planted("root 5 m higher", "base", put(_in(BODY, "base_link"), "pos", "0 0 5")),
-    Planted("root turned", "base", put(_in(BODY, "base_link"), "quat", "1 0 0 0.1")),
+    Planted("root 5 m higher", "home", put(_in(BODY, "base_link"), "pos", "0 0 5")),
+    Planted("root turned", "home", put(_in(BODY, "base_link"), "quat", "1 0 0 0.1")),
     Planted("body added", "base", add("//worldbody", "<body name='x'><geom size='1'/></body>")),
     Planted(
-        "link lost", "tree", both(drop(_in(BODY, "camera_link")), drop("//sensor/rangefinder"))
+        "link lost", "mass", both(drop(_in(BODY, "camera_link")), drop("//sensor/rangefinder"))
     ),
     Planted(
         "joint lost",
@@ -67,10 +67,10 @@ CHANGES = (
         ),
     ),
     Planted("hinge for a slide", "tree", drop(_in(JOINT, "left_finger_joint"), "type")),
-    Planted("link on another parent", "tree", move(_in(BODY, "caster"), _in(BODY, "upper_arm"))),
+    Planted("link on another parent", "mass", move(_in(BODY, "caster"), _in(BODY, "upper_arm"))),
     Planted("mimic lost", "tree", drop(COUPLING)),
     Planted("mimic inactive", "tree", put(COUPLING, "active", "false")),
-    Planted("mimic made soft", "tree", put(COUPLING, "solref", "0.5 1")),
+    Planted("mimic made soft", "defaults", put(COUPLING, "solref", "0.5 1")),
     Planted("multiplier of mimic", "tree", put(COUPLING, "polycoef", "-0.001 -1 0 0 0")),
     Planted(
         "mimic the other way round",
@@ -87,7 +87,7 @@ CHANGES = (
     ),
     Planted(
         "two links welded",
-        "tree",
+        "defaults",
         add("//equality", "<weld body1='left_finger' body2='base_link'/>"),
     ),
     Planted("link moved by 1 µm", "frames", put(_in(BODY, "imu_link"), "pos", "0.050001 0.02 0.1")),
@@ -110,10 +110,12 @@ CHANGES = (
     ),
     Planted("upper limit by 1e-6", "limits", put(_in(JOINT, "elbow"), "range", "-2 2.100001")),
     Planted("limits lost", "limits", drop(_in(JOINT, "shoulder"), "range")),
-    Planted("effort bound lost", "limits", drop(_in(JOINT, "shoulder"), "actuatorfrcrange")),
+    Planted("effort bound lost", "effort", drop(_in(JOINT, "shoulder"), "actuatorfrcrange")),
     Planted("lower effort bound", "limits", put(_in(JOINT, "elbow"), "actuatorfrcrange", "-5 25")),
-    Planted("damping lost", "limits", drop(_in(JOINT, "elbow"), "damping")),
-    Planted("friction of a joint", "limits", put(_in(JOINT, "elbow"), "frictionloss", "0.2")),
+    Planted("damping lost", "joint physics", drop(_in(JOINT, "elbow"), "damping")),
+    Planted(
+        "friction of a joint", "joint physics", put(_in(JOINT, "elbow"), "frictionloss", "0.2")
+    ),
     Planted("velocity number lost", "limits", drop("//numeric[@name='elbow_velocity_limit']")),
     Planted("spring lost", "joint physics", drop(_in(JOINT, "elbow"), "stiffness")),
     Planted(
@@ -122,43 +124,45 @@ CHANGES = (
     Planted("armature added", "joint physics", put(_in(JOINT, "shoulder"), "armature", "0.1")),
     Planted("limit made soft", "joint physics", put(_in(JOINT, "elbow"), "solreflimit", "0.5 1")),
     Planted("margin of a limit", "joint physics", put(_in(JOINT, "elbow"), "margin", "0.2")),
-    Planted("gravity of the moon", "options", put(OPTION, "gravity", "0 0 -1.62")),
-    Planted("wind", "options", put(OPTION, "wind", "3 0 0")),
-    Planted("water for air", "options", put(OPTION, "density", "1000")),
-    Planted("time step", "options", put(OPTION, "timestep", "0.01")),
-    Planted("limits switched off", "options", add(OPTION, "<flag limit='disable'/>")),
-    Planted("gravity switched off", "options", add(OPTION, "<flag gravity='disable'/>")),
-    Planted("gravity flag lost", "gravity flags", drop(_in(BODY, "upper_arm"), "gravcomp")),
+    Planted("gravity of the moon", "world", put(OPTION, "gravity", "0 0 -1.62")),
+    Planted("wind", "world", put(OPTION, "wind", "3 0 0")),
+    Planted("water for air", "world", put(OPTION, "density", "1000")),
+    Planted("time step", "world", put(OPTION, "timestep", "0.01")),
+    Planted("limits switched off", "world", add(OPTION, "<flag limit='disable'/>")),
+    Planted("gravity switched off", "world", add(OPTION, "<flag gravity='disable'/>")),
+    Planted("gravity flag lost", "link flags", drop(_in(BODY, "upper_arm"), "gravcomp")),
     Planted(
         "gravity flag of another link",
-        "gravity flags",
+        "link flags",
         put(_in(BODY, "left_wheel"), "gravcomp", "1"),
     ),
     Planted(
         "box for a cylinder",
-        "collision",
+        "collisions",
         both(
             put(_in(SOLID, "forearm"), "type", "box"),
             put(_in(SOLID, "forearm"), "size", "0.03 0.03 0.14"),
         ),
     ),
-    Planted("size of a collision by 1 %", "collision", put(_in(SOLID, "caster"), "size", "0.0303")),
-    Planted("collision moved", "collision", put(_in(SOLID, "forearm"), "pos", "0 0 0.16")),
-    Planted("collision lost", "collision", drop(_in(SOLID, "left_wheel"))),
-    Planted("scale of a mesh", "collision", put("//asset/mesh", "scale", "0.06 0.05 0.36")),
+    Planted(
+        "size of a collision by 1 %", "collisions", put(_in(SOLID, "caster"), "size", "0.0303")
+    ),
+    Planted("collision moved", "collisions", put(_in(SOLID, "forearm"), "pos", "0 0 0.16")),
+    Planted("collision lost", "collisions", drop(_in(SOLID, "left_wheel"))),
+    Planted("scale of a mesh", "collisions", put("//asset/mesh", "scale", "0.06 0.05 0.36")),
     Planted(
         "another mesh in the same box",
-        "collision",
+        "collisions",
         both(
             drop("//asset/mesh", "file"),
             put("//asset/mesh", "name", "cube"),
             put("//asset/mesh", "vertex", TETRAHEDRON),
         ),
     ),
-    Planted("contact switched off", "contact", add(OPTION, "<flag contact='disable'/>")),
+    Planted("contact switched off", "world", add(OPTION, "<flag contact='disable'/>")),
     Planted(
         "no collision touches",
-        "contact",
+        "collisions",
         both(
             put("//default[@class='collision']/geom", "contype", "0"),
             put("//default[@class='collision']/geom", "conaffinity", "0"),
@@ -166,39 +170,37 @@ CHANGES = (
     ),
     Planted(
         "one collision touches nothing",
-        "contact",
+        "collisions",
         both(
             put(_in(SOLID, "caster"), "contype", "0"), put(_in(SOLID, "caster"), "conaffinity", "0")
         ),
     ),
     Planted(
         "mask of a collision",
-        "contact",
+        "surface",
         both(
             put(_in(SOLID, "caster"), "contype", "2"), put(_in(SOLID, "caster"), "conaffinity", "2")
         ),
     ),
-    Planted("exclusion lost", "contact", drop(PAIR)),
+    Planted("exclusion lost", "contact pairs", drop(PAIR)),
     Planted(
         "exclusion added",
-        "contact",
+        "contact pairs",
         add("//contact", "<exclude body1='left_wheel' body2='forearm'/>"),
     ),
     Planted(
         "visual touches",
-        "contact",
+        "collisions",
         both(
             put(_in(SEEN, "forearm"), "contype", "1"), put(_in(SEEN, "forearm"), "conaffinity", "1")
         ),
     ),
     Planted(
         "colliding geom added",
-        "contact",
+        "collisions",
         add(_in(BODY, "forearm"), "<geom size='0.2'/>", first=True),
     ),
-    Planted(
-        "parents touch their children", "contact", add(OPTION, "<flag filterparent='disable'/>")
-    ),
+    Planted("parents touch their children", "world", add(OPTION, "<flag filterparent='disable'/>")),
     Planted("friction lost", "surface", drop(_in(SOLID, "left_wheel"), "friction")),
     Planted(
         "friction by 1 %",
@@ -256,12 +258,12 @@ CHANGES = (
     Planted("light turned", "sensors", put("//light", "dir", "0 0 -1")),
     Planted("key lost", "home", drop("//key")),
     Planted("initial value lost", "home", _home(10, "0")),
-    Planted("start beyond a limit", "home", _home(9, "1.5")),
+    Planted("start beyond a limit", "configurations", _home(9, "1.5")),
     Planted("start above the floor", "home", _home(2, "1")),
-    Planted("follower that does not follow", "home", _home(12, "-0.01")),
+    Planted("follower that does not follow", "configurations", _home(12, "-0.01")),
     Planted("control of the home position", "home", _control("elbow", "0")),
-    Planted("visual lost", "visual", drop(_in(SEEN, "caster"))),
-    Planted("visual moved", "visual", put(_in(SEEN, "forearm"), "pos", "0 0 0.16")),
+    Planted("visual lost", "visuals", drop(_in(SEEN, "caster"))),
+    Planted("visual moved", "visuals", put(_in(SEEN, "forearm"), "pos", "0 0 0.16")),
     Planted(
         "texture lost",
         "materials",

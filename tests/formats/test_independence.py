@@ -25,6 +25,7 @@ OPEN = (
     *("sdf.options", "sdf.write", "sdf.verify", "sdf.read"),
     *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),
     *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
+    "mjcf.read",
 )
 
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..mechanics.reference import Array
-from ..model.elements import Joint, Limit
+from ..model.elements import BALL_TYPES, Joint, Limit
 from ..model.kinematics import get_limits
 from ..model.part import Part
 from .bodies import HINGES, compute_axis
@@ -35,7 +35,9 @@ class JointMatch(NamedTuple):
 
 
 def get_kind(joint: Joint) -> str:
-    """Return the motion of a joint: ``hinge``, or the type."""
+    """Return the motion of a joint: ``hinge``, ``ball``, or the type."""
+    if joint.type in BALL_TYPES:
+        return "ball"
     return "hinge" if joint.type in HINGES else joint.type
 
 

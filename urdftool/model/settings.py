@@ -400,8 +400,33 @@ def _find(element: Element, path: str) -> Element | None:
     return found
 
 
+_ENABLED = ("override", "energy", "fwdinv", "invdiscrete", "sleep")
+"""Flags of ``<option>`` that are off by default in every version of MuJoCo."""
+
+
+def read_options(extensions: Iterable[Element]) -> Settings:
+    """Return the settings of the world in the ``<option>`` elements of ``<mujoco>`` elements."""
+    reading, flags = _Reading("world"), dict[str, tuple[Element, str]]()
+    options = [one for extension in extensions for one in extension.list_children("option")]
+    for option in options:
+        for row in OF_WORLD:
+            text = option.get(row.mjcf.partition(" ")[2])
+            content = None if text is None else parse(row.kind, text.strip())
+            if content is not None:
+                reading.values[row.name] = Value(option, content)
+        for flag in option.list_children("flag"):
+            flags |= {name: (flag, state) for name, state in flag.attributes.items()}
+    for name, state, is_extra in (("disabled", "disable", False), ("enabled", "enable", True)):
+        chosen = [flag for flag, (_, text) in flags.items() if text == state]
+        words = [flag for flag in chosen if (flag in _ENABLED) is is_extra]
+        if words:
+            reading.values[name] = Value(flags[words[0]][0], " ".join(sorted(words)))
+    return reading.values
+
+
 def add_settings(robot: Robot) -> None:
     """Read the settings of a URDF: from ``<gazebo>`` blocks and Bullet's ``<contact>``."""
+    robot.world = read_options(() if robot.xml is None else robot.xml.list_children("mujoco"))
     blocks: dict[str, list[Element]] = {}
     for block in robot.gazebo:
         blocks.setdefault(block.reference or "", []).extend(block.element.children)

@@ -34,7 +34,8 @@ def test_small_robots_are_equal(name, base, tmp_path):
     options = Options(srdf=GOLDENS[name].srdf, base=base, actuators="position")
     checks = verified(name, tmp_path, options)
     expected = {"platform": {"equal", "announced"}}.get(name, {"equal"})
-    assert {check.verdict for check in checks} <= expected, format_check_table(checks)
+    verdicts = {check.verdict for check in checks} - {"not compared"}
+    assert verdicts <= expected, format_check_table(checks)
 
 
 @pytest.mark.parametrize(
@@ -46,8 +47,8 @@ def test_small_robots_are_equal(name, base, tmp_path):
         (r'range="0 0\.04"', 'range="0 0.041"', "limits"),
         (r'polycoef="0\.01 -1 ', 'polycoef="0.01 1 ', "tree"),
         (r'"right_slide" joint2="left_slide"', '"left_slide" joint2="right_slide"', "tree"),
-        (r'damping="0\.5"', 'damping="0.4"', "limits"),
-        (r'class="collision" size="0\.04', 'class="collision" size="0.041', "collision"),
+        (r'damping="0\.5"', 'damping="0.4"', "joint physics"),
+        (r'class="collision" size="0\.04', 'class="collision" size="0.041', "collisions"),
         (r'rgba="0\.7', 'rgba="0.6', "materials"),
         (r'<body name="grasp_point"[^>]*/>', "", "frames"),
         (r'data="0\.1"', 'data="0.2"', "limits"),
@@ -86,7 +87,6 @@ def test_locked_joints_are_equal(write, urdftool, keep):
     ("old", "new", "failing"),
     [
         (r'(<body name="b" pos=")1', r"\g<1>1.001", "frames"),
-        (r'<site name="turned"', '<site name="other"', "tree"),
         (r'(?s)<joint name="moves".*?/>(.*)<keyframe>.*</keyframe>', r"\1", "tree"),
     ],
 )

@@ -62,7 +62,7 @@ def test_an_export_is_faithful(write, other, choices):
         ({"base": "free"}, {"base": "fixed"}, "base"),
         ({"actuators": "motor"}, {"actuators": "position"}, "actuators"),
         ({"actuators": "motor"}, {"actuators": "none"}, "actuators"),
-        ({"pose": {"j": 0.5}}, {}, "home"),
+        ({"pose": {"j": 0.5}}, {}, "configurations"),
     ],
 )
 def test_what_an_option_asks_for_is_expected(write, made, said, row):

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ...finding import Finding
-from ...model.elements import Axis, Limit, Link, Origin, Robot
+from ...model.elements import Axis, Joint, Limit, Link, Origin, Robot
 from ...model.mechanism import Base, Configuration
-from ...model.pose import compute_norm
+from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
 from ..common.shape_box import ShapeBoxes
@@ -29,7 +29,7 @@ from .joint_inertia import compute_joint_inertias
 from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
 from .options import Options
-from .structure import ZERO_AXIS, Structure, create_structure
+from .structure import WORLD, ZERO_AXIS, Structure, create_structure
 
 USUAL_FRICTION = 1.0
 """MuJoCo's sliding friction of a geom."""
@@ -160,16 +160,48 @@ def _choose_world(structure: Structure) -> Settings:
     return world
 
 
-def split_planar(robot: Robot) -> Robot:
+def convert_joints(plan: Plan) -> Robot:
+    """Return the robot of a plan with the joints that MuJoCo has for them."""
+    return _move_floating(plan, _split_planar(plan.robot))
+
+
+def _move_floating(plan: Plan, robot: Robot) -> Robot:
+    """Return a robot whose floating joints are children of the world, with the root."""
+    structure = plan.structure
+    moved = [
+        replace(
+            joint,
+            parent=WORLD,
+            origin=get_origin_at(
+                plan.home.start @ structure.get_pose_at_zero(joint.child), joint.provenance
+            ),
+        )
+        if joint.type == "floating" and joint.parent != WORLD
+        else joint
+        for joint in robot.joints
+    ]
+    if moved == robot.joints or structure.in_world:
+        return replace(robot, joints=moved)
+    root, is_free = structure.root.name, structure.free
+    name, kind = (f"{root}_freejoint", "floating") if is_free else (f"{root}_fixed", "fixed")
+    origin = get_origin_at(plan.home.start, robot.provenance)
+    first = Joint(robot.provenance, name, kind, WORLD, root, origin=origin)
+    links = [Link(robot.provenance, WORLD), *robot.links]
+    return replace(robot, links=links, joints=[first, *moved], base=None)
+
+
+def _split_planar(robot: Robot) -> Robot:
     """Return a robot with two slides and a hinge in place of each planar joint."""
-    joints, links = [], list(robot.links)
+    joints, links, planar = [], list(robot.links), dict[str, float]()
     for joint in robot.joints:
         if joint.type != "planar" or compute_norm(get_axis(joint)) < ZERO_AXIS:
             joints.append(joint)
             continue
         names = [joint.name + suffix for suffix in PLANAR_SUFFIXES]
-        places = [joint.parent, names[0], names[1], joint.child]
-        links += [Link(joint.provenance, name, is_virtual=True) for name in names[:2]]
+        planar |= dict.fromkeys(names, 0.0)
+        between = [f"{joint.child}~{number}" for number in (1, 2)]
+        places = [joint.parent, *between, joint.child]
+        links += [Link(joint.provenance, name, is_virtual=True) for name in between]
         for number, axis in enumerate(get_plane(get_axis(joint))):
             joints.append(
                 replace(
@@ -183,4 +215,5 @@ def split_planar(robot: Robot) -> Robot:
                     limit=None if number == 2 else Limit(joint.provenance, -math.inf, math.inf),
                 )
             )
-    return replace(robot, links=links, joints=joints)
+    states = [replace(one, positions=one.positions | planar) for one in robot.configurations]
+    return replace(robot, links=links, joints=joints, configurations=states)

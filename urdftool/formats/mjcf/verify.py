@@ -27,7 +27,7 @@ from ...model.world import add_world
 from ..common.losses import DeclaredLosses
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
-from .declared_losses import EXCUSES, FREE, INERTIA, TORN
+from .declared_losses import EFFORT, EXCUSES, FREE, INERTIA, TORN
 from .options import Options
 from .read import read
 from .verify_defaults import check_defaults
@@ -140,7 +140,7 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
         planned,
         links=[
             *(_expect_link(link, planned) for link in source.links),
-            *(link for link in planned.links if link.is_virtual and link.name not in source.link),
+            *(link for link in planned.links if link.name not in source.link),
         ],
         joints=[_expect_joint(joint, source) for joint in planned.joints],
         format="mjcf",
@@ -164,7 +164,7 @@ def _expect_link(link: Link, planned: Robot) -> Link:
 def _expect_joint(joint: Joint, source: Robot) -> Joint:
     """Return a joint of the source with the dynamics and effort that are chosen."""
     origin = source.joint.get(joint.name)
-    if origin is None:
+    if origin is None or origin.parent != joint.parent:
         return joint
     limit = origin.limit
     if joint.limit is not None and (limit is None or joint.limit.effort != limit.effort):
@@ -212,6 +212,7 @@ def _compare_compiled(
     yield _check_frames(mechanics, compiled, configurations, declared)
     yield from _compare_dynamics(mechanics, compiled, configurations, declared)
     yield _check_centroid(mechanics, compiled, configurations, declared)
+    yield _check_efforts(expected, compiled, declared)
     yield check_defaults(compiled)
     yield check_home(expected, compiled)
     source = Source(robot, options, declared.has_for((FREE,), robot.tree.roots[0].name))
@@ -225,6 +226,25 @@ def _compare_compiled(
     if options.scene:
         name = f"{Path(options.file).stem}_scene.xml" if options.file else "scene.xml"
         yield check_scene(expected, compiled, model.parent / name)
+
+
+def _check_efforts(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
+    """Compare the bounds of force at the joints, which other bounds of an actuator may hide."""
+    check = Check("effort", "bounds of the force at each joint", _EXACT)
+    model = compiled.model
+    ranged = {one.joint for one in robot.joint_actuators if one.force_range is not None}
+    for joint in robot.joints:
+        number = compiled.get_id("JOINT", joint.name)
+        effort = joint.limit.effort if joint.limit is not None else None
+        if number < 0 or not effort or joint.name in ranged or not joint.has_axis:
+            continue
+        off = math.inf
+        if model.jnt_actfrclimited[number]:
+            low, high = (float(bound) for bound in model.jnt_actfrcrange[number])
+            off = max(abs(low + abs(effort)), abs(high - abs(effort))) / max(abs(effort), 1.0)
+        known = declared.has_for(EFFORT, joint.name)
+        check.compare(off, f"effort of joint '{joint.name}'", known=known)
+    return check
 
 
 def _list_configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[str, float]]:
