@@ -640,10 +640,7 @@ def test_forms_that_run_code_are_seen():
 
 BLOCKS = re.compile(r"robot\.(gazebo|extensions)\b")
 
-OPEN_BLOCKS = {
-    *(f"formats/mjcf/{name}.py" for name in ("gazebo", "light", "loops", "sensor")),
-    *(f"formats/mjcf/verify_{name}.py" for name in ("loops", "sensors", "source")),
-}
+OPEN_BLOCKS: set[str] = set()
 """Modules that open ``<gazebo>`` blocks themselves; what a block means belongs into the model.
 
 The list only becomes shorter: friction, contact, springs, flags and names of materials are read by

@@ -262,6 +262,7 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
         }
         for bodies, body in ((pair.a, match.one), (pair.b, match.two))
     ]
+    _add_missing_sites(pair, match, comparison)
     for x, (part, pose) in sides[0].items():
         y = pair.links.get(x, x)
         if y not in sides[1] or (x in match.one.members and y in match.two.members):
@@ -281,6 +282,18 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
                 describe_motion(offset),
             )
         )
+
+
+def _add_missing_sites(pair: Pair, match: Match, comparison: Comparison) -> None:
+    """Record the sites that only one of two MJCF has."""
+    bodies = match.one, match.two
+    if set(pair.formats) != {"mjcf"}:
+        return
+    for side, body in enumerate(bodies):
+        other = bodies[1 - side]
+        for name, (frame, _) in body.frames.items():
+            if frame.kind == "site" and name not in {*other.frames, *other.members}:
+                add_presence(comparison, "frames", "link", "site", side, frame, name, "site")
 
 
 def _is_moved(match: Match, x: str, y: str) -> bool:

@@ -21,6 +21,7 @@ _ROW_OF = {
     "contact exclusion": "contact pairs",
     "closed loop": "loops",
     "configuration": "configurations",
+    "light": "sensors",
     **dict.fromkeys(("gazebo", "transmission", "ros2_control"), _BLOCKS),
 }
 """Row of each kind of change; frames are in their own row."""
@@ -37,11 +38,13 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     """Compare actuators, contact pairs, configurations and plugins of two files of one format."""
     rows = set(_ROW_OF.values()) & comparison.tolerances.keys()
     if pair.formats[0] != pair.formats[1]:
-        for row in rows - {"actuators"}:
+        for row in rows - {"actuators", "sensors"}:
             comparison.skipped[row] = _WHY.get(row, "of two files of one format only")
         return
     if pair.formats[0] == "urdf":  # its actuators are elements of blocks
-        comparison.skipped.update(dict.fromkeys(rows - {_BLOCKS}, f"in the row of {_BLOCKS}"))
+        comparison.skipped.update(
+            dict.fromkeys(rows - {_BLOCKS, "sensors"}, f"in the row of {_BLOCKS}")
+        )
     elif _BLOCKS in rows:
         comparison.skipped[_BLOCKS] = _WHY[_BLOCKS]
     for change in _list_changes(pair):

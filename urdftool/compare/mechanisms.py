@@ -51,9 +51,10 @@ def compare_mechanisms(
 _KINDS = (
     *("closed loop", "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
     "mounted sensor",
+    "light",
 )
 
-_IN_BLOCKS = ("closed loop", "camera", "mounted sensor")
+_IN_BLOCKS = ("closed loop", "camera", "mounted sensor", "light")
 
 
 def _list_parts(robot: Robot) -> tuple[Iterable[Part], ...]:
@@ -61,7 +62,7 @@ def _list_parts(robot: Robot) -> tuple[Iterable[Part], ...]:
     frames = [frame for frame in robot.frames if frame.kind != "body"]
     return (
         *(robot.closures, frames, robot.joint_actuators, robot.exclusions),
-        *(robot.configurations, robot.cameras, robot.mounted_sensors),
+        *(robot.configurations, robot.cameras, robot.mounted_sensors, robot.lights),
     )
 
 

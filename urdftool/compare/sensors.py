@@ -234,7 +234,7 @@ def _compare(
         forms = dict(zip((one.type, two.type), pair.formats, strict=True))
         on_gpu = forms.get("lidar") == "urdf" and forms.get("gpu_lidar") == "sdf"
         add("type", (one.part.type, two.part.type), math.inf, convention=on_gpu)
-    if not plain:
+    if not plain or set(pair.formats) == {"mjcf"}:
         _compare_images(one, two, add)
         return
     settings = {name: _rename(pair, value) for name, value in one.settings.items()}

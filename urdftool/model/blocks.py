@@ -9,13 +9,13 @@ from ..source.document import Element
 from .elements import GazeboExtension, Robot
 from .gazebo_plugins import BODY_SENSORS, get_library
 from .kinematics import link_poses
-from .mechanism import Camera, Closure, MountedSensor
-from .numbers import parse_numbers
+from .mechanism import Camera, Closure, Light, MountedSensor
+from .numbers import number, parse_numbers
 from .part import Vector
 from .plugins import read_plugin
 from .pose import IDENTITY, Pose, compute_norm, get_origin_at, rotate
 from .sensors import read_body_sensor, read_sensor, read_sensor_pose
-from .settings import Rejected
+from .settings import Rejected, is_false
 from .world import WORLD
 
 if TYPE_CHECKING:
@@ -43,9 +43,10 @@ def add_blocks(robot: Robot) -> None:
             _add_sensor(robot, block, sensor.element)
         for plugin in block.plugins:
             add_plugin(robot, plugin.element, block.reference or "")
-        if not block.reference:
-            for element in block.element.list_children("joint"):
-                _add_loop(robot, element)
+        for element in block.element.list_children("joint"):
+            _add_loop(robot, block.reference or "", element)
+        for element in block.element.list_children("light"):
+            _add_light(robot, block.reference or "", element)
     for control in robot.ros2_controls:
         for component in control.components:
             frame = component.params.get("frame_id", "")
@@ -110,11 +111,64 @@ def add_plugin(
         robot.mounted_sensors.append(sensor)
 
 
-def _add_loop(robot: Robot, element: Element) -> None:
+def list_elements(robot: Robot) -> Iterator[tuple[GazeboExtension, Element]]:
+    """Yield each element in ``<gazebo>`` with its block, to report what a format lacks."""
+    for block in robot.gazebo:
+        for element in block.element.children:
+            yield block, element
+
+
+_LIGHTS = ("point", "directional", "spot")
+
+
+def _add_light(robot: Robot, link: str, element: Element) -> None:
+    """Add a light of a link; by default it points down."""
+    if link not in robot.link:
+        required = "the name of a link of the robot"
+        name = element.get("name") or ""
+        rejected = Rejected(element, "light", name, "gazebo reference", link, required)
+        robot.rejected_settings.append(rejected)
+        return
+    kind = element.get("type") or "point"
+    pose, _ = read_sensor_pose(element)
+    direction = None
+    if kind != "point":
+        x, y, z = parse_numbers(_get_text(element, "direction"), 3) or _DOWN
+        direction = rotate(pose.rotation, (x, y, z) if any((x, y, z)) else _DOWN)
+    diffuse, specular = (_read_color(element, tag) for tag in ("diffuse", "specular"))
+    spot = element.find_child("spot")
+    outer = number(_get_text(spot, "outer_angle")) if spot is not None else None
+    robot.lights.append(
+        Light(
+            element,
+            element.get("name") or "light",
+            link,
+            kind if kind in _LIGHTS else "point",
+            pose.translation,
+            direction,
+            diffuse,
+            specular,
+            outer / 2 if kind == "spot" and outer else None,
+            not is_false(_get_text(element, "cast_shadows")),
+        )
+    )
+
+
+_DOWN: Vector = (0.0, 0.0, -1.0)
+
+
+def _read_color(element: Element, tag: str) -> Vector | None:
+    text = _get_text(element, tag)
+    parts = parse_numbers(text, 4) or parse_numbers(text, 3)
+    return None if parts is None else (parts[0], parts[1], parts[2])
+
+
+def _add_loop(robot: Robot, reference: str, element: Element) -> None:
     """Add a joint of SDF, whose pose is in the frame of its child."""
     name, type_ = element.get("name") or "", element.get("type") or ""
     ends = [_get_text(element, tag).rpartition("::")[2] for tag in ("parent", "child")]
     for tag, text, known, required in (
+        ("gazebo reference", reference, ("",), "absent"),
         ("joint type", type_, LOOP_TYPES, f"one of {', '.join(LOOP_TYPES)}"),
         ("parent", ends[0], {*robot.link, WORLD}, "the name of another link"),
         ("child", ends[1], {*robot.link} - {ends[0]}, "the name of another link"),
@@ -135,7 +189,34 @@ def _add_loop(robot: Robot, element: Element) -> None:
     )
     axis = None if type_ in ("fixed", "ball") else _get_axis(element, at)
     kind = "weld" if type_ == "fixed" else type_
-    robot.closures.append(Closure(element, name, kind, parent, child, one, two, axis))
+    closure = Closure(element, name, kind, parent, child, one, two, axis)
+    closure.is_limited, closure.has_dynamics = _has_bounds(element), _has_dynamics(element)
+    robot.closures.append(closure)
+
+
+def _has_bounds(joint: Element) -> bool:
+    """Tell whether a joint of SDF has a limit of its position."""
+    limit = _find(joint, "axis", "limit")
+    ends = () if limit is None else (number(_get_text(limit, end)) for end in ("lower", "upper"))
+    return any(end is not None and abs(end) < _UNBOUNDED for end in ends)
+
+
+_UNBOUNDED = 1e15
+"""Limit that stands for none; sdformat writes 1e16."""
+
+
+def _has_dynamics(joint: Element) -> bool:
+    """Tell whether a joint of SDF has damping, friction or a spring."""
+    part = _find(joint, "axis", "dynamics")
+    tags = ("damping", "friction", "spring_stiffness")
+    return part is not None and any(number(_get_text(part, tag)) for tag in tags)
+
+
+def _find(element: Element, *tags: str) -> Element | None:
+    found: Element | None = element
+    for tag in tags:
+        found = None if found is None else found.find_child(tag)
+    return found
 
 
 def _get_axis(joint: Element, pose: Pose) -> Vector:

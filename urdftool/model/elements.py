@@ -33,6 +33,7 @@ from .mechanism import (
     ContactExclusion,
     Frame,
     JointActuator,
+    Light,
     MountedPlugin,
     MountedSensor,
 )
@@ -318,6 +319,7 @@ class Robot(RobotConversions, Part):
         cameras: Cameras on links.
         mounted_sensors: Sensors of links and joints.
         mounted_plugins: Plugins of Gazebo that are not in a sensor.
+        lights: Lights on links.
         settings: Settings of ``settings.OF_ROBOT``.
         world: Settings of the world around it, of ``settings.OF_WORLD``.
         rejected_settings: Elements of settings whose text is not a value.
@@ -343,6 +345,7 @@ class Robot(RobotConversions, Part):
     cameras: list[Camera] = field(default_factory=list)
     mounted_sensors: list[MountedSensor] = field(default_factory=list)
     mounted_plugins: list[MountedPlugin] = field(default_factory=list)
+    lights: list[Light] = field(default_factory=list)
     settings: Settings = field(default_factory=dict)
     world: Settings = field(default_factory=dict)
     rejected_settings: list[Rejected] = field(default_factory=list)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .part import Origin, Part, Vector
+from .part import ZERO, Origin, Part, Vector
 from .settings import Settings
 
 
@@ -52,6 +52,8 @@ class Closure(Part):
         child_origin: Frame of the connection in the frame of ``child``.
         axis: Axis of an SDF joint in the frame of the connection.
         is_active: Whether it acts at the start.
+        is_limited: Whether its position has limits.
+        has_dynamics: Whether it has damping, friction or a spring.
     """
 
     name: str = ""
@@ -62,6 +64,8 @@ class Closure(Part):
     child_origin: Origin | None = None
     axis: Vector | None = None
     is_active: bool = True
+    is_limited: bool = False
+    has_dynamics: bool = False
 
 
 @dataclass(slots=True)
@@ -131,6 +135,31 @@ class Camera(Part):
 
 
 @dataclass(slots=True)
+class Light(Part):
+    """Light on a link.
+
+    Attributes:
+        type: ``point``, ``directional`` or ``spot``.
+        position: Position in the frame of the link [m].
+        direction: Direction in the frame of the link, not of a ``point``.
+        diffuse: Red, green and blue, each 0 to 1; None if not written.
+        specular: Red, green and blue, each 0 to 1; None if not written.
+        cutoff: Half of the angle of a ``spot`` [rad]; None if not written.
+        casts_shadow: Whether it casts shadows.
+    """
+
+    name: str = ""
+    link: str = ""
+    type: str = "point"
+    position: Vector = ZERO
+    direction: Vector | None = None
+    diffuse: Vector | None = None
+    specular: Vector | None = None
+    cutoff: float | None = None
+    casts_shadow: bool = True
+
+
+@dataclass(slots=True)
 class MountedSensor(Part):
     """Sensor of a link or joint, other than a camera of MJCF.
 
@@ -141,6 +170,7 @@ class MountedSensor(Part):
         origin: Pose in the frame of the link; None for the identity.
         settings: Settings of ``sensors.SETTINGS``, such as ``rate``, and others by their path.
         quantities: Sensors of MJCF that a sensor of ros2_control stands for; empty for others.
+        site: Name of the frame at which a sensor of MJCF measures; empty for none.
     """
 
     name: str = ""
@@ -150,6 +180,7 @@ class MountedSensor(Part):
     origin: Origin | None = None
     settings: Settings = field(default_factory=dict)
     quantities: tuple[str, ...] = ()
+    site: str = ""
 
 
 @dataclass(slots=True)

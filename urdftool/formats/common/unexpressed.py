@@ -28,7 +28,7 @@ class _Kind(NamedTuple):
     severity: Severity = Severity.WARNING
 
 
-_IN_BLOCKS = ("closure", "camera", "sensor", "plugin")
+_IN_BLOCKS = ("closure", "camera", "sensor", "plugin", "light")
 """Codes of parts that a URDF has in its blocks."""
 
 
@@ -95,6 +95,7 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     configurations = [(part, part.name) for part in robot.configurations]
     yield _Kind("configuration", "configuration", [*configurations], info)
     yield _Kind("camera", "camera", [(part, part.name) for part in robot.cameras], info)
+    yield _Kind("light", "light", [(part, part.name) for part in robot.lights], info)
     yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
     plugins = [(part, part.name or part.library) for part in robot.mounted_plugins]
     yield _Kind("plugin", "plugin", [*plugins], info)

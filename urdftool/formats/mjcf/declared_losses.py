@@ -16,9 +16,6 @@ TREE = (
 )  # fmt: skip
 """A joint moves differently from its description."""
 
-FREE = "lossy-free-base"
-"""The root is free because of what supports the robot."""
-
 LOOPS = ("lossy-loop", "bad-extension-number")
 """A loop-closing joint was dropped."""
 
@@ -48,6 +45,8 @@ EXCUSES = (
     Excuse(("collisions", "visuals", "surface", "colors"), frozenset(SHAPES)),
     Excuse(("collisions", "surface"), frozenset(("lossy-convex",))),
     Excuse(("colors",), frozenset(("lossy-material", "lossy-texture"))),
+    Excuse(("sensors",), frozenset(("lossy-sensor", "lossy-camera"))),
+    Excuse(("loops",), frozenset(LOOPS)),
     Excuse(
         ("configurations",),
         frozenset(("lossy-home", "lossy-limit-inverted", "lossy-mimic")),

@@ -8,7 +8,7 @@ from ...diagnostic import Severity
 from ...model.elements import Joint
 from ..written import Written
 from .digits import format_numbers_text
-from .loops import STIFF, list_loop_equalities
+from .loops import STIFF, build_loop_equalities
 from .structure import Structure, get_locked_at
 
 
@@ -23,7 +23,7 @@ def build_equality_section(structure: Structure, written: Written) -> etree._Ele
         held = get_locked_at(joint)
         if held is not None:
             _hold(joint, held, section)
-    section.extend(list_loop_equalities(structure, written))
+    section.extend(build_loop_equalities(structure))
     return section if len(section) else None
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...diagnostic import Severity
+from ...model.blocks import list_elements
 from ...model.elements import Collision, GazeboExtension, Link, Robot
 from ...model.settings import SURFACE_OF_MUJOCO, Content, Setting, Settings, get_number
+from ...source.document import Element
 from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
 from .digits import format_numbers_text, number_text
@@ -109,9 +111,13 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
     """Report the settings and extensions that are not exported."""
     if robot.xml is None:
         report_unwritten_settings(robot, written, _is_written)
-    for block in robot.gazebo:
+    unknown: set[int] = set()
+    for block, child in list_elements(robot):
         reference = block.reference
-        if reference is not None and reference not in robot.link and reference not in robot.joint:
+        if reference is None or reference in robot.link or reference in robot.joint:
+            _report_keyword_loss(block, child, written)
+        elif id(block) not in unknown:
+            unknown.add(id(block))
             written.report_loss(
                 "gazebo",
                 (
@@ -123,8 +129,6 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
                 kind="gazebo",
                 name=reference,
             )
-            continue
-        _report_keyword_losses(block, written)
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",
@@ -136,18 +140,17 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
         )
 
 
-def _report_keyword_losses(block: GazeboExtension, written: Written) -> None:
+def _report_keyword_loss(block: GazeboExtension, child: Element, written: Written) -> None:
     about = f" of '{block.reference}'" if block.reference else ""
-    for child in block.element.children:
-        lost = LOST.get(child.tag)
-        if lost is None and child.tag in KNOWN:
-            continue
-        why, severity = lost or ("the element is unknown", Severity.INFO)
-        written.report_loss(
-            "gazebo",
-            f"<{child.tag}>{about} is not exported: {why}",
-            child.place,
-            kind="gazebo",
-            name=block.reference or "",
-            severity=severity,
-        )
+    lost = LOST.get(child.tag)
+    if lost is None and child.tag in KNOWN:
+        return
+    why, severity = lost or ("the element is unknown", Severity.INFO)
+    written.report_loss(
+        "gazebo",
+        f"<{child.tag}>{about} is not exported: {why}",
+        child.place,
+        kind="gazebo",
+        name=block.reference or "",
+        severity=severity,
+    )

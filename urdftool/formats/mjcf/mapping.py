@@ -5,9 +5,12 @@ Where the exporter has a table of its own, the rows are generated from it.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from ...model.sensors import KINDS as SENSORS
+from ...model.sensors import SensorKind
 from .gazebo import LOST
 from .loops import KINDS as CLOSERS
-from .sensor import AT_SITE, CAMERAS, SCANNERS
 from .structure import KINDS
 
 EXACT, CLOSE, LOST_MARK = "=", "≈", "×"
@@ -166,12 +169,18 @@ EXTENSIONS: tuple[Row, ...] = (
 def format_markdown() -> str:
     """Format the tables as Markdown for the documentation."""
     joints = [(f"`joint@type` {name}", EXACT, _JOINT_TEXT[kind]) for name, kind in KINDS.items()]
-    sensors = [(f"sensor `{name}`", CLOSE, _format_sensors(name)) for name in AT_SITE]
+    sensors = [
+        (f"sensor {_format_names((kind.type, *kind.others))}", CLOSE, _format_sensors(kind))
+        for kind in SENSORS
+        if kind.mjcf and kind.mjcf[0][0] not in ("touch", "rangefinder")
+    ]
+    cameras = [kind.type for kind in SENSORS if kind.section == "camera"]
+    lidars = [kind.type for kind in SENSORS if kind.section == "lidar"]
     sensors.append(
-        (f"sensor {_format_names(CAMERAS)}", CLOSE, "`camera` with `fovy` and `resolution`")
+        (f"sensor {_format_names(cameras)}", CLOSE, "`camera` with `fovy` and `resolution`")
     )
     sensors.append(
-        (f"sensor {_format_names(SCANNERS)}", CLOSE, "`rangefinder`s up to 36 rays, else its site")
+        (f"sensor {_format_names(lidars)}", CLOSE, "`rangefinder`s up to 36 rays, else its site")
     )
     sensors.append(
         ("sensor `contact`", CLOSE, "`touch` in a site over the link's first simple shape")
@@ -186,11 +195,11 @@ def format_markdown() -> str:
     return "\n".join(_format_table(title, rows) for title, rows in parts)
 
 
-def _format_sensors(name: str) -> str:
-    return "site with " + ", ".join(f"`{kind}`" for kind, _ in AT_SITE[name])
+def _format_sensors(kind: SensorKind) -> str:
+    return "site with " + ", ".join(f"`{tag}`" for tag, _ in kind.mjcf)
 
 
-def _format_names(names: tuple[str, ...]) -> str:
+def _format_names(names: Iterable[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 

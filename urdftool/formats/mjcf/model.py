@@ -14,7 +14,6 @@ from ...model.settings import OF_WORLD
 from ..common.naming import UniqueNames
 from ..written import Written
 from .actuator import build_actuator_section
-from .base_sensors import add_base_sensors
 from .body import build_body_tree, fill_bodies
 from .contact import build_contact_section
 from .defaults import build_default_section
@@ -28,9 +27,9 @@ from .gazebo import get_attributes, report_gazebo_losses
 from .home import Home
 from .home_contacts import exclude_overlapping
 from .joint import PLANAR_SUFFIXES
-from .light import put_lights
 from .material import Materials
 from .meshes import Assets
+from .mounted import put_mounted
 from .options import Options
 from .plan import Plan
 from .sensor import build_sensor_section
@@ -50,7 +49,7 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     materials = Materials(robot, written, options.mesh_dir)
     world, bodies = build_body_tree(structure, plan.home, plan.name, written)
     fill_bodies(structure, bodies, plan.masses, assets, materials, written)
-    put_lights(robot, bodies, written)
+    put_mounted(robot, bodies)
     sections: dict[str, etree._Element] = {
         "compiler": _build_compiler(options, assets, materials),
         "option": _build_option(robot),
@@ -58,15 +57,12 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     }
     actuators = build_actuator_section(robot)
     _summarize(structure, options, len(robot.joint_actuators), written)
-    sensors = build_sensor_section(robot, bodies, written)
-    if options.base_sensors:
-        sensors = add_base_sensors(structure, bodies, sensors, written)
     _put(
         sections,
         build_contact_section(structure),
         build_equality_section(structure, written),
         actuators,
-        sensors,
+        build_sensor_section(robot),
         build_keyframe_section(structure, plan.home),
         _build_custom(structure, plan.name),
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from ...finding import Finding
 from ...model.elements import Axis, Joint, Limit, Link, Origin, Robot
-from ...model.mechanism import Base, Configuration
+from ...model.mechanism import Base, Configuration, Frame
 from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
@@ -28,7 +28,9 @@ from .joint import PLANAR_SUFFIXES, get_axis, get_plane
 from .joint_inertia import compute_joint_inertias
 from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
+from .loops import plan_closures
 from .options import Options
+from .sensor import plan_sensors
 from .structure import WORLD, ZERO_AXIS, Structure, create_structure
 
 USUAL_FRICTION = 1.0
@@ -93,8 +95,19 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     for joint in structure.robot.joints:
         if joint.name in inertias and joint.dynamics is not None:
             inertias[joint.name] += joint.dynamics.armature or 0.0
+    sites = [
+        Frame(joint.provenance, joint.name, joint.child, "site")
+        for joint in structure.joints
+        if joint.name in structure.locked
+    ]
+    frames = [*sites, *(one for one in robot.frames if one.kind != "body")]
+    sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
     planned = replace(
         structure.robot,
+        frames=sensors.frames,
+        mounted_sensors=sensors.sensors,
+        cameras=sensors.cameras,
+        closures=plan_closures(structure, written),
         links=[_set_priority(link, robot.format) for link in structure.robot.links],
         base=None if structure.in_world else _plan_base(robot, home, is_free=free),
         joint_actuators=plan_actuators(structure, options.actuators, inertias, settings, written),

@@ -228,6 +228,16 @@ def _list_cameras(spec: Any, model: Any, _: Any) -> list[Row]:
     ]
 
 
+def _list_lights(spec: Any, model: Any, mujoco: Any) -> list[Row]:
+    names = ("bodyid", "pos", "dir", "diffuse", "specular", "cutoff", "castshadow", "mode")
+    rows = []
+    for i, light in enumerate(_sort_by_id(spec.lights)):
+        row = {**_make_row(light), **_list_values(model, "light", i, names)}
+        row["type"] = _get_enum_name(mujoco.mjtLightType(model.light_type[i]), "mjLIGHT_")
+        rows.append(row)
+    return rows
+
+
 def _list_actuators(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("gear", "gainprm", "biasprm", "ctrlrange", "ctrllimited", "forcerange", "forcelimited"),
@@ -336,7 +346,7 @@ _READERS: dict[str, Callable[..., list[Row]]] = {
     "option": _list_options,
     "numeric": _list_numbers,
     "tendon": _make_lister("tendons"),
-    "light": _make_lister("lights"),
+    "light": _list_lights,
     "flex": _make_lister("flexes"),
     "skin": _make_lister("skins"),
     "plugin": _make_lister("plugins"),

@@ -14,9 +14,10 @@ from ...model.mechanism import (
     ContactExclusion,
     Frame,
     JointActuator,
+    Light,
     MountedSensor,
 )
-from ...model.pose import IDENTITY, Pose, get_origin_at, rotation_from_quaternion
+from ...model.pose import IDENTITY, Pose, get_origin_at, rotate, rotation_from_quaternion
 from ...model.provenance import Written
 from ...model.settings import OF_WORLD
 from .read_compile import Row
@@ -30,7 +31,6 @@ _LEFT_OUT = {
     "flex": ("deformable bodies are not read", Severity.WARNING),
     "plugin": ("plugins are not read", Severity.WARNING),
     "skin": ("skins are not read", Severity.INFO),
-    "light": ("lights are not read", Severity.INFO),
 }
 
 
@@ -54,6 +54,8 @@ def add_extras(context: Context, robot: Robot) -> None:
         )
     for row in context.list_rows("sensor"):
         _add_sensor(context, robot, row)
+    for row in context.list_rows("light"):
+        _add_light(context, robot, row)
     _add_configurations(context, robot)
 
 
@@ -83,6 +85,30 @@ def _add_frames(context: Context, robot: Robot) -> None:
             (width, height) if width > 1 and height > 1 else None,
         )
         robot.cameras.append(camera)
+
+
+def _add_light(context: Context, robot: Robot, row: Row) -> None:
+    written = context.get_place(row)
+    if not context.has_link(row):
+        text = "lights in the world are scenery"
+        context.losses.add("light", text, row["name"], written.place, Severity.INFO)
+        return
+    shift = context.shifts[row["bodyid"]]
+    kind = {"directional": "directional", "spot": "spot"}.get(row["type"], "point")
+    robot.lights.append(
+        Light(
+            written,
+            row["name"],
+            context.links[row["bodyid"]],
+            kind,
+            shift.transform(tuple(row["pos"])),
+            None if kind == "point" else rotate(shift.rotation, tuple(row["dir"])),
+            tuple(row["diffuse"]),
+            tuple(row["specular"]),
+            math.radians(row["cutoff"]) if kind == "spot" else None,
+            bool(row["castshadow"]),
+        )
+    )
 
 
 def _add_actuator(context: Context, robot: Robot, row: Row) -> None:
@@ -226,7 +252,10 @@ def _add_sensor(context: Context, robot: Robot, row: Row) -> None:
         context.losses.add("sensor", text, row["name"], written.place, Severity.INFO)
         return
     origin = get_origin_at(at, written)
-    robot.mounted_sensors.append(replace(sensor, link=context.links[body], origin=origin))
+    site = context.list_rows(kind)[target]["name"] if kind == "site" else ""
+    robot.mounted_sensors.append(
+        replace(sensor, link=context.links[body], origin=origin, site=site)
+    )
 
 
 def _add_configurations(context: Context, robot: Robot) -> None:

@@ -1,282 +1,281 @@
-"""Sensors of Gazebo and ros2_control: cameras in bodies, and sensors at sites."""
+"""Sensors and cameras: what MuJoCo has for those of a robot, and their elements.
+
+MuJoCo has one sensor for each measured quantity, at a site or joint; ``model/sensors.py: KINDS``
+says which. A planned sensor has the type of MuJoCo and the name of its site, which is a frame.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 from lxml import etree
 
-from ...model.elements import ControlComponent, Robot, Sensor
-from ...model.pose import Pose, rotation_from_quaternion, rotation_from_rpy
-from ...model.read import number, parse_numbers
-from ...source.document import Element
+from ...model.elements import Link, Robot
+from ...model.mechanism import Camera, Frame, MountedSensor
+from ...model.pose import IDENTITY, Pose, get_origin_at, make_pose, rotation_from_rpy
+from ...model.sensors import KINDS, MAX_RAYS, get_kind
+from ...model.settings import get_number
 from ..common.naming import UniqueNames
+from ..common.shape_box import get_shape_size
 from ..written import Written
-from .body import Bodies
-from .digits import format_numbers_text, number_text
-from .frame import set_pose
-from .joint import SITE
+from .structure import Structure
 
-MAX_RAYS = 36
-"""Maximum number of rays of a scanner that becomes rangefinders."""
+WIDEST = 2.8
+"""Horizontal field of view [rad] of a camera that sees more than a flat image shows; chosen, no
+source."""
 
-CAMERA_TURN = Pose(rotation_from_quaternion((0.5, 0.5, -0.5, -0.5)))
-"""Rotation from Gazebo's camera (x forward, z up) to MuJoCo's (-z forward, y up)."""
+CAMERA_SIZE = (320, 240)
+"""Width and height [pixels] that SDF's specification gives an image."""
 
-# type -> sensors at its site, with their name suffixes
-AT_SITE: dict[str, tuple[tuple[str, str], ...]] = {
-    "imu": (("accelerometer", "_accelerometer"), ("gyro", "_gyro"), ("framequat", "_orientation")),
-    "force_torque": (("force", "_force"), ("torque", "_torque")),
-    "gps": (("framepos", ""),),
-    "navsat": (("framepos", ""),),
-    "altimeter": (("framepos", ""),),
-    "magnetometer": (("magnetometer", ""),),
-}
+BASE_KINDS = (
+    ("framelinvel", "_linear_velocity"),
+    ("gyro", "_gyro"),
+    ("accelerometer", "_accelerometer"),
+    ("framequat", "_orientation"),
+)
+"""Sensors of a floating base that control policies read, with the suffixes of their names."""
 
-CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "openni_kinect", "multicamera")
-SCANNERS = ("ray", "gpu_ray", "lidar", "gpu_lidar", "sonar")
+_SUFFIX_OF = {tag: suffix for kind in KINDS for tag, suffix in kind.mjcf}
 
 
-def build_sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Element | None:
-    """Build ``<sensor>``, or return None if it is empty; add sites and cameras to the bodies."""
-    section = etree.Element("sensor")
-    there = (site.get("name", "") for body in bodies.values() for site in body.iterchildren("site"))
-    sites, cameras, taken = UniqueNames(there), UniqueNames(), UniqueNames()
-    for block in robot.gazebo:
-        link = _link_of(robot, block.reference)
-        for sensor in block.sensors:
-            if link is None:
-                _report_sensor_loss(sensor, "it is not on a link", written)
-                continue
-            body = bodies[link]
-            if sensor.type in CAMERAS:
-                for camera in sensor.element.list_children("camera"):
-                    _add_camera(sensor, camera, body, cameras, written)
-            elif sensor.type in AT_SITE:
-                site = _format_site(
-                    sensor.name or f"{link}_{sensor.type}", _read_pose(sensor.element), body, sites
-                )
-                _measure(section, sensor.name or link, AT_SITE[sensor.type], site, taken)
-            elif sensor.type == "contact":
-                _add_touch(sensor, link, body, section, sites, taken, written)
-            elif sensor.type in SCANNERS:
-                _add_scanner(sensor, link, body, section, sites, taken, written)
-            else:
-                _report_sensor_loss(
-                    sensor, f"MuJoCo has no sensor of type '{sensor.type}'", written
-                )
-    for control in robot.ros2_controls:
-        for component in control.components:
-            if component.kind == "sensor":
-                _add_control_sensor(component, robot, bodies, section, sites, taken, written)
-    return section if len(section) else None
+@dataclass
+class SensorPlan:
+    """Sensors of a model.
+
+    Attributes:
+        sensors: Sensors of MuJoCo's types.
+        frames: Their sites.
+        cameras: Cameras.
+    """
+
+    sensors: list[MountedSensor] = field(default_factory=list)
+    frames: list[Frame] = field(default_factory=list)
+    cameras: list[Camera] = field(default_factory=list)
 
 
-def _link_of(robot: Robot, reference: str | None) -> str | None:
-    """Return the link of a sensor; for a joint reference, its child."""
-    if reference is None:
-        return None
-    if reference in robot.link:
-        return reference
-    joint = robot.joint.get(reference)
-    return joint.child if joint is not None and joint.child in robot.link else None
+class _Planner:
+    """Sensors while they are chosen; names are unique."""
 
+    def __init__(self, robot: Robot, taken: list[Frame], written: Written) -> None:
+        self.robot = robot
+        self.written = written
+        self.plan = SensorPlan(frames=list(taken))
+        self._sites = UniqueNames(frame.name for frame in taken)
+        self._names = UniqueNames()
+        self._cameras = UniqueNames()
 
-def _read_pose(element: Element) -> Pose:
-    """Read Gazebo's ``<pose>``: x y z [m] and roll pitch yaw [rad]."""
-    child = element.find_child("pose")
-    values = parse_numbers(child.text, 6) if child is not None else None
-    if values is None:
-        return Pose()
-    return Pose(
-        rotation_from_rpy((values[3], values[4], values[5])), (values[0], values[1], values[2])
-    )
+    def add_site(self, name: str, link: str, pose: Pose) -> Frame:
+        """Add a site."""
+        frame = Frame(None, self._sites.take(name), link, "site", get_origin_at(pose))
+        self.plan.frames.append(frame)
+        return frame
 
+    def add(self, source: MountedSensor | None, tag: str, name: str, site: Frame) -> None:
+        """Add a sensor at a site."""
+        place = None if source is None else source.provenance
+        own = self._names.take(name)
+        self.plan.sensors.append(
+            MountedSensor(place, own, tag, site.link, "", site.origin, site=site.name)
+        )
 
-def _format_site(name: str, pose: Pose, body: etree._Element, sites: UniqueNames) -> str:
-    element = etree.Element("site", {"name": sites.take(name), **SITE})
-    set_pose(element, pose)
-    put_before_bodies(body, element)
-    return element.get("name", "")
+    def add_camera(self, camera: Camera) -> None:
+        """Add a camera; one that sees too wide is reported."""
+        vertical, size = camera.vertical_fov, camera.resolution or CAMERA_SIZE
+        if vertical is None:
+            across = get_number(camera.settings, "field of view") or 0.0
+            self.written.report_loss(
+                "camera",
+                f"camera '{camera.name}' sees {across:g} rad wide, which no flat image shows; "
+                f"it sees {WIDEST:g} rad",
+                camera.place,
+                kind="sensor",
+                name=camera.name,
+            )
+            vertical = 2 * math.atan(math.tan(WIDEST / 2) * size[1] / size[0])
+        name = self._cameras.take(camera.name or "camera")
+        self.plan.cameras.append(
+            Camera(camera.provenance, name, camera.link, camera.origin, vertical, size)
+        )
 
-
-def put_before_bodies(body: etree._Element, element: etree._Element) -> None:
-    """Insert a site or camera before the child bodies."""
-    first = body.find("body")
-    body.insert(len(body) if first is None else body.index(first), element)
-
-
-def _measure(
-    section: etree._Element,
-    name: str,
-    kinds: tuple[tuple[str, str], ...],
-    site: str,
-    taken: UniqueNames,
-) -> None:
-    for kind, suffix in kinds:
-        section.append(create_site_sensor(kind, taken.take(name + suffix), site))
-
-
-def create_site_sensor(kind: str, name: str, site: str) -> etree._Element:
-    """Create a sensor at a site."""
-    element = etree.Element(kind, name=name)
-    if kind.startswith("frame"):
-        element.set("objtype", "site")
-        element.set("objname", site)
-    else:
-        element.set("site", site)
-    return element
-
-
-def _add_camera(
-    sensor: Sensor, camera: Element, body: etree._Element, cameras: UniqueNames, written: Written
-) -> None:
-    image, fov = camera.find_child("image"), camera.find_child("horizontal_fov")
-    horizontal = (number(fov.text) if fov is not None else None) or 1.047
-    width, height = (
-        _get_whole(image, name, size) for name, size in (("width", 320), ("height", 240))
-    )
-    if not 0 < horizontal < math.pi:
-        written.report_loss(
-            "camera",
-            f"camera '{sensor.name}' sees {horizontal:g} rad wide, which no flat image shows; "
-            "it sees 2.8 rad",
+    def report(self, sensor: MountedSensor, why: str) -> None:
+        """Report a sensor that is not exported completely."""
+        self.written.report_loss(
+            "sensor",
+            f"sensor '{sensor.name}' is not exported completely: {why}",
             sensor.place,
             kind="sensor",
             name=sensor.name,
         )
-        horizontal = 2.8
-    vertical = 2 * math.atan(math.tan(horizontal / 2) * height / width)
-    name = cameras.take(sensor.name or "camera", f"{sensor.name}_{camera.get('name') or ''}")
-    element = etree.Element("camera", name=name, fovy=number_text(math.degrees(vertical)))
-    element.set("resolution", f"{width} {height}")
-    set_pose(element, _read_pose(sensor.element) @ _read_pose(camera) @ CAMERA_TURN)
-    put_before_bodies(body, element)
 
 
-def _get_whole(image: Element | None, name: str, default: int) -> int:
-    child = image.find_child(name) if image is not None else None
-    value = number(child.text) if child is not None else None
-    return int(value) if value is not None and value >= 1 else default
+def plan_sensors(
+    structure: Structure, frames: list[Frame], written: Written, *, base: bool
+) -> SensorPlan:
+    """Choose MuJoCo's sensors for those of a robot.
+
+    Args:
+        structure: The kinematic tree.
+        frames: Other sites of the model.
+        written: Receives losses.
+        base: Whether a floating base gets the sensors of ``BASE_KINDS`` that it lacks.
+    """
+    robot = structure.robot
+    planner = _Planner(robot, frames, written)
+    for sensor in robot.mounted_sensors:
+        joint = robot.joint.get(sensor.joint)
+        link = sensor.link or ("" if joint is None else joint.child)
+        if robot.format == "mjcf":
+            planner.plan.sensors.append(sensor)
+        elif link in robot.link:
+            _plan_sensor(planner, sensor, link)
+    for camera in robot.cameras:
+        planner.add_camera(camera)
+    _report_unknown(robot, written)
+    if base:
+        _plan_base(planner, structure)
+    return planner.plan
 
 
-def _add_touch(
-    sensor: Sensor,
-    link: str,
-    body: etree._Element,
-    section: etree._Element,
-    sites: UniqueNames,
-    taken: UniqueNames,
-    written: Written,
-) -> None:
-    """Add a touch sensor in a site that covers the first primitive collision geom of a link."""
+def _plan_sensor(planner: _Planner, sensor: MountedSensor, link: str) -> None:
+    kind, pose = get_kind(sensor.type), make_pose(sensor.origin)
+    tags = kind.mjcf
+    if sensor.quantities:
+        tags = tuple((tag, _SUFFIX_OF[tag]) for tag in sensor.quantities)
+    if not tags:
+        planner.report(sensor, f"MuJoCo has no sensor of type '{sensor.type}'")
+    elif tags[0][0] == "touch":
+        _plan_touch(planner, sensor, link)
+    elif tags[0][0] == "rangefinder":
+        _plan_rays(planner, sensor, link, pose)
+    else:
+        site = planner.add_site(sensor.name or f"{link}_{sensor.type}", link, pose)
+        for tag, suffix in tags:
+            planner.add(sensor, tag, (sensor.name or link) + suffix, site)
+
+
+def _plan_touch(planner: _Planner, sensor: MountedSensor, link: str) -> None:
+    """Plan a touch sensor in a site that covers the first primitive collision of a link."""
+    covered = find_covered(planner.robot.link[link])
+    if covered is None:
+        planner.report(sensor, "its link has no primitive collision that a site can cover")
+        return
     name = sensor.name or f"{link}_contact"
-    geoms = [g for g in body.iterchildren("geom") if g.get("class") == "collision"]
-    sized = [g for g in geoms if g.get("size")]
-    if not sized:
-        _report_sensor_loss(
-            sensor, "its link has no primitive collision that a site can cover", written
-        )
-        return
-    own = sites.take(name)
-    size = (float(part) for part in sized[0].get("size", "").split())
-    site = etree.Element("site", name=own, type=sized[0].get("type", ""), group="5")
-    site.set("size", format_numbers_text(1.01 * part for part in size))
-    for attribute in ("pos", "quat"):
-        if attribute in sized[0].attrib:
-            site.set(attribute, sized[0].get(attribute, ""))
-    put_before_bodies(body, site)
-    etree.SubElement(section, "touch", name=taken.take(name), site=own)
-    if len(geoms) > 1:
-        _report_sensor_loss(sensor, "only the first collision of its link is covered", written)
+    planner.add(sensor, "touch", name, planner.add_site(name, link, covered[2]))
+    if len(planner.robot.link[link].collisions) > 1:
+        planner.report(sensor, "only the first collision of its link is covered")
 
 
-def _add_scanner(
-    sensor: Sensor,
-    link: str,
-    body: etree._Element,
-    section: etree._Element,
-    sites: UniqueNames,
-    taken: UniqueNames,
-    written: Written,
-) -> None:
-    """Add one rangefinder for each ray, along the z axis of a site."""
+def find_covered(link: Link) -> tuple[str, tuple[float, ...], Pose] | None:
+    """Return type, half sizes [m] and pose of the first primitive collision; None without one."""
+    for collision in link.collisions:
+        found = get_shape_size(collision.geometry)
+        if found is not None and min(found[1]) > 0:
+            return *found, make_pose(collision.origin)
+    return None
+
+
+def _plan_rays(planner: _Planner, sensor: MountedSensor, link: str, pose: Pose) -> None:
+    """Plan one rangefinder for each ray, along the z axis of a site."""
     name = sensor.name or f"{link}_scan"
-    scan = next((e for e in sensor.element.walk() if e.tag == "horizontal"), None)
-    read: Callable[[str, float], float] = lambda tag, default: _compute_value(scan, tag, default)  # noqa: E731
-    count = int(read("samples", 0))
-    pose = _read_pose(sensor.element)
+    count = int(get_number(sensor.settings, "samples") or 0)
     if not 0 < count <= MAX_RAYS:
-        _format_site(name, pose, body, sites)
-        _report_sensor_loss(
-            sensor,
-            f"its {count} rays are too many for rangefinders; only its site is exported",
-            written,
+        planner.add_site(name, link, pose)
+        planner.report(
+            sensor, f"its {count} rays are too many for rangefinders; only its site is exported"
         )
         return
-    low, high = read("min_angle", 0.0), read("max_angle", 0.0)
+    low, high = (get_number(sensor.settings, f"{end} angle") or 0.0 for end in _ENDS)
     for index in range(count):
         angle = low + (high - low) * index / max(count - 1, 1)
-        ray = (
-            pose
-            @ Pose(rotation_from_rpy((0.0, 0.0, angle)))
-            @ Pose(rotation_from_rpy((0.0, math.pi / 2, 0.0)))
-        )
-        site = _format_site(f"{name}_{index}", ray, body, sites)
-        etree.SubElement(section, "rangefinder", name=taken.take(f"{name}_{index}"), site=site)
+        turned = Pose(rotation_from_rpy((0.0, 0.0, angle))) @ _FORWARD
+        own = f"{name}_{index}"
+        planner.add(sensor, "rangefinder", own, planner.add_site(own, link, pose @ turned))
 
 
-def _compute_value(scan: Element | None, tag: str, default: float) -> float:
-    child = scan.find_child(tag) if scan is not None else None
-    value = number(child.text) if child is not None else None
-    return default if value is None else value
+_ENDS = ("minimum", "maximum")
+
+_FORWARD = Pose(rotation_from_rpy((0.0, math.pi / 2, 0.0)))
+"""Rotation of the z axis of a site to the x axis of a ray."""
 
 
-def _add_control_sensor(
-    component: ControlComponent,
-    robot: Robot,
-    bodies: Bodies,
-    section: etree._Element,
-    sites: UniqueNames,
-    taken: UniqueNames,
-    written: Written,
-) -> None:
-    """Add a ros2_control sensor, by its state interfaces and its ``frame_id``."""
-    names = {interface.name.partition(".")[0] for interface in component.state_interfaces}
-    kinds = list(_list_control_kinds(names))
-    frame = component.params.get("frame_id", "")
-    if frame not in robot.link or not kinds:
-        why = "its frame_id names no link" if kinds else "MuJoCo has no sensors for its interfaces"
-        written.report_loss(
-            "sensor",
-            f"sensor '{component.name}' of ros2_control is not exported: {why}",
-            component.place,
-            kind="sensor",
-            name=component.name,
-        )
+def _report_unknown(robot: Robot, written: Written) -> None:
+    """Report the sensors that the model does not hold."""
+    for rejected in robot.rejected_settings:
+        if rejected.kind == "sensor":
+            written.report_loss(
+                "sensor",
+                f"sensor '{rejected.name}' is not exported completely: {rejected.tag} is "
+                f"'{rejected.text}' and must be {rejected.required}",
+                rejected.place,
+                kind="sensor",
+                name=rejected.name,
+            )
+    known = {sensor.name for sensor in robot.mounted_sensors if sensor.quantities}
+    for control in robot.ros2_controls:
+        for component in control.components:
+            if component.kind != "sensor" or component.name in known:
+                continue
+            frame = component.params.get("frame_id", "")
+            why = "MuJoCo has no sensors for its interfaces"
+            if frame not in robot.link:
+                why = "its frame_id names no link"
+            written.report_loss(
+                "sensor",
+                f"sensor '{component.name}' of ros2_control is not exported: {why}",
+                component.place,
+                kind="sensor",
+                name=component.name,
+            )
+
+
+def _plan_base(planner: _Planner, structure: Structure) -> None:
+    """Add the missing sensors of a floating base, in the frame of its link."""
+    base = _get_free_link(structure)
+    if base is None:
+        planner.written.advice.append("--base-sensors adds nothing: the base is fixed")
         return
-    site = _format_site(component.name, Pose(), bodies[frame], sites)
-    _measure(section, component.name, tuple(kinds), site, taken)
+    body = {link.name for link in structure.members[structure.group[base]]}
+    there = {sensor.type for sensor in planner.plan.sensors if sensor.link in body}
+    missing = [(tag, suffix) for tag, suffix in BASE_KINDS if tag not in there]
+    if missing:
+        site = planner.add_site(f"{base}_imu", base, IDENTITY)
+        for tag, suffix in missing:
+            planner.add(None, tag, base + suffix, site)
 
 
-def _list_control_kinds(interfaces: set[str]) -> Iterator[tuple[str, str]]:
-    for interface, kind, suffix in (
-        ("force", "force", "_force"),
-        ("torque", "torque", "_torque"),
-        ("linear_acceleration", "accelerometer", "_accelerometer"),
-        ("angular_velocity", "gyro", "_gyro"),
-        ("orientation", "framequat", "_orientation"),
-    ):
-        if interface in interfaces:
-            yield kind, suffix
+def _get_free_link(structure: Structure) -> str | None:
+    """Return the link of a floating base: the root, or the one floating link below a world root."""
+    if structure.free:
+        return structure.root.name
+    floating = [j.child for j in structure.moving if structure.get_kind(j) == "free"]
+    return floating[0] if structure.in_world and len(floating) == 1 else None
 
 
-def _report_sensor_loss(sensor: Sensor, why: str, written: Written) -> None:
-    written.report_loss(
-        "sensor",
-        f"sensor '{sensor.name}' is not exported completely: {why}",
-        sensor.place,
-        kind="sensor",
-        name=sensor.name,
-    )
+def build_sensor_section(robot: Robot) -> etree._Element | None:
+    """Build ``<sensor>`` with the sensors of a plan; None if it has none."""
+    section = etree.Element("sensor")
+    for sensor in robot.mounted_sensors:
+        if sensor.joint:
+            etree.SubElement(section, sensor.type, name=sensor.name, joint=sensor.joint)
+        elif sensor.site:
+            section.append(_build_at_site(sensor))
+    return section if len(section) else None
+
+
+def _build_at_site(sensor: MountedSensor) -> etree._Element:
+    element = etree.Element(sensor.type, name=sensor.name)
+    if sensor.type.startswith("frame"):
+        element.set("objtype", "site")
+        element.set("objname", sensor.site)
+    else:
+        element.set("site", sensor.site)
+    return element
+
+
+def list_touched(robot: Robot) -> Iterator[tuple[str, Link]]:
+    """Yield the name of the site of each touch sensor with its link."""
+    for sensor in robot.mounted_sensors:
+        if sensor.type == "touch" and sensor.link in robot.link:
+            yield sensor.site, robot.link[sensor.link]

@@ -27,19 +27,16 @@ from ...model.world import add_world
 from ..common.losses import DeclaredLosses
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
-from .declared_losses import EFFORT, EXCUSES, FREE, INERTIA, TORN
+from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
 from .options import Options
 from .read import read
 from .verify_defaults import check_defaults
 from .verify_fuse import fuse_check
 from .verify_home import check_home
 from .verify_looks import check_material, list_look_names
-from .verify_loops import compare_loops
 from .verify_meshes import SourceMeshes
 from .verify_runs import check_runs
 from .verify_scene import check_scene
-from .verify_sensors import check_sensor
-from .verify_source import Source
 from .write import write
 
 CONFIGURATIONS = 20
@@ -54,7 +51,7 @@ _EXACT = 1e-9
 _SINGLE = 1e-6
 """Tolerance of what MuJoCo or a mesh file stores in single precision."""
 
-_NOT_READ = (*GLOBAL_ROWS, "simulator data", "sensors", "loops")
+_NOT_READ = (*GLOBAL_ROWS, "simulator data")
 """Rows that are compared in the compiled model, or do not exist in MJCF."""
 
 
@@ -215,12 +212,7 @@ def _compare_compiled(
     yield _check_efforts(expected, compiled, declared)
     yield check_defaults(compiled)
     yield check_home(expected, compiled)
-    source = Source(robot, options, declared.has_for((FREE,), robot.tree.roots[0].name))
-    yield check_sensor(source, mechanics, compiled, configurations[0], declared)
-    yield check_material(source, SourceMeshes(robot), compiled, declared)
-    loops = Check("loops", "joints that close loops", 0)
-    compare_loops(robot, compiled, declared, loops)
-    yield loops
+    yield check_material(robot, SourceMeshes(robot), compiled, declared)
     for warning in compiled.warnings:
         clean.compare(math.inf, warning, known=declared.has_any("lossy-massless"))
     if options.scene:

@@ -22,7 +22,6 @@ from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
 from .verify_meshes import SourceMeshes
-from .verify_source import Source
 
 Rgba = tuple[float, ...]
 Image = Path | bytes
@@ -46,15 +45,15 @@ class Look:
 
 
 def check_material(
-    source: Source, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
+    robot: Robot, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
 ) -> Check:
     """Compare the color and the image of every visual geom."""
     check = Check("materials", "color, image and gloss of visual geometry", SINGLE)
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.get_reference()
-    for link in source.robot.links:
+    for link in robot.links:
         known = declared.has_for((*LOOKS, *SHAPES), link.name, *list_look_names(link))
-        looks = list(_list_looks(source, meshes, link))
+        looks = list(_list_looks(robot, meshes, link))
         geoms = list(_list_geoms(compiled, link))
         if len(looks) != len(geoms):
             text = f"link '{link.name}': {len(geoms)} visual geoms, of {len(looks)}"
@@ -79,12 +78,12 @@ def check_material(
     return check
 
 
-def _list_looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
+def _list_looks(robot: Robot, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
     """Yield the expected appearance of each geom of a link's visuals, in file order."""
     for visual in link.visuals:
         if not _has_size(visual.geometry):
             continue
-        own = _get_own(source, link, visual)
+        own = _get_own(robot, link, visual)
         if not isinstance(visual.geometry, Mesh):
             yield own
             continue
@@ -130,15 +129,15 @@ def list_look_names(link: Link) -> set[str]:
     return names
 
 
-def _get_own(source: Source, link: Link, visual: Visual) -> Look:
+def _get_own(robot: Robot, link: Link, visual: Visual) -> Look:
     """Return the appearance of a visual by its material, or by Gazebo's if it has none."""
-    material = _get_defined(source.robot, visual.material)
+    material = _get_defined(robot, visual.material)
     if material is None:
         color = get_rgba(link.gazebo_material) if visual.material is None else None
         return Look(color or GREY)
-    if material.texture and source.robot.source is not None:
+    if material.texture and robot.source is not None:
         try:
-            path = source.robot.source.resolve(material.texture)
+            path = robot.source.resolve(material.texture)
         except UrdftoolError:
             path = None
         if path is not None and os.path.isfile(path):

@@ -29,6 +29,7 @@ _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", 
 
 EXPRESSED = (
     *("base", "joint-spring", "joint-armature", "setting", "world", "joint-actuator", "exclusion"),
+    *("camera", "sensor", "closure", "light", "frame"),
 )
 """Codes of parts of other formats that an export writes, or reports itself."""
 
