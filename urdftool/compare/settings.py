@@ -61,7 +61,9 @@ def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
     for x, y in pair.match_members(match.one, match.two):
         links = pair.a.robot.link[x], pair.b.robot.link[y]
         settings = links[0].settings, links[1].settings
-        compare_settings(pair, comparison, "link flags", "link", (x, y), ALL_OF_LINKS, settings, links)
+        compare_settings(
+            pair, comparison, "link flags", "link", (x, y), ALL_OF_LINKS, settings, links
+        )
 
 
 def compare_joint_settings(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from ...finding import Finding
 from ...model.elements import Axis, Joint, Limit, Link, Origin, Robot
-from ...model.mechanism import Base, Configuration, Frame
+from ...model.mechanism import Base, Configuration, Frame, Light
 from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
@@ -32,6 +32,9 @@ from .loops import plan_closures
 from .options import Options
 from .sensor import plan_sensors
 from .structure import WORLD, ZERO_AXIS, Structure, create_structure
+
+DIFFUSE, SPECULAR, CUTOFF = (0.7, 0.7, 0.7), (0.3, 0.3, 0.3), 45.0
+"""MuJoCo's colors and half angle [°] of a light."""
 
 USUAL_FRICTION = 1.0
 """MuJoCo's sliding friction of a geom."""
@@ -173,9 +176,26 @@ def _choose_world(structure: Structure) -> Settings:
     return world
 
 
-def convert_joints(plan: Plan) -> Robot:
-    """Return the robot of a plan with the joints that MuJoCo has for them."""
-    return _move_floating(plan, _split_planar(plan.robot))
+def convert_parts(plan: Plan) -> Robot:
+    """Return the robot of a plan with the joints and lights that MuJoCo has for them."""
+    robot = replace(plan.robot, lights=[_complete_light(light) for light in plan.robot.lights])
+    return _move_floating(plan, _split_planar(robot))
+
+
+def _complete_light(light: Light) -> Light:
+    """Return a light with MuJoCo's values where none is written, and a direction of length 1."""
+    aim = light.direction
+    if aim is not None:
+        length = compute_norm(aim)
+        aim = (aim[0] / length, aim[1] / length, aim[2] / length)
+    cutoff = math.radians(CUTOFF) if light.cutoff is None else light.cutoff
+    return replace(
+        light,
+        direction=aim,
+        diffuse=light.diffuse or DIFFUSE,
+        specular=light.specular or SPECULAR,
+        cutoff=cutoff if light.type == "spot" else None,
+    )
 
 
 def _move_floating(plan: Plan, robot: Robot) -> Robot:

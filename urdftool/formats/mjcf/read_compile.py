@@ -14,6 +14,7 @@ from typing import Any
 from ...dependencies import Dependencies
 from ...errors import SourceError
 from ...limited import Limits, open_no_files
+from ...model.settings import SURFACE_OF_MUJOCO
 from ...workspace import Workspace
 from .read_assets import read_assets
 
@@ -179,8 +180,8 @@ def _list_joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
 def _list_geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     names = (
         *("bodyid", "pos", "quat", "size", "dataid", "contype", "conaffinity", "group"),
-        *("rgba", "matid", "friction", "condim", "priority", "margin", "gap", "solmix"),
-        *("solref", "solimp"),
+        *("rgba", "matid"),
+        *{row.mjcf.removeprefix("geom ") for row in SURFACE_OF_MUJOCO},
     )
     paired = {int(i) for pair in (model.pair_geom1, model.pair_geom2) for i in pair}
     rows = []

@@ -136,10 +136,10 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
     return replace(
         planned,
         links=[
-            *(_expect_link(link, planned) for link in source.links),
+            *(_make_link(link, planned) for link in source.links),
             *(link for link in planned.links if link.name not in source.link),
         ],
-        joints=[_expect_joint(joint, source) for joint in planned.joints],
+        joints=[_make_joint(joint, source) for joint in planned.joints],
         format="mjcf",
         source=source.source,
         gazebo=[],
@@ -148,7 +148,7 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
     )
 
 
-def _expect_link(link: Link, planned: Robot) -> Link:
+def _make_link(link: Link, planned: Robot) -> Link:
     """Return a link of the source with the friction and contact that are chosen."""
     chosen = planned.link[link.name].collisions
     shapes = [
@@ -158,7 +158,7 @@ def _expect_link(link: Link, planned: Robot) -> Link:
     return replace(link, collisions=shapes)
 
 
-def _expect_joint(joint: Joint, source: Robot) -> Joint:
+def _make_joint(joint: Joint, source: Robot) -> Joint:
     """Return a joint of the source with the dynamics and effort that are chosen."""
     origin = source.joint.get(joint.name)
     if origin is None or origin.parent != joint.parent:

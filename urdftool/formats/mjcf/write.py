@@ -21,7 +21,7 @@ from ..written import Written
 from .meshes import create_mesh_assets
 from .model import build_model_text
 from .options import Options
-from .plan import convert_joints, make_plan
+from .plan import convert_parts, make_plan
 from .scene import create_scene_file
 from .structure import Structure
 
@@ -76,7 +76,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     refuse(found, force=options.force)
     written.losses += found
     text = build_model_text(plan, assets, written)
-    written.planned = convert_joints(plan)
+    written.planned = convert_parts(plan)
     source = Path(robot.source.path).name if robot.source is not None else "a robot"
     files: dict[str, bytes | Path] = {written.main: mark(text, source)}
     if options.scene:
