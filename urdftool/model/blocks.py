@@ -166,10 +166,12 @@ def _read_color(element: Element, tag: str) -> Vector | None:
 def _add_loop(robot: Robot, reference: str, element: Element) -> None:
     """Add a joint of SDF, whose pose is in the frame of its child."""
     name, type_ = element.get("name") or "", element.get("type") or ""
+    pose, frame = read_sensor_pose(element)
     ends = [_get_text(element, tag).rpartition("::")[2] for tag in ("parent", "child")]
     for tag, text, known, required in (
         ("gazebo reference", reference, ("",), "absent"),
         ("joint type", type_, LOOP_TYPES, f"one of {', '.join(LOOP_TYPES)}"),
+        ("frame of the pose", frame, {*robot.link, "", "__model__"}, "the name of a link"),
         ("parent", ends[0], {*robot.link, WORLD}, "the name of another link"),
         ("child", ends[1], {*robot.link} - {ends[0]}, "the name of another link"),
     ):
@@ -179,7 +181,6 @@ def _add_loop(robot: Robot, reference: str, element: Element) -> None:
             return
     parent, child = ends
     poses = link_poses(robot)
-    pose, frame = read_sensor_pose(element)
     start = poses.get(child, IDENTITY)
     if frame and frame != child:
         start = poses.get(frame, IDENTITY)

@@ -168,6 +168,8 @@ JOINTS_OF_MUJOCO = (
 """Settings of a joint that only MuJoCo has, with its defaults."""
 
 OF_WORLD = (
+    Setting("integrator", "text", "", "", "Euler", mjcf="option integrator"),
+    Setting("cone", "text", "", "", "pyramidal", mjcf="option cone"),
     Setting("gravity", "vector", "m/s²", "", (0.0, 0.0, -9.81), mjcf="option gravity"),
     Setting("wind", "vector", "m/s", "", (0.0, 0.0, 0.0), mjcf="option wind"),
     Setting("magnetic", "vector", "", "", (0.0, -0.5, 0.0), mjcf="option magnetic"),
@@ -177,8 +179,6 @@ OF_WORLD = (
     Setting("impratio", "number", "", "", 1.0, mjcf="option impratio"),
     Setting("tolerance", "number", "", "", 1e-8, mjcf="option tolerance"),
     Setting("iterations", "count", "", "", 100.0, mjcf="option iterations"),
-    Setting("integrator", "text", "", "", "Euler", mjcf="option integrator"),
-    Setting("cone", "text", "", "", "pyramidal", mjcf="option cone"),
     Setting("jacobian", "text", "", "", "auto", mjcf="option jacobian"),
     Setting("solver", "text", "", "", "Newton", mjcf="option solver"),
     Setting("disabled", "text", "", "", "", mjcf="option disableflags"),
@@ -400,6 +400,14 @@ def _find(element: Element, path: str) -> Element | None:
     return found
 
 
+_WORDS: dict[str, tuple[Content, ...]] = {
+    "integrator": ("Euler", "RK4", "implicit", "implicitfast"),
+    "cone": ("pyramidal", "elliptic"),
+    "jacobian": ("dense", "sparse", "auto"),
+    "solver": ("PGS", "CG", "Newton"),
+}
+"""Words that MuJoCo's reader accepts, by the name of the row."""
+
 _ENABLED = ("override", "energy", "fwdinv", "invdiscrete", "sleep")
 """Flags of ``<option>`` that are off by default in every version of MuJoCo."""
 
@@ -412,7 +420,7 @@ def read_options(extensions: Iterable[Element]) -> Settings:
         for row in OF_WORLD:
             text = option.get(row.mjcf.partition(" ")[2])
             content = None if text is None else parse(row.kind, text.strip())
-            if content is not None:
+            if content is not None and content in _WORDS.get(row.name, (content,)):
                 reading.values[row.name] = Value(option, content)
         for flag in option.list_children("flag"):
             flags |= {name: (flag, state) for name, state in flag.attributes.items()}
