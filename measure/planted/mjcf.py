@@ -242,7 +242,7 @@ CHANGES = (
     Planted("sensor lost", "sensors", drop("//sensor/gyro")),
     Planted("IMU 0.5 m off", "sensors", put("//site[@name='imu']", "pos", "0.5 0 0.01")),
     Planted("IMU on another link", "sensors", move("//site[@name='imu']", _in(BODY, "forearm"))),
-    Planted("noise of a sensor", "sensors", put("//sensor/accelerometer", "noise", "0.1")),
+    Planted("noise of a sensor", "defaults", put("//sensor/accelerometer", "noise", "0.1")),
     Planted("ray turned", "sensors", put("//site[@name='scan_2']", "quat", "1 0 1.1 0")),
     Planted("contact sensor lost", "sensors", drop("//sensor/touch")),
     Planted("camera moved", "sensors", put("//camera[@name='camera']", "pos", "0.1 0 0")),
