@@ -86,6 +86,13 @@ def test_a_slide_without_limits_is_open(write):
     assert "'out' has no limits" in verdict.reason
 
 
+def test_a_link_with_two_parents_is_open(write):
+    second = '<joint name="two" type="fixed"><parent link="post"/><child link="bare"/></joint>'
+    text = sphere_arm(0.01).replace("</robot>", second + "</robot>")
+    verdict = decide(load(write("r.urdf", text)), Options(jobs=1)).find("post", "tip")
+    assert (verdict.kind, verdict.reason) == ("open", "link 'bare' is the child of several joints")
+
+
 def test_a_missing_mesh_leaves_its_pairs_enabled(urdftool, write):
     text = sphere_arm(0.01).replace('<sphere radius="0.1"/>', '<mesh filename="no.stl"/>', 1)
     write("r.urdf", text)

@@ -135,6 +135,8 @@ def _list_steps(
     for name in links:
         joint = robot.tree.get_parent_joint(name)
         assert joint is not None
+        if len(robot.tree.joints_of_child[name]) > 1:
+            obstacles.append(f"link '{name}' is the child of several joints")
         pose = pose @ make_pose(joint.origin)
         if joint.is_fixed:
             continue
