@@ -26,7 +26,6 @@ WITHOUT_MEANING = {
     ".": 2,
     "collision": 3,
     "commands": 1,
-    "compare": 6,
     "drawing": 18,
     "fmt": 1,
     "formats": 28,
@@ -35,7 +34,6 @@ WITHOUT_MEANING = {
     "model": 1,
     "report": 1,
     "source": 2,
-    "srdf": 1,
     "viewer": 6,
 }
 """Largest number of constants with neither docstring nor comment; 0 for other packages."""
@@ -43,7 +41,6 @@ WITHOUT_MEANING = {
 WITHOUT_ORIGIN = {
     ".": 13,
     "commands": 6,
-    "compare": 2,
     "drawing": 16,
     "formats": 21,
     "geometry": 4,
@@ -51,7 +48,6 @@ WITHOUT_ORIGIN = {
     "model": 2,
     "report": 9,
     "source": 4,
-    "srdf": 9,
     "viewer": 9,
 }
 """Largest number of constants that do not say where they come from; 0 for other packages."""

@@ -33,6 +33,8 @@ from .pair import locate
 from .rows import GLOBAL_ROWS, Row
 
 _CONFIGURATIONS = 6
+"""Configurations at which poses are compared; chosen, no source."""
+
 _WIDEST = 3.0
 """Largest position of a joint [rad, m] at which poses are compared; chosen, no source."""
 

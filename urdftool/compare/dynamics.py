@@ -19,7 +19,10 @@ from .pair import Pair
 from .rows import GLOBAL_ROWS
 
 _CONFIGURATIONS = 5
+"""Configurations at which the dynamics are compared; chosen, no source."""
+
 _MOST_JOINTS = 120
+"""Largest number of joints whose dynamics are compared; chosen, no source."""
 
 _FLOOR = 1e-6
 """Largest element [kg·m², kg, N·m or N] below which differences are absolute; chosen, no source.

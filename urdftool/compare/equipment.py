@@ -27,6 +27,7 @@ _ROW_OF = {
 """Row of each kind of change; frames are in their own row."""
 
 _TOLERANCE = 1e-6
+"""Largest relative difference of equal numbers; chosen, no source."""
 
 _WHY = {"simulator data": "only URDF has such blocks"}
 

@@ -14,7 +14,7 @@ from .bodies import Bodies, Body, compute_axis
 from .joints import get_kind
 
 _LIMIT = 8.0
-"""Largest cost of a match; beyond it the joints are different."""
+"""Largest cost of a match; beyond it the joints are different. Chosen, no source."""
 
 
 def match_children(

@@ -21,6 +21,8 @@ from ..model.elements import Mesh, Robot
 from ..source.packages import find_packages
 
 _MOST_BYTES = 4 * 1024 * 1024
+"""Largest file of a revision that is read [bytes]; chosen, no source."""
+
 _MEDIA = frozenset(
     (
         *(".stl", ".dae", ".obj", ".mtl", ".ply", ".glb", ".gltf", ".bin", ".step", ".stp"),

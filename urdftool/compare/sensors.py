@@ -29,7 +29,7 @@ _ELEMENTARY = frozenset(tag for kind in KINDS for tag, _ in kind.mjcf)
 _NUMBERS = 1e-6
 """Largest difference of parameters, relative above 1; of 32-bit numbers and printed digits."""
 _PLACES = 1e-5
-"""Largest distance [m] and angle [rad]; as of frames."""
+"""Largest distance [m] and angle [rad]; as of frames; chosen, no source."""
 _CPU = ("lidar", "ray")
 
 

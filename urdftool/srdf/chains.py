@@ -20,7 +20,7 @@ _TIPS = tuple(
 _SENSORS = frozenset(["imu", "camera", "optical", "sensor", "laser", "lidar"])
 _WORLDS = frozenset(("world", "map", "odom", "base_footprint"))
 _SHORT = 2
-"""Least number of joints of a chain, unless it carries other chains."""
+"""Least number of joints of a chain, unless it carries other chains; chosen, no source."""
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,11 @@ from ..geometry.hull import compute_convex_hull, extract_hull_surface
 from ..geometry.mesh import Array, Faces, Points
 
 THICKNESS = 1e-5
-"""Thickness that flat pieces get on both sides [m]; it only enlarges them."""
+"""Thickness that flat pieces get on both sides [m]; it only enlarges them. Chosen, no source."""
 
-_MEASURED = 1_000_000  # points times faces of a hull
+_MEASURED = 1_000_000  # points times faces of a hull; chosen, no source
 
-_STEPS = 30  # of the search for the nearest point of a hull
+_STEPS = 30  # of the search for the nearest point of a hull; chosen, no source
 
 
 @dataclass(frozen=True, eq=False)

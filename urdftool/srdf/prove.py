@@ -17,16 +17,19 @@ from .chain import Chain, Placement, bound_motion, place
 from .separate import Candidates, Poses, Separator
 
 MARGIN = 1e-4
-"""Distance added to each displacement [m], above the errors of FCL (1e-6) and of sums (1e-8)."""
+"""Distance added to each displacement [m], above the errors of FCL (1e-6) and of sums (1e-8).
+
+Chosen, no source.
+"""
 
 BATCH = 256
-"""Boxes in one computation."""
+"""Boxes in one computation; chosen, no source."""
 
 THIN = 0.01
-"""Displacement below which triangles are asked for their distance [m]."""
+"""Displacement below which triangles are asked for their distance [m]; chosen, no source."""
 
 NARROWEST = 1e-4
-"""Half width below which a box is not halved [rad, m]."""
+"""Half width below which a box is not halved [rad, m]; chosen, no source."""
 
 SAMPLES = 512
 """Random poses that are tried before the proof; chosen, no source."""
@@ -41,6 +44,7 @@ HOPELESS = 8.0
 """The proof stops if it would use so many times its budget at the same pace; chosen, no source."""
 
 _PIECES_AT_ONCE = 64
+"""Pairs of convex pieces in one array; chosen, no source."""
 
 TESTS = 6
 """Tests of contact for each pair in a batch; chosen, no source."""

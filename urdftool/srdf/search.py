@@ -21,7 +21,7 @@ MEASURES = 400
 """Largest number of distances for each pair; chosen, no source."""
 
 _FIRST, _LAST = 0.25, 1e-4
-"""First and last step, relative to the range of a joint."""
+"""First and last step, relative to the range of a joint; chosen, no source."""
 
 
 def search(prover: Prover, outcomes: Mapping[tuple[int, int], Outcome]) -> None:

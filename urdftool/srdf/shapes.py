@@ -37,7 +37,7 @@ PIECES = 24
 """Convex pieces of a link's mesh; chosen, see ``docs/commands/srdf.md``."""
 
 AROUND = 64
-"""Corners of the circle around a cylinder."""
+"""Corners of the circle around a cylinder; chosen, no source."""
 
 
 @dataclass(frozen=True, eq=False)

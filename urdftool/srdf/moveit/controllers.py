@@ -17,7 +17,7 @@ TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 BROADCASTER = "joint_state_broadcaster/JointStateBroadcaster"
 
 UPDATE_RATE = 100
-"""Rate of the controller manager [Hz], as in MoveIt's Setup Assistant."""
+"""Rate of the controller manager [Hz], the default of MoveIt's Setup Assistant."""
 
 _COMMANDS = (("position",), ("velocity",), ("effort",))
 _STATES = ("position", "velocity")
