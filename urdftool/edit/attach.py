@@ -237,7 +237,7 @@ def _join_semantic_file(part: Draft, mine: TextDraft, other: TextDraft) -> None:
         )
     known = {(e.tag, _get_name(e)) for e in mine.source.document.root.children if _get_name(e)}
     for element in root.children:
-        if (element.tag, _get_name(element)) in known:
+        if element.tag != "virtual_joint" and (element.tag, _get_name(element)) in known:
             raise ModelError(
                 f"both SRDFs have a <{element.tag}> '{_get_name(element)}'; rename one",
                 at=element.place,
