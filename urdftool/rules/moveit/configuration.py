@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ from ...source.description import Description
 from ...source.nearby_files import read_optional_file
 from ...source.packages import shorten_path
 from ...source.yaml_tree import Node, parse_yaml
+from ...srdf.moveit.yaml_text import format_double
 from ..fix import FixContext, Proposal, Span, safe, unsafe
 from ..rule import ERROR, SAFE, UNSAFE, Problem, rule
 from ..words import join_some, suggest_name
@@ -59,7 +59,7 @@ def moveit_parameter_type(
                 robot,
                 f"{node.key} of {of} is {node.described}, which YAML reads as "
                 f"{'an integer' if node.kind == 'int' else 'text'}; "
-                f"write {format_double(node) or 'a number with a point'}{more}",
+                f"write {_write_double(node) or 'a number with a point'}{more}",
                 at=node.place,
             )
 
@@ -71,7 +71,7 @@ def write_doubles(problem: Problem, context: FixContext) -> Proposal | None:
     spans = [
         Span(node.file, node.start, node.end, text.encode())
         for _, node in find_non_doubles(context.robot, context.description, name)
-        if (text := format_double(node))
+        if (text := _write_double(node))
     ]
     return safe("write doubles", *spans) if spans else None
 
@@ -124,19 +124,15 @@ def _select_fields(of: str, node: Node, keys: tuple[str, ...]) -> Iterator[tuple
     return ((of, fields[key]) for key in keys if key in fields)
 
 
-def format_double(node: Node) -> str:
-    """Format a number as a YAML double; empty if it is not a finite number."""
+def _write_double(node: Node) -> str:
+    """Write a number as a YAML double; empty if it is not a finite number."""
     text = node.text or ""
     if node.kind == "int":
         return f"{text}.0" if re.fullmatch(r"[+-]?\d+", text) else ""
     try:
-        value = float(text)
+        return format_double(float(text))
     except ValueError:
         return ""
-    if not math.isfinite(value):
-        return ""
-    mantissa, exponent, power = repr(value).partition("e")
-    return mantissa + (".0" if "." not in mantissa else "") + exponent + power
 
 
 def _is_true(node: Node | None) -> bool:
