@@ -257,8 +257,7 @@ def test_existing_controllers_are_adopted(make) -> None:
     make(ARM + FINGERS)
     configs = load_package(folder)
     manager = configs.trajectory_execution["moveit_simple_controller_manager"]
-    # the SRDF is kept, and has no gripper yet
-    assert manager["controller_names"] == ["scaled_controller"]
+    assert manager["controller_names"] == ["scaled_controller", "gripper_controller"]
     assert manager["scaled_controller"]["action_ns"] == "follow_joint_trajectory"
     assert manager["scaled_controller"]["default"] is True
     assert "arm_controller" not in configs.ros2_controllers
@@ -366,10 +365,20 @@ def test_folder_that_is_a_file(make, write) -> None:
 
 
 def test_group_that_the_existing_srdf_lacks(make) -> None:
-    make(ARM)
+    _, folder = make(ARM)
     result, _ = make(ARM, "--group", "other=base:l2")
+    assert result.code == 0, result.err
+    groups = load_package(folder).semantic.list_children("group")
+    assert [group.get("name") for group in groups] == ["arm", "other"]
+
+
+def test_group_of_a_name_that_the_existing_srdf_has(make) -> None:
+    _, folder = make(ARM)
+    before = read_all(folder)
+    result, _ = make(ARM, "--group", "arm=base:l2")
     assert result.code == 2
-    assert "exists and is kept, and has no group 'other'" in result.err
+    assert "has a group 'arm' that is not the chain from 'base' to 'l2'" in result.err
+    assert read_all(folder) == before
 
 
 def test_robot_of_another_format(urdftool, write) -> None:

@@ -144,9 +144,18 @@ def write_moveit(
     def make_srdf() -> tuple[SemanticDescription, str]:
         return make_content(console, robot, decide_pairs(console, robot, values), given)
 
+    def decide() -> Verdicts | None:
+        from ..srdf.verdicts import list_shaped_links
+
+        if list_shaped_links(robot, visual=values["visual"]):
+            return decide_pairs(console, robot, values)
+        console.print_message("warning: no link has geometry, so the pairs are not compared")
+        return None
+
+    makers = (make_srdf, decide)
     distribution = values["distribution"]
     return write_package(
-        console, robot, folder, distribution, make_srdf, given, packages, package_paths
+        console, robot, folder, distribution, makers, given, packages, package_paths
     )
 
 

@@ -10,12 +10,14 @@ import click
 
 from ..console import Console
 from ..srdf.moveit.distributions import DEFAULT, DISTRIBUTIONS
+from .srdf_groups import describe_group
 
 if TYPE_CHECKING:
     from ..finding import Finding
     from ..model.elements import Robot
     from ..srdf.groups import GivenGroup
     from ..srdf.moveit.configuration import Configuration
+    from ..srdf.moveit.existing_srdf import DecidePairs, SrdfChanges
     from ..srdf.moveit.package import PackageFiles
     from ..srdf.moveit.plan import MakeSrdf
 
@@ -39,8 +41,8 @@ def add_moveit_options(function: F) -> F:
         "--moveit",
         type=click.Path(file_okay=False, path_type=Path),
         metavar="DIR",
-        help="Write a MoveIt configuration package. Files that exist are kept, and parameter files "
-        "get the keys that they lack.",
+        help="Write a MoveIt configuration package. Files that exist are kept; parameter files get "
+        "the keys that they lack, and the SRDF is updated.",
     )(function)
 
 
@@ -49,7 +51,7 @@ def write_package(
     robot: Robot,
     folder: Path,
     distribution: str,
-    make_srdf: MakeSrdf,
+    makers: tuple[MakeSrdf, DecidePairs],
     given: tuple[GivenGroup, ...],
     packages: Mapping[str, str | Path],
     package_paths: tuple[str, ...],
@@ -57,19 +59,20 @@ def write_package(
     """Write a MoveIt configuration package, check it with the rules, and report both.
 
     Returns:
-        The exit code: 1 if the rules find an error or a warning.
+        The exit code: 1 if the rules find an error or a warning, or the SRDF is not complete.
     """
     from ..output import check_folder
     from ..srdf.moveit.plan import plan_package
     from ..storage import write_files
 
     check_folder(folder.resolve(), folder)
-    configuration, files = plan_package(robot, folder, distribution, make_srdf, given)
+    configuration, files = plan_package(robot, folder, distribution, *makers, given)
     findings = check_package(configuration, files, packages, package_paths)
     changed = {folder / file.path: file.data for file in files.files if file.data != file.before}
     write_files(changed)
     _report(console, configuration, files)
-    return _report_findings(console, findings)
+    incomplete = files.srdf is not None and files.srdf.is_incomplete
+    return max(_report_findings(console, findings), int(incomplete))
 
 
 def check_package(
@@ -89,7 +92,7 @@ def check_package(
     overlay = {str(folder / file.path): file.data for file in files.files}
     settings = Settings(
         select=check_selectors(["moveit", "control"]),
-        ignore=check_selectors(_PAIR_RULES if _has_new_srdf(configuration, files) else ()),
+        ignore=check_selectors(_PAIR_RULES if _has_decided_pairs(files) else ()),
         targets=check_targets(["moveit", "ros2"]),
     )
     known = {**packages, **_find_description_package(configuration)}
@@ -102,10 +105,9 @@ def check_package(
     return group(report.findings)
 
 
-def _has_new_srdf(configuration: Configuration, files: PackageFiles) -> bool:
-    """Tell whether the SRDF was made now, with pairs that are proved."""
-    path = f"config/{configuration.stem}.srdf"
-    return any(file.path == path and file.before is None for file in files.files)
+def _has_decided_pairs(files: PackageFiles) -> bool:
+    """Tell whether the pairs of the SRDF were decided now."""
+    return files.srdf is None or files.srdf.pairs is not None
 
 
 def _find_description_package(configuration: Configuration) -> dict[str, str | Path]:
@@ -127,12 +129,28 @@ def _report(console: Console, configuration: Configuration, files: PackageFiles)
     for file in edited:
         for key in file.added:
             console.print_note(f"{files.folder / file.path}: added {key}")
+    if files.srdf is not None:
+        _report_srdf(console, files.folder / files.files[0].path, files.srdf)
     if not configuration.description.package:
         console.print_message(
             f"warning: {configuration.description.path} is in no ROS package, so "
             f"config/{configuration.stem}.urdf.xacro includes it by its absolute path, which "
             "exists only here; put a package.xml above it"
         )
+
+
+def _report_srdf(console: Console, path: Path, changes: SrdfChanges) -> None:
+    """Print the changes of an existing SRDF, and what could not be changed."""
+    from ..report.srdf_existing import list_changes
+
+    for group in changes.groups:
+        console.print_note(f"{path}: added group '{group.name}', {describe_group(group)}")
+    for name in changes.refused:
+        console.print_message(
+            f"{path}: not added: group '{name}', because the file has expressions or macros"
+        )
+    for line in list_changes(changes.pairs) if changes.pairs is not None else ():
+        console.print_message(f"{path}: {line}")
 
 
 def _report_findings(console: Console, findings: list[Finding]) -> int:

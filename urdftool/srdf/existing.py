@@ -11,6 +11,7 @@ from ..model.elements import Robot
 from ..model.semantic import DisabledPair, SemanticDescription, read_semantic
 from ..source.description import read_description
 from ..source.packages import Packages
+from ..workspace import Workspace
 from .verdicts import ADJACENT, ALWAYS, CAN_TOUCH, NEVER, OPEN, Verdict, Verdicts
 
 INTENDED = ("User", "Default", "Always")
@@ -37,7 +38,10 @@ class Judgement:
 
 
 def read_srdf(
-    path: str | Path, arguments: Mapping[str, str] | None, packages: Packages | None
+    path: str | Path,
+    arguments: Mapping[str, str] | None,
+    packages: Packages | None,
+    workspace: Workspace | None = None,
 ) -> SemanticDescription:
     """Read an SRDF, also in xacro.
 
@@ -46,7 +50,9 @@ def read_srdf(
         ModelError: Its root element is not ``<robot>``.
     """
     finder = None if packages is None else packages.make_finder_for(path)
-    root = read_description(str(path), arguments or {}, finder=finder).document.root
+    root = read_description(
+        str(path), arguments or {}, finder=finder, workspace=workspace
+    ).document.root
     if root.tag != "robot":
         raise ModelError(
             f"the root element is <{root.tag}>; an SRDF file starts with <robot>", at=root.place

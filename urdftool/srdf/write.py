@@ -27,7 +27,7 @@ def format_srdf(content: SemanticDescription, comments: tuple[str, ...] = ()) ->
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
     lines += [format_comment(text) for text in comments]
     lines.append(f"<robot {_format_attributes(name=content.name)}>")
-    lines += [_INDENT + line for line in _format_content(content)]
+    lines += [_INDENT + line for line in list_lines(content)]
     return "\n".join([*lines, "</robot>", ""])
 
 
@@ -51,7 +51,8 @@ def format_position(value: float) -> str:
     return f"{value + 0.0:.9g}"
 
 
-def _format_content(content: SemanticDescription) -> Iterator[str]:
+def list_lines(content: SemanticDescription) -> Iterator[str]:
+    """Yield the lines of the elements in ``<robot>``, indented by two spaces for each level."""
     for group in content.groups:
         yield from _format_group(group)
     for state in content.states:

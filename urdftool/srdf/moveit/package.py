@@ -30,6 +30,7 @@ from .description_files import (
     make_description,
     make_mock_hardware,
 )
+from .existing_srdf import SrdfChanges
 from .launch_files import make_launch_files
 from .package_files import (
     make_assistant_settings,
@@ -66,7 +67,13 @@ class PackageFile:
 
 
 class PackageFiles:
-    """Files of a package that is made or completed."""
+    """Files of a package that is made or completed.
+
+    Attributes:
+        folder: Folder of the package.
+        files: The files.
+        srdf: Changes of an SRDF that existed; None for a new one.
+    """
 
     def __init__(self, folder: Path, workspace: Workspace) -> None:
         """Begin without files.
@@ -78,6 +85,7 @@ class PackageFiles:
         self.folder = folder
         self._workspace = workspace
         self.files: list[PackageFile] = []
+        self.srdf: SrdfChanges | None = None
 
     def read(self, path: str) -> SourceFile | None:
         """Read an existing file of the package; None if there is none."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ...errors import ConfigError, ModelError, SourceError
@@ -16,7 +17,8 @@ from ..groups import GivenGroup, find_groups
 from ..name_parts import make_identifier
 from .configuration import Configuration, DescriptionFile
 from .distributions import DISTRIBUTIONS
-from .package import PackageFiles, make_package
+from .existing_srdf import DecidePairs, complete_srdf
+from .package import PackageFile, PackageFiles, make_package
 
 MakeSrdf = Callable[[], tuple[SemanticDescription, str]]
 
@@ -26,19 +28,21 @@ def plan_package(
     folder: Path,
     distribution: str,
     make_srdf: MakeSrdf,
+    decide: DecidePairs,
     given: Sequence[GivenGroup] = (),
 ) -> tuple[Configuration, PackageFiles]:
     """Plan all files of the MoveIt configuration package of a robot.
 
     Existing files are kept; existing parameter files get the keys that they lack. An existing SRDF
-    is read, so that the other files match its groups.
+    gets the groups that it lacks, and its pairs are updated; the other files match its groups.
 
     Args:
         robot: A robot from a URDF or xacro file.
         folder: Folder of the package, which may exist.
         distribution: Name of a distribution of ROS 2.
         make_srdf: Makes the content of a new SRDF, and its text.
-        given: Groups that the user asks for, which an existing SRDF must have.
+        decide: Decides the pairs of the robot for an existing SRDF.
+        given: Groups that the user asks for.
 
     Raises:
         ModelError: The robot was not read from a URDF or xacro file.
@@ -52,8 +56,6 @@ def plan_package(
     if not exists:
         require_groups(find_groups(robot, given).groups)  # before the pairs are decided
     semantic, text = _read_srdf(folder / path, workspace) if exists else make_srdf()
-    _check_given(folder / path, semantic, given)
-    require_groups(semantic.groups)
     configuration = Configuration(
         robot,
         semantic,
@@ -62,7 +64,14 @@ def plan_package(
         path.name.split(".")[0],
         DISTRIBUTIONS[distribution],
     )
-    files.add_text(path.as_posix(), text)
+    data = text.encode()
+    if exists:
+        completed = complete_srdf(configuration, folder / path, given, decide)
+        configuration = replace(configuration, semantic=completed[0])
+        data, files.srdf = completed[1:]
+    require_groups(configuration.semantic.groups)
+    before = semantic.element.file.data if exists else None
+    files.files.append(PackageFile(path.as_posix(), data, before))
     make_package(configuration, files)
     return configuration, files
 
@@ -78,22 +87,6 @@ def require_groups(groups: Sequence[Group]) -> None:
             "no planning group was found, and MoveIt plans only for groups; "
             "give one with --group NAME=BASE:TIP"
         )
-
-
-def _check_given(path: Path, semantic: SemanticDescription, given: Sequence[GivenGroup]) -> None:
-    """Check that an SRDF has the groups that the user asks for.
-
-    Raises:
-        ConfigError: It has not, since it exists and is kept.
-    """
-    chains = {(g.name, chain.base, chain.tip) for g in semantic.groups for chain in g.chains}
-    for one in given:
-        if one not in chains:
-            raise ConfigError(
-                f"exists and is kept, and has no group '{one.name}' from '{one.base}' to "
-                f"'{one.tip}'; edit its groups, or remove the file",
-                path=path,
-            )
 
 
 def _locate_description(robot: Robot) -> DescriptionFile:
