@@ -5,7 +5,7 @@ import pytest
 from tests.formats.sdf.robots import BOX, inertial, joint, link, robot
 from urdftool.compare.check import is_faithful
 from urdftool.compare.proof import Claims, Excuse, prove
-from urdftool.compare.rows import ROWS, tighten
+from urdftool.compare.rows import ROWS, narrow_tolerances
 from urdftool.diagnostic import Severity
 from urdftool.finding import Finding
 from urdftool.model.provenance import NOWHERE
@@ -36,7 +36,7 @@ def claims(*rows, name, extent="part", severity=Severity.WARNING, least=Severity
 
 
 def test_equal_robots_are_faithful():
-    checks = prove(arm(), arm(), Claims(), rows=tighten(ROWS, 1e-12))
+    checks = prove(arm(), arm(), Claims(), rows=narrow_tolerances(ROWS, 1e-12))
     assert is_faithful(checks)
     assert {check.tolerance for check in checks} <= {0.0, 1e-12}
 

@@ -24,7 +24,7 @@ from .store import Content
 from .zip_file import open_zip
 
 _BLOCK = 1 << 20
-"""Bytes that are copied at once. Chosen, no source."""
+"""Bytes that are copied in one step. Chosen, no source."""
 
 _DATE = (1980, 1, 1, 0, 0, 0)
 """Earliest date of a zip file, so that the same content gives the same bytes."""

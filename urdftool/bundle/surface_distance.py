@@ -12,7 +12,7 @@ from ..collision.distance import to_triangles
 from ..geometry.mesh import Array, Faces, Points
 
 _BATCH = 2048
-"""Number of points that are compared at once. Chosen, no source."""
+"""Number of points that are compared in one step. Chosen, no source."""
 
 _NEAREST = 2
 """Triangles of each size that give the first bound. Chosen, no source."""

@@ -58,7 +58,7 @@ def select_changed(
     """Return the files that changes since a revision of git concern.
 
     Raises:
-        UrdftoolError: Git cannot tell what changed.
+        UrdftoolError: Git cannot list what changed.
     """
     from ..lint.changes import list_changed_files, select_concerned
 

@@ -73,7 +73,9 @@ Chosen for edited descriptions, whose numbers are those of the first robot.
 """
 
 
-def tighten(rows: Iterable[Row], tolerance: float = DECLARED_TOLERANCE) -> tuple[Row, ...]:
+def narrow_tolerances(
+    rows: Iterable[Row], tolerance: float = DECLARED_TOLERANCE
+) -> tuple[Row, ...]:
     """Return rows with at most a tolerance."""
     return tuple(row._replace(tolerance=min(row.tolerance, tolerance)) for row in rows)
 
@@ -87,7 +89,7 @@ def limit_tolerances(rows: Iterable[Row], declared: float = 0.0) -> tuple[Row, .
     """
     if declared:
         return tuple(row._replace(tolerance=declared if row.tolerance else 0.0) for row in rows)
-    return tighten(rows)
+    return narrow_tolerances(rows)
 
 
 def select_rows(names: str, tolerance: float | None) -> tuple[Row, ...]:

@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 from ..compare.correspondence import parse_correspondence
 from ..compare.declared import compare_declared
 from ..compare.difference import Comparison
-from ..compare.rows import ROWS, Row, limit_tolerances, tighten
+from ..compare.rows import ROWS, Row, limit_tolerances, narrow_tolerances
 from ..finding import Finding
 from ..model.elements import Robot
 from ..output import check_targets
@@ -99,7 +99,7 @@ def finish(
         output: Path of the URDF, to which relative paths of meshes refer; None keeps its folder.
         tolerance: Tolerance of the comparison.
     """
-    rows = tighten(ROWS, tolerance)
+    rows = narrow_tolerances(ROWS, tolerance)
     file = draft.file
     folder = Path(file.path).parent
     if output is not None:

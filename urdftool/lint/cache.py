@@ -75,7 +75,7 @@ class Cache:
 
         Args:
             path: Path of the description.
-            facts: What the report depends on besides files.
+            facts: What the report depends on in addition to files.
         """
         known = [_FORMAT, self._code, os.getcwd(), str(path), self._libraries, *facts]
         return sha256(repr(known).encode("utf-8", "surrogateescape")).hexdigest()

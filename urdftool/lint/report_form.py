@@ -26,7 +26,7 @@ _EMPTY = {Report: {"error", "failed_rules"}, Finding: {"members", "consequences"
 """Fields without a value: a cached report is complete, and its findings are not grouped yet."""
 
 _LARGEST = 2**53
-"""Smallest whole number that a double cannot tell from the next, as JSON readers have."""
+"""Smallest whole number whose successor is no other double, as JSON readers have."""
 
 
 class _Form(NamedTuple):

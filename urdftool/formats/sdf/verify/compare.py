@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 from ....compare.check import Check
 from ....compare.proof import Claims, prove
-from ....compare.rows import EQUIPMENT_ROWS, tighten
+from ....compare.rows import EQUIPMENT_ROWS, narrow_tolerances
 from ....compare.rows import ROWS as ROWS_OF_ROBOTS
 from ....errors import UrdftoolError
 from ....model.elements import Dynamics, Joint, Limit, Robot
@@ -34,7 +34,9 @@ TOLERANCE = 1e-9
 above the rounding errors of poses in other frames.
 """
 
-ROWS = tuple(row for row in tighten(ROWS_OF_ROBOTS, TOLERANCE) if row.name not in EQUIPMENT_ROWS)
+ROWS = tuple(
+    row for row in narrow_tolerances(ROWS_OF_ROBOTS, TOLERANCE) if row.name not in EQUIPMENT_ROWS
+)
 """Rows of the model; the others compare translated sensors and plugins."""
 
 COMPARED_AS_ELEMENTS = tuple(
