@@ -51,7 +51,7 @@ _EXACT = 1e-9
 _SINGLE = 1e-6
 """Tolerance of what MuJoCo or a mesh file stores in single precision."""
 
-_NOT_READ = (*GLOBAL_ROWS, "simulator data", "looks", "textures")
+_NOT_READ = (*GLOBAL_ROWS, "simulator data", "plugins", "looks", "textures")
 """Rows that are compared in the compiled model, or do not exist in MJCF."""
 
 
