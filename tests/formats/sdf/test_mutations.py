@@ -98,4 +98,5 @@ def test_damaged_robots(urdftool, write, tmp_path, monkeypatch, count):
         source = write("damaged.urdf", text)
         words = ["-o", tmp_path / "out", "--force", "--verify", "--overwrite"]
         result = urdftool("export", "sdf", source, *words, *chance.choice(CHOICES))
-        assert result.code in (0, 2), f"seed {seed}, {path}: {result.out}{result.err}"
+        immense = "above 1e+30" in result.out  # SDF is read back with bounded numbers
+        assert result.code in (0, 2) or immense, f"seed {seed}, {path}: {result.out}{result.err}"

@@ -24,6 +24,7 @@ _EXCUSES = (
     Excuse(("tree",), frozenset(("lossy-ball", "lossy-screw")), ends=("_x", "_y", "_z")),
     Excuse(("collisions", "visuals"), frozenset(("lossy-shape",))),
     Excuse(("surface",), frozenset(("lossy-surface",))),
+    Excuse(("looks",), frozenset(("lossy-appearance",))),
     Excuse(("joint physics",), frozenset(("lossy-spring",))),
 )
 """Rows whose differences a loss explains."""

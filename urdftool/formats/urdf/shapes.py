@@ -53,10 +53,22 @@ def add_shape(
         etree.SubElement(outer, "geometry").append(inner)
         if isinstance(shape, Visual) and shape.material is not None:
             _add_material(robot, meshes, outer, shape.material)
+    if isinstance(shape, Visual):
+        _report_looks(robot, written, link, shape)
     if isinstance(shape.geometry, Capsule):
         text = f"{kind} of link '{link.name}' is a cylinder with two spheres in place of a capsule"
         written.report_loss(
             "capsule", text, shape.place, kind="link", name=link.name, severity=Severity.INFO
+        )
+
+
+def _report_looks(robot: Robot, written: Written, link: Link, shape: Visual) -> None:
+    """Report lights and transparency, which plain URDF does not have; blocks of URDF are copied."""
+    lost = [name.replace("_", " ") for name in shape.appearance if name != "diffuse"]
+    if lost and robot.format != "urdf":
+        text = f"{', '.join(lost)} of a visual of link '{link.name}' are dropped; URDF has a color"
+        written.report_loss(
+            "appearance", text, shape.place, kind="link", name=link.name, severity=Severity.INFO
         )
 
 

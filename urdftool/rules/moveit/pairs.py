@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from ...model.elements import Robot
 from ...model.semantic import read_semantic
 from ...source.description import Description
 from ...source.document import Element
-from ...srdf.content import format_positions
-from ...srdf.existing import BARE, REFUTED, Judgement, judge
-from ...srdf.verdicts import CAN_TOUCH, NEVER, Options, decide
 from ..fix import FixContext, Proposal, remove_element, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import join_some
 from .semantic import get_srdf_documents
+
+if TYPE_CHECKING:
+    from ...srdf.existing import Judgement
 
 _ON = ("moveit",)
 
@@ -24,6 +25,8 @@ BOXES = 1000
 
 def _judge_disabled(robot: Robot, description: Description) -> list[Judgement]:
     """Judge the disabled pairs of the SRDF files, with few boxes."""
+    from ...srdf.existing import judge
+    from ...srdf.verdicts import Options, decide
 
     def compute() -> list[Judgement]:
         contents = [read_semantic(d.root) for d in get_srdf_documents(robot, description)]
@@ -54,6 +57,9 @@ def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[
     as ``Adjacent`` without a common joint are findings of adjacent-through-bare-link. Requires
     python-fcl.
     """
+    from ...srdf.content import format_positions
+    from ...srdf.existing import REFUTED
+
     for found in _judge_disabled(robot, description):
         if found.code == REFUTED and found.verdict is not None:
             pair = found.pair
@@ -81,6 +87,10 @@ def adjacent_through_bare_link(robot: Robot, description: Description) -> Iterat
     So two arms on a bare torso are adjacent, and two fingers on a bare palm, and are not checked
     against each other. Links that are proved never to touch are no finding. Requires python-fcl.
     """
+    from ...srdf.content import format_positions
+    from ...srdf.existing import BARE
+    from ...srdf.verdicts import CAN_TOUCH
+
     for found in _judge_disabled(robot, description):
         if found.code == BARE and found.verdict is not None:
             pair, verdict = found.pair, found.verdict
@@ -119,6 +129,8 @@ def pair_never_touches(robot: Robot, description: Description) -> Iterator[Probl
     enabled by default, because the proof takes seconds; ``urdftool srdf --update`` adds the pairs.
     Requires python-fcl.
     """
+    from ...srdf.verdicts import NEVER, Options, decide
+
     for document in get_srdf_documents(robot, description):
         content = read_semantic(document.root)
         disabled = {pair.links for pair in content.disabled}

@@ -35,6 +35,7 @@ EXCUSES = (
     Excuse(("base",), frozenset((ADDED,)), "robot"),
     Excuse(("tree",), frozenset((ADDED,))),
     Excuse((*_TENSORS, "mass matrix", "gravity"), MASS, "body"),
+    Excuse(("mass matrix", "gravity"), MASS, "robot"),
     Excuse(
         ("tree", "frames", "axes", "limits", "joint physics", "collisions", "visuals", *_TENSORS),
         MOTION,
