@@ -67,11 +67,8 @@ def test_diff_across_formats(urdftool):
     result = urdftool("diff", ARM.with_suffix(".urdf"), ARM, "--format", "json")
     assert result.code == 1
     every = json.loads(result.out)["changes"]
-    changes = [change for change in every if change["element"]["kind"] == "joint"]
-    shoulder = [c["what"] for c in changes if c["element"]["name"] == "shoulder"]
-    assert shoulder == []  # the export keeps its limit of velocity in <custom>
-    (velocity,) = [c for c in changes if c["element"]["name"] == "elbow"]
-    assert (velocity["path"], velocity["line"]) == (str(ARM), 27)
+    names = {"shoulder", "elbow"}  # the export keeps their limits of velocity in <custom>
+    assert [change["what"] for change in every if change["element"]["name"] in names] == []
 
 
 @BOTH

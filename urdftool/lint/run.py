@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -116,7 +115,7 @@ def _list_checks(path: str | Path, options: Options) -> list[_Question]:
     variants: list[dict[str, str]] = []
     if options.expand and not options.arguments:
         variants = get_variants(path, configuration) or options.variants.get(
-            os.path.realpath(path), []
+            options.workspace.resolve_links(path), []
         )
     each = [replace(options, arguments=variant) for variant in variants] or [options]
     return [(path, chosen, configuration, settings) for chosen in each]

@@ -30,6 +30,9 @@ KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fix
 STIFF = {"solimp": "0.95 0.99 0.001", "solref": "0.005 1"}
 """Softness of an equality, as in MuJoCo Menagerie for coupled fingers."""
 
+_APART = 1e-6
+"""Distance [m] of two ends of a connection that are in one place; chosen, no source."""
+
 ARM = 0.1
 """Distance [m] of a second point along the axis of a spatial loop; chosen, no source."""
 
@@ -54,7 +57,10 @@ def plan_closures(structure: Structure, written: Written) -> list[Closure]:
         if kind is None:
             _report_kind(closure, written)
         elif closure.xml is None and structure.robot.format == "mjcf":
-            found.append(closure)
+            if _is_closed(structure, closure):
+                found.append(closure)
+            else:
+                _report_apart(closure, written)
         else:
             _report_bounds(closure, kind, written)
             found += _plan_equalities(structure, closure, kind, names)
@@ -63,6 +69,29 @@ def plan_closures(structure: Structure, written: Written) -> list[Closure]:
 
 def _get_kind(closure: Closure) -> str | None:
     return closure.type if closure.type in KINDS.values() else KINDS.get(closure.type)
+
+
+def _is_closed(structure: Structure, closure: Closure) -> bool:
+    """Tell whether both ends of a connection are in one place at the zero position."""
+    one, other = (
+        _get_pose(structure, link) @ make_pose(origin)
+        for link, origin in (
+            (closure.parent, closure.origin),
+            (closure.child, closure.child_origin),
+        )
+    )
+    return compute_norm((one.invert() @ other).translation) < _APART
+
+
+def _report_apart(closure: Closure, written: Written) -> None:
+    written.report_loss(
+        "loop",
+        f"connection '{closure.name}' is not exported: its ends are apart at the zero position, at "
+        "which MuJoCo computes the second one",
+        closure.place,
+        kind="closed loop",
+        name=closure.name,
+    )
 
 
 def _report_rejected(rejected: Rejected, written: Written) -> None:
