@@ -28,7 +28,9 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 MOST_SKIPPED = 60
 """How many tests may be skipped where the corpus and every extra are present."""
 
-ABSENT = re.compile(r"requires (a physics engine|[\w-]+), (?:which is not|and none is) installed: pip")
+ABSENT = re.compile(
+    r"requires (a physics engine|[\w-]+), (?:which is not|and none is) installed: pip"
+)
 """What a command prints where an optional library is missing; a test of it is skipped there."""
 
 

@@ -13,7 +13,6 @@ from ...source.description import Description
 from ...source.nearby_files import read_optional_file
 from ...source.packages import shorten_path
 from ...source.yaml_tree import Node, parse_yaml
-from ...srdf.moveit.yaml_text import format_double
 from ..fix import FixContext, Proposal, Span, safe, unsafe
 from ..rule import ERROR, SAFE, UNSAFE, Problem, rule
 from ..words import join_some, suggest_name
@@ -126,6 +125,8 @@ def _select_fields(of: str, node: Node, keys: tuple[str, ...]) -> Iterator[tuple
 
 def _write_double(node: Node) -> str:
     """Write a number as a YAML double; empty if it is not a finite number."""
+    from ...srdf.moveit.yaml_text import format_double
+
     text = node.text or ""
     if node.kind == "int":
         return f"{text}.0" if re.fullmatch(r"[+-]?\d+", text) else ""
