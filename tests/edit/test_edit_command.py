@@ -108,3 +108,11 @@ def test_bad_usage(urdftool, files, words, message):
     result = urdftool("edit", *[files[0] if word == "ARM" else word for word in words])
     assert result.code == 2
     assert message in result.err
+
+
+def test_a_result_has_no_name_of_a_xacro_file(urdftool, files, tmp_path):
+    target = tmp_path / "out.urdf.xacro"
+    result = urdftool("edit", "prefix", files[0], "l_", "-o", target)
+    assert result.code == 2
+    assert f"{target}: the result is URDF without macros; give it the ending .urdf" in result.err
+    assert not target.exists()

@@ -60,6 +60,7 @@ def test_files_that_were_not_expanded_are_counted(urdftool, refused, folder):
     assert done.code == 0
     assert "4 xacro files not expanded and so not checked" in done.err
     assert "src/r.urdf.xacro" in done.err
+    assert "checked 2 robots (2 variants), 0 files belong to them, 4 not checked: " in done.err
     assert "in 2 files" in done.err  # r.urdf and r.sdf
     table = json.loads(urdftool("lint", folder, "--no-expand", "--format", "json").out)
     skipped = {entry["path"]: entry["reason"] for entry in table["summary"]["skipped"]}

@@ -107,7 +107,7 @@ def _print_unknown(found: Repository) -> None:
 def summarize_robots(found: Repository, options: Options, reports: Collection[Report]) -> str:
     """Return ``checked 3 robots (4 variants), 12 files belong to them, 0 not checked``."""
     checked = [report.path for report in reports if report.checked]
-    missing = [report.path for report in reports if report.not_checked]
+    missing = [report.path for report in reports if report.not_checked or report.unexpanded]
     reals = {os.path.realpath(path) for path in checked}
     read = {os.path.realpath(path) for report in reports if report.checked for path in report.files}
     belonging = (read | {path for real in reals for path in found.list_files(real)}) - reals

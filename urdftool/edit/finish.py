@@ -10,6 +10,7 @@ from ..compare.correspondence import parse_correspondence
 from ..compare.declared import compare_declared
 from ..compare.difference import Comparison
 from ..compare.rows import ROWS, Row, limit_tolerances, narrow_tolerances
+from ..errors import OutputError
 from ..finding import Finding
 from ..model.elements import Robot
 from ..output import check_targets
@@ -163,9 +164,14 @@ def write_edited(
     """Write the URDF and all files next to it; return their paths, the URDF last.
 
     Raises:
-        OutputError: A file cannot be written or is an input; nothing is changed then.
+        OutputError: A file cannot be written or is an input, or the name is that of a xacro file;
+            nothing is changed then.
     """
     target = Path(output)
+    if target.suffix == ".xacro":
+        raise OutputError(
+            "the result is URDF without macros; give it the ending .urdf", path=target
+        )
     written: dict[Path, bytes | Path] = {
         target.parent / name: data for name, data in edited.files.items()
     }

@@ -159,7 +159,7 @@ class _Script:
     defaults: dict[str, ast.expr] = field(default_factory=dict)
 
     def read(self, text: str) -> list[Use]:
-        """Return the uses in the text; none if it is no Python."""
+        """Return the uses in the text; none if it is not Python."""
         try:
             tree = ast.parse(text)
         except (SyntaxError, ValueError, RecursionError, MemoryError):
