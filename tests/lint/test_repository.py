@@ -200,3 +200,20 @@ def test_a_mesh_that_does_not_exist_is_found_in_each_way_of_writing(package, urd
     result = urdftool("lint", ".", "--select", "mesh-not-found", "--format", "concise")
     assert result.code == 1
     assert "mesh file of link 'a' does not exist" in result.out
+
+
+def test_included_files_are_found_where_they_are_installed_from(package, urdftool):
+    (package / "CMakeLists.txt").write_text(
+        "install(DIRECTORY source/parts DESTINATION share/${PROJECT_NAME})"
+    )
+    (package / "source/parts").mkdir(parents=True)
+    (package / "source/parts/head.xacro").write_text(
+        HEAD.format("head") + '<link name="head"/></robot>'
+    )
+    (package / "urdf/one.xacro").write_text(
+        HEAD.format("one")
+        + '<xacro:include filename="$(find arm)/parts/head.xacro"/><link name="a"/></robot>'
+    )
+    lines = urdftool("lint", ".", "--list").out.splitlines()
+    assert "  includes source/parts/head.xacro" in lines
+    assert not any(line.startswith("source/parts/head.xacro") for line in lines)  # no robot

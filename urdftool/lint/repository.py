@@ -192,7 +192,8 @@ class _Search:
             if "$" in target or "*" in target:
                 self.found.computes.add(real)
                 continue
-            yield os.path.realpath(os.path.join(os.path.dirname(path), target))
+            target = os.path.join(os.path.dirname(path), target)
+            yield os.path.realpath(packages.find_installed(target))
 
     def add_by_content(self) -> None:
         """Add the candidates that no other file includes."""
@@ -243,14 +244,15 @@ class _Search:
                 return None
 
         for use in read_uses(path, data.decode("utf-8", "replace"), find):
-            self._add_use(path, use)
+            self._add_use(path, use, packages)
 
-    def _add_use(self, path: str, use: Use) -> None:
+    def _add_use(self, path: str, use: Use, packages: Packages) -> None:
         place = f"{path}:{use.line}"
         if UNKNOWN in use.target:
             self.found.unknown.append(place)
             return
-        real = os.path.realpath(os.path.join(os.path.dirname(path), use.target))
+        target = os.path.join(os.path.dirname(path), use.target)
+        real = os.path.realpath(packages.find_installed(target))
         robot = self.found.robots.get(real)
         if robot is None and real in self.found.paths:
             robot = RobotFile(self.found.paths[real], f"expanded by {place}")
