@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..mechanics.reference import SLIDING, TURNING, Array, Mechanics
+from ..mechanics.reference import GRAVITY, SLIDING, TURNING, Array, Mechanics
 from ..model.elements import Joint
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE
@@ -28,6 +28,12 @@ _FLOOR = 1e-6
 """Largest element [kg·m², kg, N·m or N] below which differences are absolute; chosen, no source.
 
 A robot without mass has elements of 1e-12 of rounding or of the least masses that formats require.
+"""
+
+_BALANCE = 1e-6
+"""Arm [m] of the weight of the robot below which forces of gravity are absolute; chosen, no source.
+
+A balanced robot has forces that are nothing but rounding.
 """
 
 
@@ -108,6 +114,7 @@ def _compare(
             "gravity",
             one.compute_gravity(here),
             two.compute_gravity(there)[columns] * sign,
+            _BALANCE * one.compute_centroid(here)[0] * float(np.abs(GRAVITY).max()),
         )
 
 
@@ -116,9 +123,11 @@ def _draw(joint: Joint, generator: random.Random) -> float:
     return generator.uniform(lower, upper) if lower < upper else lower
 
 
-def _add_matrix(comparison: Comparison, row: str, one: Array, two: Array) -> None:
+def _add_matrix(
+    comparison: Comparison, row: str, one: Array, two: Array, least: float = 0.0
+) -> None:
     size = max(float(np.abs(one).max()), float(np.abs(two).max()))
-    amount = float(np.abs(one - two).max()) / max(size, _FLOOR)
+    amount = float(np.abs(one - two).max()) / max(size, _FLOOR, least)
     known = [difference for difference in comparison.differences if difference.row == row]
     if known and known[0].amount >= amount:
         return

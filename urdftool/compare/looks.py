@@ -6,7 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import UrdftoolError
-from ..model.appearance import APPEARANCE, get_appearance, resolve_material
+from ..model.appearance import (
+    APPEARANCE,
+    find_unknown_material,
+    get_appearance,
+    resolve_material,
+)
 from ..model.elements import Link, Material, Robot, Visual
 from ..model.settings import Settings
 from .difference import Comparison, Difference
@@ -47,7 +52,7 @@ def compare_looks(
     robots = pair.a.robot, pair.b.robot
     sides = list(zip(robots, links, visuals, strict=True))
     names = links[0].name, links[1].name
-    scripts = [_get_script(*side) for side in sides]
+    scripts = [get_script(link, visual) for _, link, visual in sides]
     if any(scripts):
         if scripts[0] != scripts[1]:
             _add(comparison, "looks", names, "material script", scripts, visuals)
@@ -72,12 +77,9 @@ def _get_settings(pair: Pair, robot: Robot, link: Link, visual: Visual) -> Setti
     return found
 
 
-def _get_script(robot: Robot, link: Link, visual: Visual) -> str:
-    """Return the name of an unknown material; empty if it is known, or URDF has no color."""
-    if robot.format != "urdf":
-        return visual.script
-    is_known = "diffuse" in get_appearance(robot, link, visual)
-    return "" if is_known else link.gazebo_material
+def get_script(link: Link, visual: Visual) -> str:
+    """Return the name of a material whose color is not known; empty for none."""
+    return visual.script or find_unknown_material(link)
 
 
 def _find_image(robot: Robot, visual: Visual) -> Path | None:

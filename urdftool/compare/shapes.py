@@ -30,7 +30,7 @@ from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import describe_pose, format_vector, invert, measure_largest
-from .looks import compare_looks
+from .looks import compare_looks, get_script
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
 from .settings import compare_surfaces
@@ -372,6 +372,8 @@ def _compare_colors(state: _Comparing, x: Placed, y: Placed) -> None:
 def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
     """Compare the colors of two visuals; return whether both have one."""
     robots = state.pair.a.robot, state.pair.b.robot
+    if "sdf" in state.pair.formats and any(_has_script(placed) for placed in (x, y)):
+        return False
     if any(
         _has_own_colors(state, robot, placed.geometry)
         for robot, placed in zip(robots, (x, y), strict=True)
@@ -398,6 +400,11 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
         )
     )
     return True
+
+
+def _has_script(placed: Placed) -> bool:
+    """Tell whether a script that only Gazebo Classic has says the color of a visual."""
+    return isinstance(placed.shape, Visual) and bool(get_script(placed.link, placed.shape))
 
 
 def _find_gazebo_color(placed: Placed) -> tuple[float, ...] | None:

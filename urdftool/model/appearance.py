@@ -54,8 +54,9 @@ def add_appearance(robot: Robot) -> None:
         blocks.setdefault(block.reference or "", []).extend(block.element.children)
     for link in robot.links:
         found = _read_blocks(blocks.get(link.name, ()))
-        for visual in link.visuals if found else ():
-            visual.appearance = found
+        script = _find_block_script(blocks.get(link.name, ()))
+        for visual in link.visuals if found or script else ():
+            visual.appearance, visual.script = found, script
 
 
 def _read_blocks(elements: Iterable[Element]) -> Settings:
@@ -73,6 +74,17 @@ def _read_blocks(elements: Iterable[Element]) -> Settings:
     return found
 
 
+def _find_block_script(elements: Sequence[Element]) -> str:
+    """Return the last script that blocks name for the visuals of a link, of unknown color."""
+    names = [name for element in elements if (name := find_script(element))]
+    return "" if not names or names[-1] in COLORS else names[-1]
+
+
+def find_unknown_material(link: Link) -> str:
+    """Return the material that blocks name for a link if Gazebo Classic has none of that name."""
+    return "" if link.gazebo_material in COLORS else link.gazebo_material
+
+
 def read_sdf_appearance(element: Element) -> Settings:
     """Return the appearance of a ``<visual>`` of SDF; its own values count above a script."""
     color = COLORS.get(find_script(element))
@@ -87,8 +99,8 @@ def _add_diffuse(settings: Settings) -> Settings:
 
 
 def find_script(element: Element) -> str:
-    """Return the name of the material of the script of a ``<visual>``; empty for none."""
-    material = element.find_child("material")
+    """Return the name of the script of a ``<visual>`` or ``<material>``; empty for none."""
+    material = element if element.tag == "material" else element.find_child("material")
     script = None if material is None else material.find_child("script")
     name = None if script is None else script.find_child("name")
     return "" if name is None else get_text(name)

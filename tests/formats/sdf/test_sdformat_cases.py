@@ -41,7 +41,7 @@ def mass_of(model, name):
             [i["ixz"], i["iyz"], i["izz"]],
         ]
     )
-    turn = rotation_from_rpy(pose[3:])
+    turn = np.array(rotation_from_rpy(pose[3:]))
     return float(inertial.findtext("mass")), pose[:3], turn @ tensor @ turn.T
 
 
@@ -75,7 +75,7 @@ def test_reduction(case, visuals, collisions):
         got_mass, got_center, got_tensor = mass_of(model, name)
         xx, yy, zz = moments
         xy, xz, yz = products
-        turn = rotation_from_rpy(rpy)
+        turn = np.array(rotation_from_rpy(rpy))
         tensor = turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T
         assert got_mass == pytest.approx(mass)
         assert got_center == pytest.approx(center, abs=1e-5)

@@ -63,7 +63,7 @@ def _find_texture(t: Translation, link: Link, own: Material) -> str:
 
 
 def _report_script(t: Translation, link: Link, part: Visual) -> None:
-    if part.script:
+    if part.script and t.robot.format == "sdf":  # scripts in blocks are copied
         text = f"script '{part.script}' of a visual of link '{link.name}' is not exported"
         t.report_loss("material", text, part, link)
 

@@ -48,6 +48,7 @@ EXCUSES = (
     Excuse(("tree",), frozenset(("lossy-mimic",))),
     Excuse(("collisions", "visuals"), SHAPES, "body"),
     Excuse(("colors", "looks", "textures"), SHAPES | {"lossy-material", "lossy-texture"}),
+    Excuse(("colors", "looks"), BLOCKS, least=Severity.WARNING),
     Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
 )
 """Rows and parts that a loss explains."""
