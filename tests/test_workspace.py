@@ -17,7 +17,7 @@ def asked_by(action, workspace=None):
     action(view)
     return {
         (kind, os.path.relpath(path) if os.path.isabs(path) else path)
-        for kind, path in view.dependencies.asked
+        for kind, path in view.dependencies.stamps
     }
 
 
@@ -142,7 +142,7 @@ def test_an_error_is_no_value_but_depends_on_what_was_read(size):
         view = workspace.with_record()
         with pytest.raises(OSError):
             size(view, "none")
-        assert [kind for kind, _ in view.dependencies.asked] == ["file"]
+        assert [kind for kind, _ in view.dependencies.stamps] == ["file"]
 
 
 def test_trials_share_what_they_do_not_change(size, write):
@@ -177,10 +177,10 @@ def test_many_dependencies_are_shared():
     views = [workspace.with_record() for _ in range(2)]
     for view in views:
         there(view, 1)
-    assert all(not view.dependencies.asked for view in views)
+    assert all(not view.dependencies.stamps for view in views)
     (shared,), (again,) = (view.dependencies.shared for view in views)
     assert shared is again
-    assert len(shared.asked) == 60
+    assert len(shared.stamps) == 60
 
 
 def test_a_memo_computes_once_and_is_not_copied():
@@ -256,7 +256,7 @@ def test_what_is_young_is_not_settled():
 def test_the_stamp_is_that_of_the_first_question(write):
     read = Dependencies()
     read.add("file", "a")
-    before = dict(read.asked)
+    before = dict(read.stamps)
     os.unlink("a")
     read.add("file", "a")
-    assert read.asked == before
+    assert read.stamps == before

@@ -33,15 +33,15 @@ class Dependencies:
     """Set of the queries on which a result depends.
 
     Attributes:
-        asked: Stamp at the first query, by query.
+        stamps: Stamp at the first query, by query.
         shared: Large sets that several results use, such as that of the list of all packages.
     """
 
-    __slots__ = ("_real", "asked", "shared")
+    __slots__ = ("_real", "shared", "stamps")
 
     def __init__(self) -> None:
         """Create an empty set."""
-        self.asked: dict[Question, Stamp | None] = {}
+        self.stamps: dict[Question, Stamp | None] = {}
         self.shared: dict[Dependencies, None] = {}
         self._real: tuple[int, set[str], set[str]] | None = None
 
@@ -55,16 +55,16 @@ class Dependencies:
         if kind != "env" and not os.path.isabs(path):
             path = os.path.join(os.getcwd(), path)
         question = kind, path
-        if question not in self.asked:
-            self.asked[question] = read_stamp(question)
+        if question not in self.stamps:
+            self.stamps[question] = read_stamp(question)
 
     def include(self, other: Dependencies) -> None:
         """Add the dependencies of a result that this result uses."""
-        if len(other.asked) > _SHARED:
+        if len(other.stamps) > _SHARED:
             self.shared[other] = None
         else:
-            for question, stamp in other.asked.items():
-                self.asked.setdefault(question, stamp)
+            for question, stamp in other.stamps.items():
+                self.stamps.setdefault(question, stamp)
         self.shared.update(other.shared)
 
     def is_affected_by(self, paths: Set[str], folders: Set[str]) -> bool:
@@ -82,10 +82,10 @@ class Dependencies:
 
     def _get_real_paths(self) -> tuple[set[str], set[str]]:
         """Return the queried paths and the listed folders, both without symbolic links."""
-        if self._real is None or self._real[0] != len(self.asked):
-            files = {os.path.realpath(path) for kind, path in self.asked if kind != "env"}
-            listed = {os.path.realpath(path) for kind, path in self.asked if kind == "list"}
-            self._real = len(self.asked), files, listed
+        if self._real is None or self._real[0] != len(self.stamps):
+            files = {os.path.realpath(path) for kind, path in self.stamps if kind != "env"}
+            listed = {os.path.realpath(path) for kind, path in self.stamps if kind == "list"}
+            self._real = len(self.stamps), files, listed
         return self._real[1:]
 
 

@@ -97,9 +97,9 @@ def _find_leftovers(places: Iterable[Path], *, same_process: bool = False) -> li
         same_process: Whether to return all temporary paths of these processes in the folders of the
             outputs.
     """
-    wanted = set(places)
+    chosen = set(places)
     found: dict[int, list[tuple[Path, bool]]] = {}
-    for folder in {place.parent for place in wanted}:
+    for folder in {place.parent for place in chosen}:
         try:
             entries = os.listdir(folder)
         except OSError:
@@ -107,7 +107,7 @@ def _find_leftovers(places: Iterable[Path], *, same_process: bool = False) -> li
         for entry in entries:
             match = _TEMPORARY.fullmatch(entry) if entry.startswith(".") else None
             if match:
-                is_wanted = folder / match[1] in wanted
+                is_wanted = folder / match[1] in chosen
                 found.setdefault(int(match[2]), []).append((folder / entry, is_wanted))
     return [
         path

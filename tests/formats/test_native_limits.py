@@ -194,7 +194,7 @@ def test_mujoco_gets_the_contents_of_files(tmp_path):
     shapes = [one.geometry for link in robot.links for one in (*link.visuals, *link.collisions)]
     files = {shape.filename for shape in shapes if isinstance(shape, Mesh)}
     assert files == {"one/m.obj", "one/../two/m.obj", "sub/meshes/m.obj"}
-    asked = {os.path.realpath(path) for kind, path in view.dependencies.asked if kind == "file"}
+    asked = {os.path.realpath(path) for kind, path in view.dependencies.stamps if kind == "file"}
     assert {str(tmp_path / place / "m.obj") for place in ("one", "two", "sub/meshes")} <= asked
 
 

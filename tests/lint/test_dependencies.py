@@ -31,7 +31,7 @@ class Kept(Cache):
     def get_key(self, *question):
         return ""
     def write(self, key, report, read):
-        self.read = {q for part in (read, *read.shared) for q in part.asked}
+        self.read = {q for part in (read, *read.shared) for q in part.stamps}
 
 sys.addaudithook(hook)
 check = run._check_variant

@@ -120,11 +120,11 @@ def _choose_automatically(
     return best
 
 
-def _compute_expense(choice: Choice, wanted: float) -> float:
+def _compute_expense(choice: Choice, allowed: float) -> float:
     """Return the mean distance [m] plus a penalty for primitives that are costly in contact."""
     kind = choice.pieces[0].kind
     rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
-    return choice.measures.mean * (1 + _SIMPLER * rank) + _ALIKE * wanted * rank
+    return choice.measures.mean * (1 + _SIMPLER * rank) + _ALIKE * allowed * rank
 
 
 def _is_flat(surface: Prepared) -> bool:
@@ -251,9 +251,9 @@ def _try_coacd(
     """Yield CoACD's result at its threshold; a coarser one if it fails, and one hull if both do."""
     cutter = Cutter(target, settings, most=settings.max_hulls)
     for threshold in (settings.threshold, settings.threshold * _COARSER):
-        wanted = threshold * target.longest / 2
+        allowed = threshold * target.longest / 2
         try:
-            made = cutter.cut(wanted, wanted)
+            made = cutter.cut(allowed, allowed)
         except DecompositionError as error:
             notes.append(
                 make_note(error.code, f"{error.message}, at a threshold of {threshold:g}.")

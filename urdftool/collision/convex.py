@@ -83,8 +83,8 @@ def _select_farthest(points: Points, beyond: Points, tolerance: float, most: int
     left = left[np.argsort(-beyond[left], kind="stable")]
     while len(left) and len(found) < min(most, _BATCH):
         found.append(int(left[0]))
-        apart = np.linalg.norm(points[left] - points[left[0]], axis=1)
-        left = left[apart > _APART * beyond[left[0]]]
+        distances = np.linalg.norm(points[left] - points[left[0]], axis=1)
+        left = left[distances > _APART * beyond[left[0]]]
     return found or [int(np.argmax(beyond))]
 
 

@@ -123,8 +123,8 @@ class Surface:
             return np.asarray(
                 np.min([to_triangles(points, one[None]) for one in self.corners], axis=0)
             )
-        wanted = _NEIGHBOURS * (2 if len(self.corners) < _COARSE else 1)
-        near = min(wanted, len(self.samples))
+        most = _NEIGHBOURS * (2 if len(self.corners) < _COARSE else 1)
+        near = min(most, len(self.samples))
         found, index = self.tree.query(points, k=near, workers=self.workers)
         if near == 1:
             found, index = found[:, None], index[:, None]

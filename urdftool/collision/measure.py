@@ -326,9 +326,9 @@ def _compute_depth(points: Points, piece: Piece, near: float) -> Points:
         return convex.measure_plane_distance(points, piece.sides)
     corners = piece.corners
     off = Surface(corners, spread(corners, SAMPLES)).measure_distance(points)
-    asked = off > near
-    if asked.any():
-        off[asked] *= np.where(_is_within(points[asked], corners), -1.0, 1.0)
+    is_outside = off > near
+    if is_outside.any():
+        off[is_outside] *= np.where(_is_within(points[is_outside], corners), -1.0, 1.0)
     return off
 
 

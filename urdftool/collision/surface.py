@@ -104,7 +104,7 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     Raises:
         MeshError: The points are too far apart.
     """
-    said = list(notes)
+    remarks = list(notes)
     triangles = len(faces)
     extent = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 0.0
     if not extent < FARTHEST:
@@ -129,13 +129,13 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     closed = edges.cycle
     if dropped:
         message = f"{dropped} degenerate faces were dropped."
-        said.append(make_remark("degenerate-faces", message, count=dropped))
+        remarks.append(make_remark("degenerate-faces", message, count=dropped))
     if twice:
         message = f"{twice} faces written twice were dropped."
-        said.append(make_remark("repeated-faces", message, count=twice))
+        remarks.append(make_remark("repeated-faces", message, count=twice))
     if turned:
         message = f"{turned} faces were reversed to agree with their neighbors."
-        said.append(make_remark("turned-faces", message, count=turned))
+        remarks.append(make_remark("turned-faces", message, count=turned))
     used = find_used_vertices(kept, len(points))
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -145,11 +145,11 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ())
     )
     if closed and prepared.volume < 0:
         kept = np.ascontiguousarray(kept[:, ::-1])
-        said.append(make_remark("inside-out", "The mesh is inside out; it was turned."))
+        remarks.append(make_remark("inside-out", "The mesh is inside out; it was turned."))
     if not closed:
         message = f"The mesh is open ({edges.open_count} edges have an odd number of faces)."
-        said.append(make_remark("open-mesh", message, edges=edges.open_count))
-    return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(said))
+        remarks.append(make_remark("open-mesh", message, edges=edges.open_count))
+    return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(remarks))
 
 
 def label_flat_sides(surface: Prepared) -> npt.NDArray[np.int64]:

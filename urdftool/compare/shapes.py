@@ -259,19 +259,19 @@ def _find_capsule(state: _Comparing, capsule: Placed, shapes: list[Placed]) -> l
     assert isinstance(whole, Capsule)
     found: list[Placed] = []
     ball = Sphere(whole.provenance, whole.radius)
-    wanted: list[Placed] = [
+    pieces: list[Placed] = [
         capsule._replace(geometry=Cylinder(ball.provenance, whole.radius, whole.length))
     ]
     for end in (-whole.length / 2, whole.length / 2):
         pose = capsule.pose.copy()
         pose[:3, 3] += end * pose[:3, 2]
-        wanted.append(capsule._replace(geometry=ball, pose=pose))
-    for part in wanted:
+        pieces.append(capsule._replace(geometry=ball, pose=pose))
+    for part in pieces:
         for shape in shapes:
             if not _contains(found, shape) and _measure(state, part, shape) <= state.tolerance:
                 found.append(shape)
                 break
-    return found if len(found) == len(wanted) else []
+    return found if len(found) == len(pieces) else []
 
 
 def _match_others(state: _Comparing, kind: str, match: Match) -> None:

@@ -95,14 +95,14 @@ def _fit_eye(placed: Floats, reach: tuple[float, float]) -> Floats:
     of the view at distance 1; likewise for u. For each side of the picture the outermost point sets
     a bound that is linear in the eye.
     """
-    middle, apart = [], []
+    middle, distances = [], []
     back = placed[:, 2]
     for axis in (0, 1):
         slope = reach[axis] * (1 - 2 * MARGIN)
         more = float((placed[:, axis] + slope * back).max())
         less = float((slope * back - placed[:, axis]).max())
-        apart.append((more + less) / (2 * slope))
+        distances.append((more + less) / (2 * slope))
         middle.append((more - less) / 2)
     size = compute_extent(placed)
-    ahead = max(*apart, float(back.max()) + max(1e-3 * size, 1e-9))
+    ahead = max(*distances, float(back.max()) + max(1e-3 * size, 1e-9))
     return np.array([middle[0], middle[1], ahead])

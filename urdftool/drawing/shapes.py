@@ -136,16 +136,16 @@ def read_robot_shapes(
     if show not in SHOWS:
         raise ValueError(f"show must be one of {', '.join(SHOWS)}, not {show!r}")
     gathering = Gathering(robot, Materials(robot))
-    wanted = list(_list_selected(robot, show))
+    selected = list(_list_selected(robot, show))
     if pixels is not None and robot.source is not None:
-        gathering.read = Detail(robot, wanted, pixels).read
+        gathering.read = Detail(robot, selected, pixels).read
     uris = dict.fromkeys(
-        shape.geometry.filename for _, shape in wanted if isinstance(shape.geometry, MeshGeometry)
+        shape.geometry.filename for _, shape in selected if isinstance(shape.geometry, MeshGeometry)
     )
     numbers = {uri: number for number, uri in enumerate(uris, 1)}
     reported: set[str] = set()
     pieces: list[tuple[int, Surface]] = []
-    for row, shape in wanted:
+    for row, shape in selected:
         geometry = shape.geometry
         if isinstance(geometry, MeshGeometry) and geometry.filename not in reported:
             reported.add(geometry.filename)

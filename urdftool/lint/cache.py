@@ -147,14 +147,14 @@ class Cache:
     def _get_rows(self, read: Dependencies) -> list[Row] | None:
         """Return the queries with their answers; None if a stamp has changed since the query."""
         rows: list[Row] = []
-        for question, stamp in read.asked.items():
+        for question, stamp in read.stamps.items():
             if question not in self._answers:
-                said = compute_answer(question)
-                self._answers[question] = said, read_stamp(question)
-            said, now = self._answers[question]
-            if now != stamp and said != "folder":
+                answer = compute_answer(question)
+                self._answers[question] = answer, read_stamp(question)
+            answer, now = self._answers[question]
+            if now != stamp and answer != "folder":
                 return None
-            rows.append((*question, said, now if is_settled(now) and now else None))
+            rows.append((*question, answer, now if is_settled(now) and now else None))
         return rows
 
     def _set(self, read: Dependencies) -> str | None:
@@ -169,19 +169,19 @@ class Cache:
 
     def _holds(self, row: Row) -> bool:
         """Tell whether a query still has the same answer."""
-        kind, path, said, stamp = row
+        kind, path, answer, stamp = row
         if kind == _SHARED:
             return self._set_holds(path)
         question = kind, path
         if question not in self._stamps:
             self._stamps[question] = read_stamp(question)
         now = self._stamps[question]
-        known = has_stamp(question) and (now is None) == (said == ABSENT)
+        known = has_stamp(question) and (now is None) == (answer == ABSENT)
         if known and (now is None or now == stamp):
             return True
         if question not in self._answers:
             self._answers[question] = compute_answer(question), now
-        return self._answers[question][0] == said
+        return self._answers[question][0] == answer
 
     def _set_holds(self, digest: str) -> bool:
         if digest not in self._valid:
@@ -203,15 +203,15 @@ def _read_row(row: Any) -> Row:
         ValueError: It is damaged.
         TypeError: It is damaged.
     """
-    kind, path, said, stamp = row
-    if not (kind == _SHARED or kind in KINDS) or type(path) is not str or type(said) is not str:
+    kind, path, answer, stamp = row
+    if not (kind == _SHARED or kind in KINDS) or type(path) is not str or type(answer) is not str:
         raise ValueError(row)
-    return kind, path, said, None if stamp is None else tuple(stamp)
+    return kind, path, answer, None if stamp is None else tuple(stamp)
 
 
 def _list_digests(rows: Iterable[Row]) -> dict[str, str]:
     """Return the digests of the files of queries, by path."""
-    return {path: said for kind, path, said, _ in rows if kind == "file"}
+    return {path: answer for kind, path, answer, _ in rows if kind == "file"}
 
 
 def _write_file(file: SourceFile, digests: Mapping[str, str]) -> list[Any]:

@@ -38,15 +38,15 @@ def list_parts(paths: Iterable[str]) -> list[str]:
 def explain_nothing_found(paths: Iterable[str]) -> str:
     """Return the message for folders without a description, with a ``.xacro`` that may be one."""
     folders = list(paths)
-    said = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
+    message = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
     for folder in folders:
         for path in list_files(folder, (".xacro",)):
             if _has_name(path):
                 return (
-                    f"{said}; .xacro files may be parts of robots: give {path} itself if it is "
+                    f"{message}; .xacro files may be parts of robots: give {path} itself if it is "
                     "a robot"
                 )
-    return said
+    return message
 
 
 def _has_name(path: str) -> bool:

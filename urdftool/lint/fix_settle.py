@@ -52,21 +52,21 @@ class Settler:
             for change in proposal.changes:
                 if isinstance(change, Change):
                     element = change.element
-                    _, wanted = by_element.setdefault(id(element), (element, {}))
-                    wanted[change.what] = change
+                    _, by_part = by_element.setdefault(id(element), (element, {}))
+                    by_part[change.what] = change
         done: set[tuple[str, int]] = set()
-        for element, wanted in by_element.values():
+        for element, by_part in by_element.values():
             site = element.file.path, element.start
             if id(element) in self.expanded:
                 for user in self.users[site]:
-                    if list(by_element.get(id(user), (None, {}))[1]) != list(wanted):
+                    if list(by_element.get(id(user), (None, {}))[1]) != list(by_part):
                         raise RefusedError(
                             "its source is also used elsewhere, where it must not "
                             f"change in this way ({_format_element(user)})"
                         )
             if site not in done:
                 done.add(site)
-                for change in wanted.values():
+                for change in by_part.values():
                     found += self._list_edits(change)
         found.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
         for one, other in pairwise(found):

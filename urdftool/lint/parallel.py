@@ -42,8 +42,8 @@ def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator
         return
     from ..parallel import count_cores, map_tasks, yield_in_order
 
-    wanted = jobs or count_cores()
-    workers = 1 if "-" in paths else wanted
+    processes = jobs or count_cores()
+    workers = 1 if "-" in paths else processes
     if workers > 1 and len(paths) > 1:
         yield check_file(paths[0], options)  # imports the rules before workers are forked
         paths = paths[1:]

@@ -86,11 +86,11 @@ class Repository:
 
         A robot that includes a file by a computed name may include any of them.
         """
-        wanted = set(changed)
+        changed_paths = set(changed)
         return [
             real
             for real in self.robots
-            if (files := self.list_files(real)) & wanted or files & self.computes
+            if (files := self.list_files(real)) & changed_paths or files & self.computes
         ]
 
 

@@ -48,13 +48,13 @@ class Settings:
 
     def get_names(self) -> list[str]:
         """Return the selected rules, whether or not they are on for the targets."""
-        wanted = set(FAMILY_OF) if self.select is None else _expand(self.select)
-        wanted |= _expand(self.extend_select)
-        wanted -= _expand(self.ignore)
+        selected = set(FAMILY_OF) if self.select is None else _expand(self.select)
+        selected |= _expand(self.extend_select)
+        selected -= _expand(self.ignore)
         return [
             name
             for name in FAMILY_OF
-            if name in wanted and self.severity.get(name, Severity.INFO) is not None
+            if name in selected and self.severity.get(name, Severity.INFO) is not None
         ]
 
     def get_rules(self, targets: frozenset[str], tags: Set[str]) -> list[Rule]:
@@ -151,14 +151,14 @@ def read_settings(file: str | Path, configuration: Configuration, line: Settings
     if not table:
         return line
     path = configuration.path
-    said = _from_table(table, path)
+    own = _from_table(table, path)
     ignores = _read_per_file_ignores(file, table.get("per-file-ignores", {}), path)
     return replace(
-        said,
-        select=said.select if line.select is None else line.select,
-        extend_select=(*said.extend_select, *line.extend_select),
-        ignore=(*said.ignore, *ignores, *line.ignore),
-        targets=said.targets if line.targets is None else line.targets,
+        own,
+        select=own.select if line.select is None else line.select,
+        extend_select=(*own.extend_select, *line.extend_select),
+        ignore=(*own.ignore, *ignores, *line.ignore),
+        targets=own.targets if line.targets is None else line.targets,
     )
 
 

@@ -29,14 +29,14 @@ def get_variants(file: str | Path, configuration: Configuration) -> list[dict[st
     if not isinstance(table, list):
         raise ConfigError("lint.variants must be written as [[lint.variants]]", path=path)
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
-    wanted = os.path.realpath(file)
+    real = os.path.realpath(file)
     found: list[dict[str, str]] = []
     for number, variant in enumerate(table, start=1):
         name, arguments = _read(variant, number, path)
         described = os.path.realpath(os.path.join(folder, name))
         if not os.path.isfile(described):
             raise ConfigError(f"lint.variants {number}: file {name} does not exist", path=path)
-        if described == wanted and arguments not in found:
+        if described == real and arguments not in found:
             found.append(arguments)
     return found
 

@@ -67,8 +67,8 @@ _ORDERS = {
 }
 
 _REORDERED = tuple(
-    (meant, tuple(COMPONENTS.index(taken[wanted.index(name)]) for name in COMPONENTS))
-    for (meant, wanted), (_, taken) in permutations(_ORDERS.items(), 2)
+    (meant, tuple(COMPONENTS.index(taken[expected.index(name)]) for name in COMPONENTS))
+    for (meant, expected), (_, taken) in permutations(_ORDERS.items(), 2)
 )
 """Permutations: the numbers intended in one of the usual orders and written in another."""
 
@@ -272,8 +272,8 @@ def _is_near(candidate: _Candidate, solid: SymmetricTensor | None, room: Vector 
     """
     if solid is None:
         return room is not None
-    value, wanted = candidate.tensor[candidate.entry], solid[candidate.entry]
-    return abs(value - wanted) <= 0.25 * abs(wanted)
+    value, expected = candidate.tensor[candidate.entry], solid[candidate.entry]
+    return abs(value - expected) <= 0.25 * abs(expected)
 
 
 def _propose_copy(tensor: SymmetricTensor, solid: SymmetricTensor) -> Proposal | None:

@@ -296,36 +296,36 @@ class Carried(NamedTuple):
     """Parameters that a system takes over from a plugin.
 
     Attributes:
-        said: New names with their texts, or with the element if it has children.
+        carried: New names with their texts, or with the element if it has children.
         left: Parameters without an equivalent.
     """
 
-    said: list[tuple[str, str | Element]]
+    carried: list[tuple[str, str | Element]]
     left: list[str]
 
 
 def convert_parameters(plugin: Element, system: System) -> Carried:
     """Return the parameters of a plugin as a system reads them, including the plugin's defaults."""
-    said: list[tuple[str, str | Element]] = []
+    carried: list[tuple[str, str | Element]] = []
     left = []
     for child in plugin.children:
         new = system.parameters.get(child.tag)
         if new is None:
             left.append(child.tag)
         elif child.children:
-            said.append((new, child))
+            carried.append((new, child))
         else:
-            said += [(new, text) for text in _collect_texts(system, child)]
-    there = {tag for tag, _ in said}
+            carried += [(new, text) for text in _collect_texts(system, child)]
+    there = {tag for tag, _ in carried}
     for old, new in _collect_remappings(plugin).items():
         tag = system.remapped.get(old)
         if tag is not None and tag not in there:
-            said.append((tag, new))
+            carried.append((tag, new))
             there.add(tag)
-    said += [(tag, text) for tag, text in system.defaults.items() if tag not in there]
+    carried += [(tag, text) for tag, text in system.defaults.items() if tag not in there]
     others = {tag for one in SYSTEM_PLUGINS[get_library(plugin)] for tag in one.parameters}
     known = others | _SETUP
-    return Carried(said, [tag for tag in dict.fromkeys(left) if tag not in known])
+    return Carried(carried, [tag for tag in dict.fromkeys(left) if tag not in known])
 
 
 def _collect_texts(system: System, child: Element) -> list[str]:

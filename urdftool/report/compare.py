@@ -67,7 +67,7 @@ def _escape_cell(text: str) -> str:
 
 def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float) -> str:
     """Format the changes as one object; lengths [m], angles [rad], masses [kg]."""
-    said = {
+    content = {
         "version": 1,
         "before": names[0],
         "after": names[1],
@@ -75,7 +75,7 @@ def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float)
         "equal": not changes,
         "changes": [_record(change) for change in changes],
     }
-    return format_json(said, 1) + "\n"
+    return format_json(content, 1) + "\n"
 
 
 def _record(change: Change) -> dict[str, Any]:

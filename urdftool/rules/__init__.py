@@ -44,8 +44,8 @@ def get_rule(name: str) -> Rule:
 
 def applies_to(name: str, tags: Set[str]) -> bool:
     """Tell whether a rule can find anything in a robot that has only these elements."""
-    wanted = APPLIES_TO.get(FILE_OF[name])
-    return wanted is None or not tags.isdisjoint(wanted)
+    required = APPLIES_TO.get(FILE_OF[name])
+    return required is None or not tags.isdisjoint(required)
 
 
 def get_all_rules() -> Iterator[Rule]:

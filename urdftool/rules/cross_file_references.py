@@ -102,14 +102,14 @@ def check_not_included(context: FixContext) -> None:
     file = context.description.packages.file
     own = context.description.packages.own
     for folder in context.description.packages.list_neighbors():
-        for user, said in _find_includes(context.workspace, str(folder)).get(file.name, ()):
-            found = _FIND.match(said)
+        for user, reference in _find_includes(context.workspace, str(folder)).get(file.name, ()):
+            found = _FIND.match(reference)
             if found is not None:
                 is_this = own is not None and found[1] == own[0]
             else:
-                there = os.path.join(os.path.dirname(user), said)
+                there = os.path.join(os.path.dirname(user), reference)
                 real_path = context.workspace.resolve_links
-                is_this = "$" in said or real_path(there) == real_path(file)
+                is_this = "$" in reference or real_path(there) == real_path(file)
             if is_this:
                 raise RefusedError(
                     f"{shorten_path(user)} includes {file.name}, and would get the element too"
@@ -133,8 +133,8 @@ def _find_includes(workspace: Workspace, folder: str) -> dict[str, list[tuple[st
         except OSError:
             continue
         for match in _INCLUDE.finditer(data):
-            said = match[1].decode("utf-8", "replace").strip()
-            found.setdefault(said.rpartition("/")[2], []).append((path, said))
+            reference = match[1].decode("utf-8", "replace").strip()
+            found.setdefault(reference.rpartition("/")[2], []).append((path, reference))
     return found
 
 

@@ -154,8 +154,8 @@ def _view(run: Run, shapes: Shapes, camera: Camera, size: tuple[int, int]) -> Vi
     """Place a camera that shows the whole run while the robot is near its start."""
     recording = run.recording
     rows = _find_finite(recording)
-    apart = np.linalg.norm(recording.poses[rows, 0, :3] - recording.poses[0, 0, :3], axis=1)
-    near = rows[apart < _AWAY * max(run.bodies.size, 0.1)]
+    distances = np.linalg.norm(recording.poses[rows, 0, :3] - recording.poses[0, 0, :3], axis=1)
+    near = rows[distances < _AWAY * max(run.bodies.size, 0.1)]
     some = near[np.unique(np.linspace(0, len(near) - 1, 9).astype(int))]
     boxes = []
     for row in some:

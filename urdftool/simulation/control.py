@@ -94,9 +94,9 @@ class Pids:
             positions: Joint positions [rad, m].
             rates: Joint velocities [rad/s, m/s].
         """
-        apart = self._target - positions
-        turn = (apart + math.pi) % (2 * math.pi) - math.pi
-        error = np.where(self._by_position, np.where(self._turning, turn, apart), -rates)
+        errors = self._target - positions
+        turn = (errors + math.pi) % (2 * math.pi) - math.pi
+        error = np.where(self._by_position, np.where(self._turning, turn, errors), -rates)
         self._sum = self._sum + self._dt * error
         some = self._windup
         ends = np.sort(np.stack([self._low[some], self._high[some]]) / self._i[some], axis=0)

@@ -54,8 +54,8 @@ class Difference:
     @property
     def excess(self) -> float:
         """Return the difference over its tolerance."""
-        apart = abs(self.one - self.other)
-        return apart / self.bound if math.isfinite(apart) else math.inf
+        difference = abs(self.one - self.other)
+        return difference / self.bound if math.isfinite(difference) else math.inf
 
     def write_value(self, number: float) -> str:
         """Write one of the two values with its unit."""

@@ -86,9 +86,9 @@ def find_groups(robot: Robot, given: Sequence[GivenGroup] = ()) -> PlanningGroup
     """
     tree = BodyTree(robot)
     grippers = find_grippers(tree)
-    asked = [_NamedChain(one.name, _check_given(tree, one)) for one in given]
+    given_chains = [_NamedChain(one.name, _check_given(tree, one)) for one in given]
     _check_names(given)
-    chains = _name_chains(tree, asked, find_chains(tree, grippers))
+    chains = _name_chains(tree, given_chains, find_chains(tree, grippers))
     result = PlanningGroups()
     for named in chains:
         chain = Chain(None, named.chain.base, named.chain.tip)
@@ -133,15 +133,15 @@ def _check_names(given: Sequence[GivenGroup]) -> None:
 
 
 def _name_chains(
-    tree: BodyTree, asked: list[_NamedChain], found: list[KinematicChain]
+    tree: BodyTree, given_chains: list[_NamedChain], found: list[KinematicChain]
 ) -> list[_NamedChain]:
     """Name the found chains that share no joint with those that were asked for."""
-    used = {joint.name for named in asked for joint in named.chain.joints}
+    used = {joint.name for named in given_chains for joint in named.chain.joints}
     free = [one for one in found if not used & {joint.name for joint in one.joints}]
     unnamed = not any(map(guess_kind, free))
     default = "finger" if len(free) > 2 and unnamed and _is_hand(tree.robot) else "arm"
-    taken = {named.name for named in asked}
-    result = list(asked)
+    taken = {named.name for named in given_chains}
+    result = list(given_chains)
     for chain in free:
         name = _take_name(guess_chain_name(chain, guess_kind(chain) or default), taken)
         taken.add(name)

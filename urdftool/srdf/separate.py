@@ -122,11 +122,11 @@ class Separator:
             lowest = np.minimum.reduceat(slack[rows], first)
             number = np.repeat(np.arange(len(first)), np.diff([*first, len(rows)]))
             hits = np.nonzero(slack[rows] == lowest[number])[0]
-            asked = rows[hits[np.unique(number[hits], return_index=True)[1]]]
-            found = self._ask(c.choose(asked), poses)
-            directions[c.box[asked]] = found
-            kept = self._try(c, poses, needed, slack, found, rows, (c.box[asked], number))
-            stays = slack[asked] <= 0
+            queried = rows[hits[np.unique(number[hits], return_index=True)[1]]]
+            found = self._ask(c.choose(queried), poses)
+            directions[c.box[queried]] = found
+            kept = self._try(c, poses, needed, slack, found, rows, (c.box[queried], number))
+            stays = slack[queried] <= 0
             done = kept & stays[number]
             settled.append(rows[done])
             rows = rows[kept & ~stays[number]]

@@ -102,8 +102,8 @@ class Verdicts:
 
     def find(self, link1: str, link2: str) -> Verdict | None:
         """Return the verdict on two links; None without one."""
-        wanted = frozenset((link1, link2))
-        return next((verdict for verdict in self.pairs if verdict.links == wanted), None)
+        ends = frozenset((link1, link2))
+        return next((verdict for verdict in self.pairs if verdict.links == ends), None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -214,10 +214,10 @@ def _handle_request(
     hosts, origins, upgrades = map(request.headers.get_all, ("Host", "Origin", "Upgrade"))
     if len(hosts) != 1 or len(origins) > 1 or len(upgrades) > 1:
         return connection.respond(400, "One Host, and at most one Origin and Upgrade.\n")
-    asked = hosts[0]
+    own_host = hosts[0]
     try:
-        name = urlsplit(f"//{asked}").hostname or ""
-        strange = any(urlsplit(origin).netloc != asked for origin in origins)
+        name = urlsplit(f"//{own_host}").hostname or ""
+        strange = any(urlsplit(origin).netloc != own_host for origin in origins)
     except ValueError:  # brackets without an address of IPv6
         return connection.respond(400, "The Host or Origin header is malformed.\n")
     if is_loopback(host) and not is_loopback(name):
@@ -239,7 +239,7 @@ def _handle_request(
     if response is not None:
         nonce = make_token()
         response.body = _write_head(response.body or b"", title(), nonce)
-        response.headers["Content-Security-Policy"] = make_policy(asked, nonce)
+        response.headers["Content-Security-Policy"] = make_policy(own_host, nonce)
         response.headers["Referrer-Policy"] = "no-referrer"
         response.headers["X-Content-Type-Options"] = "nosniff"
         response.headers["Cache-Control"] = "no-store"
@@ -271,7 +271,7 @@ def _write_head(body: bytes, title: str, nonce: str) -> bytes:
     return body.replace(b"NONCE", nonce.encode())
 
 
-def make_policy(asked: str, nonce: str) -> str:
+def make_policy(own_host: str, nonce: str) -> str:
     """Return the Content-Security-Policy: the page, its embedded data and its websocket only.
 
     Scripts and style sheets need the nonce. ``wasm-unsafe-eval`` is for the program that unpacks
@@ -279,10 +279,10 @@ def make_policy(asked: str, nonce: str) -> str:
     ``eval``, Gaussian splats and Plotly, does not occur on the page.
 
     Args:
-        asked: Host header of the request; ignored if malformed.
+        own_host: Host header of the request; ignored if malformed.
         nonce: Random text of this response.
     """
-    safe = asked if re.fullmatch(r"[\w.:\[\]-]+", asked, re.ASCII) else ""
+    safe = own_host if re.fullmatch(r"[\w.:\[\]-]+", own_host, re.ASCII) else ""
     return "; ".join(
         (
             "default-src 'none'",

@@ -197,12 +197,12 @@ def _get_position_direction(robot: Robot, joint: Joint) -> AxleDirection | None:
         if pair.left.name not in known.poses or pair.right.name not in known.poses:
             return None
         a, b = (known.poses[one.name].translation for one in (pair.left, pair.right))
-        apart = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
-        length = compute_norm(apart)
-        if length < 1e-3 or max(map(abs, apart)) < 0.95 * length:
+        offset = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+        length = compute_norm(offset)
+        if length < 1e-3 or max(map(abs, offset)) < 0.95 * length:
             return None
         turn = transpose(known.poses[joint.child].rotation)
-        return AxleDirection(TWIN_POSITION, _normalize(rotate(turn, apart)))
+        return AxleDirection(TWIN_POSITION, _normalize(rotate(turn, offset)))
     return None
 
 

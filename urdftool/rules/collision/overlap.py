@@ -338,13 +338,13 @@ def _sweep(
     outside = [body for body in known.bodies if body not in bodies and body not in along]
     at = known.poses[joint.parent] @ make_pose(joint.origin)
     back = (at @ compute_motion(joint, rest)).invert()
-    apart = known.neighbors | taken
+    excluded = known.neighbors | taken
     carrier = known.body_of[joint.parent]
     partners = {
         one: [
             (other, *known.spheres[other])
             for other in outside
-            if frozenset((one, other)) not in apart
+            if frozenset((one, other)) not in excluded
             and carrier in (other, _find_carrier(known, one))
             and _find_carrier(known, _find_carrier(known, one)) == other
         ]

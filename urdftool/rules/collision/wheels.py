@@ -199,8 +199,8 @@ def caster_height_mismatch(
     firsts = [min(end, key=lambda c: c.tilt) for end in ends if end]
     if len(firsts) == 2:
         one, other = firsts
-        apart = abs(one.ahead) + abs(other.ahead)
-        air = -(one.above * abs(other.ahead) + other.above * abs(one.ahead)) / apart
+        span = abs(one.ahead) + abs(other.ahead)
+        air = -(one.above * abs(other.ahead) + other.above * abs(one.ahead)) / span
         if air > deepest:
             low = min(firsts, key=lambda c: c.above)
             yield _report_caster(low, f"the wheels are {air * 1000:.3g} mm above the ground")

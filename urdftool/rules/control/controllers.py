@@ -67,11 +67,11 @@ def _check_joint(
         return
     near = _suggest_joint(robot, controller, name)
     if near or (not file.shared and _is_sure(robot, package, file, controller)):
-        asked = f"; did you mean '{near}'?" if near else ""
+        question = f"; did you mean '{near}'?" if near else ""
         yield Problem(
             robot,
             f"controller '{controller.name}' refers to joint '{name}', which the robot does not "
-            f"have{asked}",
+            f"have{question}",
             at=node.place,
             data={"joint": name, "suggestion": near},
         )

@@ -114,12 +114,12 @@ def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
     if simulated and not plugins:
         first = simulated[0]
         classic = (first.plugin or "").startswith(_CLASSIC)
-        wanted = "libgazebo_ros2_control.so" if classic else "gz_ros2_control-system"
+        library = "libgazebo_ros2_control.so" if classic else "gz_ros2_control-system"
         yield Problem(
             first.element,
             f"ros2_control '{first.name}' has simulated hardware, but no Gazebo plugin runs it; "
-            f'add one with filename="{wanted}"',
-            data={"plugin": wanted},
+            f'add one with filename="{library}"',
+            data={"plugin": library},
         )
     elif plugins and not any(control.plugin for control in robot.ros2_controls):
         yield Problem(

@@ -80,9 +80,9 @@ def limits_not_mirrored(
     if len(unlike) > together:
         names = ", ".join(f"'{pair.right_joint.name}'" for pair, _, _ in unlike[1:])
         also = f"; the same applies to {names}"
-    for pair, message, wanted in unlike[:1] if also else unlike:
+    for pair, message, expected in unlike[:1] if also else unlike:
         joint = pair.right_joint
-        data = {"twin": pair.left_joint.name, "mirrored": list(wanted)}
+        data = {"twin": pair.left_joint.name, "mirrored": list(expected)}
         yield Problem(joint, message + also, at=joint.limit, data=data)
 
 
@@ -117,13 +117,13 @@ def _find_asymmetric_ranges(
         if alike is None or left is None or right is None:
             continue
         opposite = (-left[1], -left[0])
-        wanted, other = (left, opposite) if alike else (opposite, left)
-        if _is_near(right, wanted, tolerance):
+        expected, other = (left, opposite) if alike else (opposite, left)
+        if _is_near(right, expected, tolerance):
             continue
         if _is_near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
             continue
         name, twin = pair.right_joint.name, pair.left_joint.name
-        low, high = wanted
+        low, high = expected
         if _is_near(right, other, tolerance):
             what = "its axis or its limits have the wrong sign"
         else:
@@ -132,7 +132,7 @@ def _find_asymmetric_ranges(
             f"range {right[0]:g} to {right[1]:g} of joint '{name}' is not the mirror image of the "
             f"range of '{twin}': {what}"
         )
-        yield pair, message, wanted
+        yield pair, message, expected
 
 
 @rule(

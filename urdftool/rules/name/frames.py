@@ -52,12 +52,12 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
         rotation = make_pose(joint.origin).rotation
         off = max(
             abs(a - b)
-            for row, wanted in zip(rotation, _OPTICAL, strict=True)
-            for a, b in zip(row, wanted, strict=True)
+            for row, expected in zip(rotation, _OPTICAL, strict=True)
+            for a, b in zip(row, expected, strict=True)
         )
         if off > tolerance:
             turns = sum(
-                compute_dot(row, wanted) for row, wanted in zip(rotation, _OPTICAL, strict=True)
+                compute_dot(row, expected) for row, expected in zip(rotation, _OPTICAL, strict=True)
             )
             angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
             yield Problem(

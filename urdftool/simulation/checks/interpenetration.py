@@ -193,9 +193,9 @@ def _has_common_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
     if not any(bodies[index].shapes for index in between):
         return True
     places = start.poses[path, :3]
-    apart = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
+    distance = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
     smaller = min(_measure_extents(bodies[number]).max() for number in numbers)
-    return bool(apart < start.thresholds.compound_joint * smaller)
+    return bool(distance < start.thresholds.compound_joint * smaller)
 
 
 def _measure_extents(body: RigidBody) -> Array:

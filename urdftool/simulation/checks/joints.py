@@ -208,17 +208,17 @@ def _report_misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
         if joint.leader not in columns:
             continue
         led = float(run.recording.positions[-1, columns[joint.leader]])
-        asked = joint.multiplier * led + joint.offset
-        if not max(joint.lower - asked, asked - joint.upper) > _limit_bound(joint, run):
+        commanded = joint.multiplier * led + joint.offset
+        if not max(joint.lower - commanded, commanded - joint.upper) > _limit_bound(joint, run):
             continue
         length, _ = _collect_units(joint)
-        side, limit = ("upper", joint.upper) if asked > joint.upper else ("lower", joint.lower)
+        side, limit = ("upper", joint.upper) if commanded > joint.upper else ("lower", joint.lower)
         mimic = _make_joint(robot, joint.name).mimic
         yield Fault(
             "beyond-limit",
             Severity.ERROR,
-            f"joint '{joint.name}' follows '{joint.leader}' to {asked:.3g} {length}, beyond its "
-            f"own {side} limit {limit:.3g}",
+            f"joint '{joint.name}' follows '{joint.leader}' to {commanded:.3g} {length}, beyond "
+            f"its own {side} limit {limit:.3g}",
             (mimic or _make_joint(robot, joint.name)).place,
             "joint",
             joint.name,

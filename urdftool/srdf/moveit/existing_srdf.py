@@ -88,12 +88,12 @@ def _list_missing(
     existing = configuration.semantic.groups
     used = {one.name for group in existing for one in configuration.list_group_joints(group)}
     known = set(configuration.groups)
-    asked = {one.name for one in lacking}
+    lacking_names = {one.name for one in lacking}
     new = []
     for group in found.groups:
         joints = {one.name for one in planned.list_group_joints(group)}
         is_free = bool(joints) and not joints & used and set(group.groups) <= known
-        if group.name in asked or (is_free and group.name not in known):
+        if group.name in lacking_names or (is_free and group.name not in known):
             new.append(group)
             known.add(group.name)
     return _select(planned, new, configuration.semantic)

@@ -219,11 +219,11 @@ def _complete_moveit(
         for section in sections.values()
         for node in (section.fields or {}).get("joints", section).items or ()
     }
-    wanted = [one for one in controllers if one.name in sections or not used & set(one.joints)]
-    yield from complete(root, make_moveit_controllers(wanted))
+    written = [one for one in controllers if one.name in sections or not used & set(one.joints)]
+    yield from complete(root, make_moveit_controllers(written))
     listed = root.find(MANAGER, "controller_names")
     present = {node.text for node in (listed.items if listed is not None else None) or ()}
-    lacking = [one.name for one in wanted if one.name not in present]
+    lacking = [one.name for one in written if one.name not in present]
     if listed is not None and lacking:
         if listed.items is None:
             raise ConfigError("controller_names is not a list", at=listed.place)

@@ -79,8 +79,8 @@ class ContactReader:
             rest = np.array(others[position + 1 :], dtype=int)
             if not len(rest):
                 continue
-            apart = np.linalg.norm(data.geom_xpos[rest] - data.geom_xpos[one], axis=1)
-            near = apart < model.geom_rbound[rest] + model.geom_rbound[one]
+            distances = np.linalg.norm(data.geom_xpos[rest] - data.geom_xpos[one], axis=1)
+            near = distances < model.geom_rbound[rest] + model.geom_rbound[one]
             near |= rest == self.plane
             for other in rest[near]:
                 pair = self._pair(one, int(other))

@@ -61,20 +61,20 @@ def _list_mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Ite
     got = combine(parts)
     if not math.isclose(got.mass, body.mass, rel_tol=_CLOSE, abs_tol=1e-12):
         yield ReadBack("link", body.name, "mass", f"{body.mass:g} kg", f"{got.mass:g} kg")
-    said = body.properties
-    if said is None or not body.mass:
+    given = body.properties
+    if given is None or not body.mass:
         return
-    scale = max(map(abs, said.tensor))
-    least, middle, most = compute_principal_moments(said.tensor)
+    scale = max(map(abs, given.tensor))
+    least, middle, most = compute_principal_moments(given.tensor)
     close = 1e-4 if most <= least + middle else TENSOR_ROUNDING
-    if not np.allclose(got.tensor, said.tensor, rtol=1e-4, atol=close * scale + 1e-12):
+    if not np.allclose(got.tensor, given.tensor, rtol=1e-4, atol=close * scale + 1e-12):
         one, two = (
             " ".join(f"{value:.4g}" for value in compute_principal_moments(part.tensor))
-            for part in (said, got)
+            for part in (given, got)
         )
         yield ReadBack("link", body.name, "principal moments", f"{one} kg·m²", f"{two} kg·m²")
-    if not np.allclose(got.com, said.com, atol=1e-6):
-        one, two = (" ".join(f"{value:.4g}" for value in part.com) for part in (said, got))
+    if not np.allclose(got.com, given.com, atol=1e-6):
+        one, two = (" ".join(f"{value:.4g}" for value in part.com) for part in (given, got))
         yield ReadBack("link", body.name, "center of mass", f"{one} m", f"{two} m")
 
 

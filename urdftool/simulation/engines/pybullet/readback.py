@@ -56,11 +56,11 @@ def _list_mass(info: Any, body: RigidBody, fixed_base: bool) -> Iterator[ReadBac
         return
     scale = max(map(abs, moments))
     if not np.allclose(info[2], moments, rtol=_CLOSE, atol=_CLOSE * scale):
-        said, got = (" ".join(f"{value:.4g}" for value in part) for part in (moments, info[2]))
-        yield ReadBack("link", body.name, "principal moments", f"{said} kg·m²", f"{got} kg·m²")
+        given, got = (" ".join(f"{value:.4g}" for value in part) for part in (moments, info[2]))
+        yield ReadBack("link", body.name, "principal moments", f"{given} kg·m²", f"{got} kg·m²")
     if not np.allclose(info[3], frame.translation, atol=1e-6):
-        said, got = (" ".join(f"{value:.4g}" for value in p) for p in (frame.translation, info[3]))
-        yield ReadBack("link", body.name, "center of mass", f"{said} m", f"{got} m")
+        given, got = (" ".join(f"{value:.4g}" for value in p) for p in (frame.translation, info[3]))
+        yield ReadBack("link", body.name, "center of mass", f"{given} m", f"{got} m")
 
 
 def _list_joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:
@@ -84,5 +84,5 @@ def _list_joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:
     frame, _ = compute_principal_frame(body)
     axis = np.array(frame.rotation).T @ np.array(joint.axis)
     if not np.allclose(info[13], axis, atol=1e-5):
-        said, got = (" ".join(f"{value:.4g}" for value in part) for part in (axis, info[13]))
-        yield ReadBack("joint", joint.name, "axis", said, got)
+        given, got = (" ".join(f"{value:.4g}" for value in part) for part in (axis, info[13]))
+        yield ReadBack("joint", joint.name, "axis", given, got)
