@@ -375,6 +375,12 @@ def get_written_value(element: Element, name: str) -> str:
     return (read_literal(raw, name) if raw is not None else None) or element.get(name) or ""
 
 
+def get_written_text(element: Element) -> str:
+    """Get the text of an element as written, expressions included."""
+    raw = _find_as_written(element)
+    return (raw.text if raw is not None else element.text).strip()
+
+
 def is_computed(element: Element, name: str = "name") -> bool:
     """Tell whether an attribute comes from an expression, which arguments may change."""
     return "$" in get_written_value(element, name)

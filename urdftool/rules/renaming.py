@@ -92,6 +92,28 @@ def list_joint_references(root: Element) -> Iterator[tuple[Element, str, str]]:
                 yield element, "", text
 
 
+def list_names_in_blocks(robot: Robot, joint: Joint) -> list[tuple[str, str]]:
+    """List what names a joint, or the link that it moves, in blocks for simulators and drives.
+
+    Gazebo lumps the child of a fixed joint into its parent, with the sensors of its own blocks:
+    what names the joint or the link elsewhere then names nothing.
+
+    Returns:
+        The name, and the tag or attribute that holds it.
+    """
+    if robot.format != "urdf":
+        return []
+    found = []
+    for block in robot.element.children:
+        if block.tag in ("gazebo", "transmission", "ros2_control"):
+            for element, attribute in find_joint_references(block, joint.name):
+                found.append((joint.name, attribute or element.tag))
+            for element, attribute in find_link_references(block, joint.child):
+                if element is not block:
+                    found.append((joint.child, attribute or element.tag))
+    return found
+
+
 def get_part(problem: Problem) -> Link | Joint | None:
     """Get the link or joint that a problem is about; None for anything else."""
     return problem.subject if isinstance(problem.subject, Link | Joint) else None

@@ -9,21 +9,23 @@ from typing import NamedTuple
 
 from ...model.attached import find_attached_links
 from ...model.elements import GazeboExtension, Link, Robot, Sensor
+from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library
 from ...model.pose import IDENTITY, Pose, rotation_from_rpy
 from ...model.read import parse_numbers
+from ...source.document import Element
 from ..fix import (
-    Change,
     FixContext,
     Proposal,
     append_child,
     append_number,
     escape_attribute,
     get_suggestion,
+    get_written_text,
     get_written_value,
-    insert_after,
     is_computed,
     remove_element,
     rename_element,
+    replace_element,
     safe,
     set_attribute,
     unsafe,
@@ -155,8 +157,10 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
 
 @ros_plugin_inside_sensor.fix(UNSAFE)
 def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
-    """Replace the plugin by its topic."""
+    """Replace the plugin by its topic, once the sensor itself has the frame that it names."""
     sensor = problem.element
+    if not _has_frame(sensor) and _find_frame_parameter(sensor) is not None:
+        return None  # the fix of missing-gz-frame-id writes it first
     plugins = [
         p for p in sensor.list_children("plugin") if "libgazebo_ros_" in (p.get("filename") or "")
     ]
@@ -171,10 +175,10 @@ def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
     topic = next((text for text in texts if text), (sensor.get("name") or "").strip())
     if not topic or "$" in topic:
         return None
-    changes: list[Change] = [remove_element(plugin)]
-    if sensor.find_child("topic") is None:
-        changes.append(insert_after(plugin, f"<topic>{escape_attribute(topic)}</topic>"))
-    return unsafe(f"write <topic>{topic}</topic>", *changes)
+    line = f"<topic>{escape_attribute(topic)}</topic>"
+    named = sensor.find_child("topic") is not None
+    change = remove_element(plugin) if named else replace_element(plugin, (line,))
+    return unsafe(f"write <topic>{topic}</topic>", change)
 
 
 @rule(
@@ -188,14 +192,20 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
     """A sensor has no ``<gz_frame_id>``.
 
     New Gazebo then uses a frame with the names of model, link and sensor, which does not exist in
-    TF, so RViz shows no data. Write the link of the sensor in ``<gz_frame_id>``
-    (``ignition_frame_id`` in Fortress). If the sensor has a ``<pose>``, write a link that is fixed
-    at that pose, or add one: with the link of the sensor its data would be displaced. More than
-    ``together`` sensors of a kind are one finding.
+    TF, so RViz shows no data. Write ``<gz_frame_id>`` (``ignition_frame_id`` in Fortress): the
+    frame that the sensor's plugin names, such as the optical frame of a camera, otherwise the link
+    of the sensor. If the sensor has a ``<pose>``, write a link that is fixed at that pose, or add
+    one: with the link of the sensor its data would be displaced. More than ``together`` sensors of
+    a kind are one finding.
     """
+    for sensor in find_sensors_without_frame(robot):
+        if sensor.named is not None and sensor.frame is None:
+            yield _report_unknown_frame(sensor, sensor.named.text.strip())
     for placed in (True, False):
         found = [
-            one for one in find_sensors_without_frame(robot) if (one.frame is not None) is placed
+            one
+            for one in find_sensors_without_frame(robot)
+            if (one.frame is not None) is placed and (placed or one.named is None)
         ]
         many = len(found) > together
         for sensor in found[:1] if many else found:
@@ -209,16 +219,27 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
                     f"'{sensor.link.name}'; add a link there, and write it in <gz_frame_id>"
                 )
             else:
-                where = ", and the link at the pose of each of the others" if many else ""
+                where = ", and the frame of each of the others" if many else ""
                 frame = f"<gz_frame_id>{sensor.frame.name}</gz_frame_id>"
-                what = f"{name} has no <gz_frame_id>; write {frame}{where}"
+                of_plugin = f", as <{sensor.named.tag}> of its plugin" if sensor.named else ""
+                what = f"{name} has no <gz_frame_id>; write {frame}{of_plugin}{where}"
                 data["frame"] = sensor.frame.name
             yield Problem(sensor.sensor.element, what, data=data)
 
 
+def _report_unknown_frame(one: SensorWithoutFrame, name: str) -> Problem:
+    assert one.named is not None
+    return Problem(
+        one.sensor.element,
+        f"sensor '{one.sensor.name}' has no <gz_frame_id>, and <{one.named.tag}> of its plugin "
+        f"names '{name}', which is not a link; add the link, and write it in <gz_frame_id>",
+        data={"sensors": [one.sensor.name], "link": one.link.name, "unknown_frame": name},
+    )
+
+
 @missing_gz_frame_id.fix(SAFE)
 def write_frame_id(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the link at the pose of each sensor of the finding."""
+    """Write the frame that the plugin names, otherwise the link at the pose of the sensor."""
     if "frame" not in problem.data:
         return None
     found = [one for one in find_sensors_without_frame(context.robot) if one.frame is not None]
@@ -242,6 +263,8 @@ def _get_frame_name(one: SensorWithoutFrame) -> str | None:
     block, frame = one.sensor.element.parent, one.frame
     if frame is None or block is None:
         return None
+    if one.named is not None:
+        return get_written_text(one.named)
     if frame is one.link:
         return get_written_value(block, "reference") or None
     if is_computed(frame.element) and frame.element.calls != one.sensor.element.calls:
@@ -255,22 +278,43 @@ class SensorWithoutFrame(NamedTuple):
     Attributes:
         sensor: The sensor.
         link: The link that contains it.
-        frame: The link at the pose of the sensor; None if there is none.
+        frame: The link that its plugin names, otherwise that at its pose; None if there is none.
+        named: Parameter of its plugin that names the frame; None without such a parameter.
     """
 
     sensor: Sensor
     link: Link
     frame: Link | None
+    named: Element | None = None
 
 
 def find_sensors_without_frame(robot: Robot) -> Iterator[SensorWithoutFrame]:
     """Yield the sensors of links that have no frame."""
     for block, sensor in _iterate_sensors(robot):
         if sensor.type in _WITH_FRAME and block.reference in robot.link:
-            tags = {child.tag for child in sensor.element.walk()}
-            if not tags & {"gz_frame_id", "ignition_frame_id", "optical_frame_id"}:
-                link = robot.link[block.reference]
-                yield SensorWithoutFrame(sensor, link, _find_link_at(robot, link, sensor))
+            if not _has_frame(sensor.element):
+                link, named = robot.link[block.reference], _find_frame_parameter(sensor.element)
+                if named is not None:
+                    frame = robot.link.get(named.text.strip())
+                else:
+                    frame = _find_link_at(robot, link, sensor)
+                yield SensorWithoutFrame(sensor, link, frame, named)
+
+
+def _has_frame(sensor: Element) -> bool:
+    tags = {child.tag for child in sensor.walk()}
+    return bool(tags & {"gz_frame_id", "ignition_frame_id", "optical_frame_id"})
+
+
+def _find_frame_parameter(sensor: Element) -> Element | None:
+    """Find the parameter of a plugin that names the frame of the messages of its sensor."""
+    for plugin in sensor.list_children("plugin"):
+        known = SENSOR_PLUGINS.get(get_library(plugin))
+        for tag in known.frame if known is not None else ():
+            found = plugin.find_child(tag)
+            if found is not None and found.text.strip():
+                return found
+    return None
 
 
 def _find_link_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:

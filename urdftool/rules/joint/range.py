@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Link, Robot
 from ...model.references import has_block
+from ..cross_file_references import check_alone
 from ..fix import (
     FixContext,
     Proposal,
@@ -18,6 +19,7 @@ from ..fix import (
     unsafe,
 )
 from ..mesh.link_extents import get_extents
+from ..renaming import list_names_in_blocks
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 
 
@@ -145,13 +147,23 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower == upper:
+            named = list_names_in_blocks(robot, joint)
+            advice = (
+                _explain_names(named[0], joint) if named else "make it fixed, or write its range"
+            )
             yield Problem(
                 joint,
-                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; "
-                "make it fixed, or write its range",
+                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; {advice}",
                 at=limit.locate_attribute("upper"),
-                data={"position": lower},
+                alike=bool(named),
+                data={"position": lower, "named_by": [name for name, _ in named]},
             )
+
+
+def _explain_names(named: tuple[str, str], joint: Joint) -> str:
+    name, where = named
+    kind = "it" if name == joint.name else f"link '{name}'"
+    return f"write its range; if it is made fixed, <{where}> names {kind}, which Gazebo lumps away"
 
 
 @locked_by_limits.fix(UNSAFE)
@@ -164,8 +176,9 @@ def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
     driven = {part.name for t in robot.transmissions for part in t.joints}
     driven |= {part.name for control in robot.ros2_controls for part in control.joints}
     driven |= {other.mimic.joint for other in robot.joints if other.mimic is not None}
-    if joint.name in driven or has_block(robot, joint.name):
+    if joint.name in driven or has_block(robot, joint.name) or problem.data["named_by"]:
         return None
+    check_alone(context, joint.name, robots=False)
     return unsafe("make it fixed", set_attribute(joint.element, "type", "fixed"))
 
 
