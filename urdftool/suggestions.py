@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Collection, Iterable
 from functools import lru_cache
+from numbers import Real
 
 from .errors import ConfigError
 
@@ -100,6 +101,25 @@ def require_positive(name: str, value: object) -> None:
     """Raise ConfigError if the value of an option is not a finite number above zero."""
     if not (isinstance(value, int | float) and 0 < value < math.inf):
         raise ConfigError(f"{name} is {value!r}, which is not a finite number above zero")
+
+
+def require_number(
+    name: str, value: object, least: float = -math.inf, most: float = math.inf
+) -> None:
+    """Raise ConfigError if the value of an option is not a finite number of a range.
+
+    Args:
+        name: Name of the option.
+        value: Its value.
+        least: Least allowed value.
+        most: Greatest allowed value.
+    """
+    if isinstance(value, Real) and math.isfinite(value) and least <= float(value) <= most:
+        return
+    bounds = "" if least == -math.inf else f" of at least {least:g}"
+    if most < math.inf:
+        bounds = f" from {least:g} to {most:g}"
+    raise ConfigError(f"{name} is {value!r}, which is not a finite number{bounds}")
 
 
 def fold(name: str) -> str:

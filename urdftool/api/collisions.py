@@ -8,6 +8,7 @@ from pathlib import Path
 from ..collision.compute import Result
 from ..collision.settings import Settings
 from ..model.elements import Robot
+from .places import check_jobs, list_words
 
 
 def simplify_collisions(
@@ -62,11 +63,16 @@ def simplify_collisions(
     from ..extras import require
     from ..storage import DiskCache, cache_folder
 
+    check_jobs(jobs)
     require("simplify_collisions", "scipy", "manifold3d")
     if robot.source is None:
         raise ModelError("the robot was not read from a description; use urdftool.load")
     options = CollisionOptions(
-        settings or Settings(), source, tuple(links), tuple(skip_links), keep_primitives
+        settings or Settings(),
+        source,
+        tuple(list_words("links", links)),
+        tuple(list_words("skip_links", skip_links)),
+        keep_primitives,
     )
     folder = None if mesh_dir is None else Path(mesh_dir)
     place = Place(Path(output), folder, uri, mesh_format, overwrite=overwrite)

@@ -8,6 +8,7 @@ from pathlib import Path
 from ..edit.draft import Draft, open_draft
 from ..edit.finish import Edited, finish
 from ..model.elements import Robot, Vector
+from ..suggestions import require_word
 
 Paths = Iterable[str | Path]
 
@@ -159,10 +160,13 @@ def mirror(
         output: As for :func:`attach`.
 
     Raises:
+        ConfigError: ``meshes`` is another word.
         MeshError: A mesh cannot be mirrored.
         ModelError: Names clash, or a joint has several positions.
     """
     from ..edit.mirror import mirror_robot
+
+    require_word("meshes", meshes, ("files", "scale"))
 
     def change(draft: Draft) -> None:
         mirror_robot(draft, plane, exchange, meshes=meshes, mesh_dir=mesh_dir)

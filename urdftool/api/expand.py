@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..source.document import STDIN, read_file
 from ..source.packages import Packages
+from .places import check_places
 
 
 def expand(
@@ -29,8 +30,7 @@ def expand(
     """
     from ..source.expand import expand_xacro
 
+    paths = check_places(packages, package_paths)
     file = read_file(path)
-    finder = Packages(
-        None if file.path == STDIN else file.path, named=packages, paths=package_paths
-    )
+    finder = Packages(None if file.path == STDIN else file.path, named=packages, paths=paths)
     return expand_xacro(file, args or {}, finder).text

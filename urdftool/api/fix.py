@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..lint.fix_run import FixedDescription
 from ..source.description import GltfUp
+from .places import check_places, list_words
 
 
 def fix(
@@ -54,14 +55,16 @@ def fix(
     from ..lint.run import check_file, warn_of_renamed
     from ..lint.settings import Settings, check_selectors, check_targets
 
-    selected, ignored = None if select is None else list(select), list(ignore)
+    paths = check_places(packages, package_paths, gltf_up=gltf_up)
+    selected = None if select is None else list_words("select", select)
+    ignored = list_words("ignore", ignore)
     warn_of_renamed((*(selected or ()), *ignored), path, config)
     chosen = Settings(
         select=None if selected is None else check_selectors(selected),
         ignore=check_selectors(ignored),
-        targets=check_targets(targets),
+        targets=check_targets(list_words("targets", targets)),
     )
-    options = Options(chosen, args or {}, packages or {}, tuple(package_paths), config, fixes=True)
+    options = Options(chosen, args or {}, packages or {}, paths, config, fixes=True)
     options.gltf_up, options.read_other = gltf_up, read_other_format
     if unsafe:
         from ..inertia.scales import Scales

@@ -14,6 +14,7 @@ from ..lint.run import check_file, check_robot, warn_of_renamed
 from ..lint.settings import Settings, check_selectors, check_targets
 from ..model.elements import Robot
 from ..source.description import GltfUp
+from .places import check_places, list_words
 
 
 def check(
@@ -53,18 +54,20 @@ def check(
         ModelError: A file of another format than URDF is not a robot description.
         ConfigError: A rule, target or option is unknown.
     """
-    chosen, ignored = None if select is None else list(select), list(ignore)
+    paths = check_places(packages, package_paths, gltf_up=gltf_up)
+    chosen = None if select is None else list_words("select", select)
+    ignored = list_words("ignore", ignore)
     line = Settings(
         select=None if chosen is None else check_selectors(chosen),
         ignore=check_selectors(ignored),
-        targets=check_targets(targets),
+        targets=check_targets(list_words("targets", targets)),
     )
     if isinstance(robot, Robot):
         if robot.source is None:
             raise ConfigError("the robot was not read from a description; use urdftool.load")
         report = check_robot(robot, Options(line, config=config, fixes=fixes))
     else:
-        options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
+        options = Options(line, args or {}, packages or {}, paths, config)
         options.fixes, options.gltf_up, options.read_other = fixes, gltf_up, read_other_format
         report = check_file(robot, options)
         if report.error is not None:

@@ -11,6 +11,7 @@ from ..model.load import make_robot
 from ..source.description import GltfUp, read_description
 from ..source.document import STDIN, read_file
 from ..source.packages import Packages
+from .places import check_places
 
 
 def load(
@@ -31,16 +32,18 @@ def load(
         path: A description, or ``-`` for standard input.
         args: Values of xacro arguments.
         packages: Folders of ROS packages by name; others are searched as on the command line.
+            A folder that does not exist is a ``UserWarning``.
         package_paths: Folders that contain ROS packages.
         gltf_up: Up axis of glTF meshes: ``"y"`` as in their standard, rotated to Z as in RViz;
             ``"z"`` for files made for readers that keep the axes of the file.
 
     Raises:
+        ConfigError: An option has a value that is not allowed.
         SourceError: The file cannot be read, parsed or expanded.
         ModelError: It is not a robot description.
         MissingDependency: It is MJCF, and MuJoCo is not installed.
     """
-    paths = tuple(package_paths)
+    paths = check_places(packages, package_paths, gltf_up=gltf_up)
     file = read_file(path)
     finder = Packages(None if file.path == STDIN else file.path, named=packages or {}, paths=paths)
     robot = read_other_format(file, finder)

@@ -22,6 +22,7 @@ def to_scene(
         collision: Whether the scene has the collision geometry in place of the visual one.
 
     Raises:
+        ModelError: The robot lacks a joint of ``positions``, or a position is not a finite number.
         UrdftoolError: A mesh cannot be found or read.
     """
     from ..geometry.scene import make_scene

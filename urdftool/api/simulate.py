@@ -43,10 +43,14 @@ def simulate(
     from ..simulation.scene import take_robot
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
+    from ..suggestions import suggest_name
 
     engine = engine or choose_default_engine()
     if engine not in REGISTRY:
-        raise ConfigError(f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}")
+        hint = suggest_name(engine, REGISTRY)
+        raise ConfigError(
+            f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}{hint}"
+        )
     check_engines((engine,))
     require("simulate", "scipy", "manifold3d")
     robot, _ = take_robot(robot)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from ..model.elements import Robot
+from ..suggestions import require_number
+from .places import check_jobs
 
 
 def make_srdf(
@@ -23,8 +25,12 @@ def make_srdf(
         jobs: Number of processes; None is one per core.
 
     Raises:
+        ConfigError: A number is not at least 1.
         MissingDependency: python-fcl is not installed.
     """
+    check_jobs(jobs)
+    if boxes is not None:
+        require_number("boxes", boxes, 1)
     from ..srdf.content import list_comments, make_semantic
     from ..srdf.verdicts import BOXES, Options, decide
     from ..srdf.write import format_srdf

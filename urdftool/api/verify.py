@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from ..errors import ConfigError
 from ..model.elements import Robot
+from ..suggestions import require_number
 from .load import load
+from .places import list_words
 
 if TYPE_CHECKING:
     from ..compare.several import Agreement
@@ -48,13 +50,16 @@ def verify(
 
     if len(robots) < 2:
         raise ConfigError("verify compares at least two robots")
-    rows = select_rows(",".join(only), tolerance)
+    if tolerance is not None:
+        require_number("tolerance", tolerance, 0.0)
+    rows = select_rows(",".join(list_words("only", only)), tolerance)
     declared = Correspondence() if names is None else read_correspondence(Path(names), len(robots))
     if declared.is_declared and tolerance is None:
         rows = limit_tolerances(rows, declared.tolerance)
-    paths = tuple(package_paths)
     read = [
-        robot if isinstance(robot, Robot) else load(robot, packages=packages, package_paths=paths)
+        robot
+        if isinstance(robot, Robot)
+        else load(robot, packages=packages, package_paths=package_paths)
         for robot in robots
     ]
     return compare_all(read, rows=rows, names=declared)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import MeshError, UrdftoolError
 from ..model.elements import Collision, Material, Mesh, Robot, Visual
-from ..model.kinematics import add_mimic_positions, link_poses
+from ..model.kinematics import add_mimic_positions, check_positions, link_poses
 from ..model.pose import Pose, make_pose
 from ..model.shapes import (
     Box,
@@ -48,12 +48,14 @@ def make_scene(
         collision: Whether the scene has the collision geometry in place of the visual one.
 
     Raises:
+        ModelError: The robot lacks a joint of ``positions``, or a position is not a finite number.
         UrdftoolError: A mesh cannot be found or read.
     """
     import trimesh
 
     scene: Any = trimesh.Scene(base_frame="world")
     loaded: dict[tuple[str, tuple[float, ...]], Triangles] = {}
+    check_positions(robot, positions or {})
     poses = link_poses(robot, add_mimic_positions(robot, positions or {}))
     for name, pose in poses.items():
         scene.graph.update(frame_from="world", frame_to=name, matrix=make_matrix(pose))

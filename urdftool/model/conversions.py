@@ -22,6 +22,7 @@ class RobotConversions:
             collision: Whether the scene has the collision geometry in place of the visual one.
 
         Raises:
+            ModelError: The robot lacks a joint of ``positions``.
             UrdftoolError: A mesh cannot be found or read.
         """
         scene: trimesh.Scene = _call("to_scene", self, positions, collision=collision)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from numbers import Real
 
 from ..errors import ModelError
 from ..suggestions import suggest_name
@@ -108,8 +109,8 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
             if not movable:
                 hint = "; the robot has no movable joints"
             raise ModelError(f"movable joint '{name}' does not exist{hint}")
-        if not math.isfinite(value):
-            raise ModelError(f"position of joint '{name}' is {value:g}, not a finite number")
+        if not (isinstance(value, Real) and math.isfinite(value)):
+            raise ModelError(f"position of joint '{name}' is {value!r}, not a finite number")
 
 
 def get_limits(joint: Joint) -> tuple[float, float]:

@@ -7,11 +7,29 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ..suggestions import require_number, require_word
+
 if TYPE_CHECKING:
     from .control import Control
 
 NUDGE = 0.1
 """Duration of the tilted gravity to each side at the start [s]. Chosen, no source."""
+
+HOLDS = ("all", "actuated", "none")
+"""Words of ``hold``."""
+
+RANGES = {
+    "duration": (1e-9, 3600.0),
+    "timestep": (1e-5, 0.05),
+    "slope": (-math.pi / 3, math.pi / 3),
+    "friction": (0.0, math.inf),
+    "gravity": (0.0, math.inf),
+    "trials": (1, 1000),
+    "tilt": (0.0, math.pi),
+    "nudge": (0.0, math.pi),
+    "time_limit": (0.1, 86400.0),
+}
+"""Least and greatest value of each number [s, rad, m/s², –], as on the command line."""
 
 _TOWARD = 0.6
 """Rad from x; not an axis of symmetry of common robots. Chosen, no source."""
@@ -67,6 +85,16 @@ class Settings:
     nudge: float = 0.02
     time_limit: float = 60.0
     controls: Mapping[str, Control] | None = None
+
+    def __post_init__(self) -> None:
+        """Raise ConfigError if a value is not allowed."""
+        require_word("hold", self.hold, HOLDS)
+        for name, (least, most) in RANGES.items():
+            require_number(name, getattr(self, name), least, most)
+        if self.height is not None:
+            require_number("height", self.height)
+        for link, mass in self.payloads.items():
+            require_number(f"payload of '{link}'", mass, 0.0)
 
     def compute_gravity_at(self, time: float) -> tuple[float, float, float]:
         """Compute gravity [m/s²] at a time [s], in the frame in which the plane is level."""
