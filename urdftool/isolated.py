@@ -22,7 +22,7 @@ from .parallel import ignore_interrupts, limit_resources
 T = TypeVar("T")
 
 _DYING = 2.0  # s: time to exit after the end of output
-_LONGEST = 1e9  # s: RLIMIT_CPU must fit an integer
+LONGEST = 1e9  # s: RLIMIT_CPU must fit an integer
 _PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
 
 
@@ -127,7 +127,7 @@ class IsolatedProcess:
             ProcessDied: The process ended without a result.
             UrdftoolError: Raised by the function.
         """
-        most = min(time_limit, _LONGEST) + 5 if processor_limit is None else processor_limit
+        most = min(time_limit, LONGEST) + 5 if processor_limit is None else processor_limit
         job = pickle.dumps((module, function, arguments, most, on_message is not None))
         return self._receive(job, arguments, time_limit, on_message)
 

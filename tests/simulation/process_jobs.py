@@ -40,5 +40,15 @@ def crash():
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
+def spin():
+    while True:
+        pass
+
+
+def wait(seconds):
+    time.sleep(seconds)
+    return "waited"
+
+
 def hang():
     time.sleep(60)

@@ -17,8 +17,8 @@ def simulated(path, **settings):
 
 
 def kinds(verdict):
-    """Kinds of what went wrong."""
-    return {fault.code for fault in verdict.faults if fault.fails}
+    """Kinds of what went wrong, in the motion or in the file."""
+    return {fault.code for fault in verdict.faults if fault.fails or fault.is_warning}
 
 
 def inertial(mass, ixx, iyy, izz, xyz="0 0 0"):

@@ -72,7 +72,8 @@ def test_a_crash_is_one_message():
         call("crash")
 
 
-def test_a_hang_ends_in_time_and_leaves_nobody():
+def test_a_hang_ends_in_time_and_leaves_nobody(monkeypatch):
+    monkeypatch.setattr("urdftool.simulation.engine_process.SLOWEST", 1.0)
     began = time.monotonic()
     with EngineProcess("json") as child:
         with pytest.raises(EngineDied, match="stopped after the limit of 1 s"):
@@ -82,6 +83,17 @@ def test_a_hang_ends_in_time_and_leaves_nobody():
     with pytest.raises(ProcessLookupError):
         os.kill(number, 0)
     assert all(pipe.closed for pipe in (child._process.stdin, child._process.stdout))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs resource limits")
+def test_the_limit_counts_processor_time(monkeypatch):
+    monkeypatch.setattr("urdftool.simulation.engine_process._START", 0.0)
+    with pytest.raises(EngineDied, match="after the limit of 1 s of processor time"):
+        call("spin", time_limit=1.0)
+
+
+def test_waiting_uses_no_processor_time():
+    assert call("wait", 1.5, time_limit=1.0) == "waited"
 
 
 @pytest.mark.parametrize("name", ["pickle", "numpy", "urdftool", "json"])
@@ -125,7 +137,8 @@ def test_a_system_without_threads_is_one_message():
             child.call("process_jobs", "double", 21, time_limit=20)
 
 
-def test_it_ends_where_nobody_holds_its_input():
+def test_it_ends_where_nobody_holds_its_input(monkeypatch):
+    monkeypatch.setattr("urdftool.simulation.engine_process.SLOWEST", 1.0)
     with EngineProcess("json") as child:
         with pytest.raises(EngineDied, match="stopped after the limit"):
             child.call("process_jobs", "hang", time_limit=1.0)

@@ -16,8 +16,8 @@ from .simulate_options import add_simulation_options
 _GROUPS = {
     "Simulation": "engine duration timestep trials seed sweep fleet",
     "Robot and ground": "fixed_base pose height payload self_collision friction slope",
-    "Joint control": "hold controllers strict",
-    "Output": "style plot picture video junit",
+    "Joint control": "hold controllers",
+    "Output": "strict style plot picture video junit",
     "Performance": "time_limit jobs",
 }
 
@@ -57,8 +57,9 @@ def command(
         urdftool simulate arm.urdf.xacro --limp
         urdftool simulate rover.urdf --trials 10 --seed 1 --slope 10
 
-    Exit code 0: the robot stands. 1: it does not stand. 2: it could not be simulated. With --fleet:
-    2 if a robot could not be simulated, else 1 if a robot does not stand.
+    Exit code 0: the robot stands. 1: it does not stand, or has another error. 2: it could not be
+    simulated. With --fleet: 2 if a robot could not be simulated, else 1 if one has an error.
+    Masses and inertia tensors that lint reports are warnings, and errors with --strict.
     """  # noqa: D301 -- click reads the escape
     from ..extras import require
     from ..parallel import terminate_gracefully
@@ -119,4 +120,5 @@ def command(
             style=style,
             outputs=outputs,
             junit=junit,
+            strict=strict,
         )

@@ -28,7 +28,7 @@ _OPTIONS = (
     click.option(
         "--strict",
         is_flag=True,
-        help="Refuse controllers of unknown type (default: joints unactuated).",
+        help="Warnings fail the run, and controllers of unknown type are refused.",
     ),
     click.option(
         "--plot",

@@ -29,7 +29,7 @@ class Fleet:
         settings: Settings of the simulation.
         engines: Names of engines.
         controllers: Controller file; None for none.
-        strict: Refuse controllers of an unknown type.
+        strict: Refuse controllers of an unknown type, and fail robots with warnings.
         named: Descriptions of the command line, in contrast to those found in folders.
         cache: Folder of the hull cache; None for no cache.
     """
@@ -68,7 +68,9 @@ class Fleet:
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
         thresholds = read_configured_thresholds(self.console, path)
-        verdicts, comparison = simulate_and_judge(robot, settings, self.engines, thresholds)
+        verdicts, comparison = simulate_and_judge(
+            robot, settings, self.engines, thresholds, strict=self.strict
+        )
         differ = comparison.report_faults(robot) if comparison is not None else []
         return make_row(path, robot.name, [v for some in verdicts for v in some], differ)
 
@@ -97,6 +99,7 @@ def simulate_fleet(
     from ..output import write_file
     from ..report import simulate_fleet as report
     from ..simulation import verdict  # noqa: F401 -- loaded before workers are forked
+    from ..simulation.engine_process import SLOWEST
     from ..simulation.fleet import PATIENCE, run_in_parallel
     from .simulate_one import print_old_thresholds
 
@@ -105,7 +108,7 @@ def simulate_fleet(
     if not descriptions:
         raise click.UsageError(explain_nothing_found(paths))
     print_old_thresholds(console, descriptions)
-    limit = len(fleet.engines) * fleet.settings.time_limit + PATIENCE
+    limit = len(fleet.engines) * SLOWEST * fleet.settings.time_limit + PATIENCE
     rows = {}
     with Progress(console, "robots") as progress:
         for row in run_in_parallel(descriptions, fleet, jobs=jobs, limit=limit):
@@ -128,4 +131,4 @@ def simulate_fleet(
             console.print_error(row.error)
     if any(row.error is not None for row in ordered):
         return 2
-    return 1 if any(row.stands is False for row in ordered) else 0
+    return 1 if any(row.passes is False for row in ordered) else 0

@@ -57,10 +57,13 @@ def simulate_and_judge(
     thresholds: Thresholds,
     progress: ReportProgress = lambda *_: None,
     child: EngineProcess | None = None,
+    *,
+    strict: bool = False,
 ) -> tuple[list[list[Verdict]], EngineComparison | None]:
     """Simulate and judge a robot in each engine; compare two engines.
 
     ``child`` is a process of the first engine that waits for work.
+    ``strict`` makes warnings errors.
 
     Raises:
         UrdftoolError: The robot cannot be simulated.
@@ -83,7 +86,7 @@ def simulate_and_judge(
         )
         for engine, process in zip(engines, waiting, strict=True)
     ]
-    verdicts = [[judge(robot, run) for run in some] for some in runs]
+    verdicts = [[judge(robot, run, strict=strict) for run in some] for some in runs]
     if len(engines) < 2:
         return verdicts, None
     return verdicts, compare_engines(*verdicts)
@@ -100,6 +103,7 @@ def simulate_one(
     style: str,
     outputs: Outputs,
     junit: str | None,
+    strict: bool = False,
 ) -> int:
     """Simulate a robot in one or two engines, print the verdict and return the exit code.
 
@@ -112,6 +116,7 @@ def simulate_one(
         child: Idle process of the first engine.
         style: ``text``, ``json`` or ``junit``.
         outputs: Files to draw of the first trial.
+        strict: Whether warnings are errors.
         junit: Additional JUnit XML file; None for none.
 
     Raises:
@@ -128,7 +133,7 @@ def simulate_one(
     outputs.read(console, robot)
     with Progress(console, "trials", timed=True) as progress:
         verdicts, comparison = simulate_and_judge(
-            robot, settings, engines, thresholds, progress, child
+            robot, settings, engines, thresholds, progress, child, strict=strict
         )
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""
@@ -150,4 +155,4 @@ def simulate_one(
     if junit is not None:
         write_file(junit, rows.to_junit([row]).encode("utf-8"), inputs=sorted(list_sources(robot)))
     outputs.write(console, robot, [some[0].run for some in verdicts])
-    return 0 if row.stands else 1
+    return 0 if row.passes else 1

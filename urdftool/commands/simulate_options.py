@@ -134,7 +134,7 @@ _OPTIONS = (
         default=60.0,
         show_default=True,
         metavar="S",
-        help="Wall-clock limit of the engine [s].",
+        help="Limit of the engine's processor time [s].",
     ),
 )
 

@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..control_characters import escape_controls
+from ..diagnostic import Severity
 from ..model.elements import Robot
 from .counted import format_count
 from .findings import Painter
@@ -21,6 +22,12 @@ if TYPE_CHECKING:
     from ..simulation.verdict import Verdict
 
 _MOST = 6  # names in one line
+
+_LABELS = {
+    Severity.ERROR: ("error", "red"),
+    Severity.WARNING: ("warning", "yellow"),
+    Severity.INFO: ("note", "blue"),
+}
 
 
 def format_text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
@@ -45,17 +52,19 @@ def _format_one(robot: Robot, verdict: Verdict, paint: Painter) -> Iterator[str]
 
 def _format_headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
     name = escape_controls(robot.name) or "the robot"
-    if verdict.stands:
-        return f"{name}: {paint('stands', 'green', bold=True)}"
+    if verdict.passes:
+        return f"{name}: {paint(describe_outcome(verdict), 'green', bold=True)}"
     kinds = ", ".join(dict.fromkeys(fault.code for fault in verdict.faults if fault.fails))
     return f"{name}: {paint(describe_outcome(verdict), 'red', bold=True)} ({kinds})"
 
 
 def describe_outcome(verdict: Verdict) -> str:
     """Describe the result: a robot that settles upright stands, in spite of model errors."""
-    if verdict.stands:
-        return "stands"
-    return "does not stand" if verdict.fell else "stands, with model errors"
+    if not verdict.stands:
+        return "does not stand"
+    if not verdict.passes:
+        return "stands, with model errors"
+    return "stands" + (", with warnings" * any(fault.is_warning for fault in verdict.faults))
 
 
 def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
@@ -97,11 +106,11 @@ def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
 
 
 def _format_faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
-    groups: dict[tuple[str, bool, str], list[Fault]] = {}
+    groups: dict[tuple[str, Severity, str], list[Fault]] = {}
     for fault in faults:
         groups.setdefault(fault.group, []).append(fault)
     for fault, *alike in groups.values():
-        label, color = ("error", "red") if fault.fails else ("note", "blue")
+        label, color = _LABELS[fault.severity]
         place = f"{escape_controls(str(fault.location))}: " if fault.location is not None else ""
         yield ""
         yield (
@@ -132,7 +141,7 @@ def _format_several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -
         for fault in verdict.faults:
             seen.setdefault((fault.code, fault.name), (fault, []))[1].append(number)
     faults = [fault for fault, _ in seen.values()]
-    yield from _format_faults(sorted(faults, key=lambda fault: not fault.fails), paint)
+    yield from _format_faults(sorted(faults, key=lambda fault: fault.severity, reverse=True), paint)
 
 
 def format_comparison_text(comparison: EngineComparison, *, colors: bool = False) -> str:
@@ -176,7 +185,7 @@ def to_json(
     Args:
         robot: The robot.
         verdicts: One for each trial.
-        timings: Whether to add the wall-clock time of each trial, which differs between runs.
+        timings: Whether to add the processor time of each trial, which differs between runs.
         comparison: Comparison of two engines, if there are two.
     """
     document: dict[str, Any] = {
@@ -184,11 +193,12 @@ def to_json(
         "name": robot.name,
         "path": robot.source.path if robot.source is not None else None,
         "stands": all(verdict.stands for verdict in verdicts),
+        "passes": all(verdict.passes for verdict in verdicts),
         "trials": [_build_trial(verdict, timings) for verdict in verdicts],
     }
     differences = [] if comparison is None else comparison.report_faults(robot)
     document["differences"] = [_build_fault(fault) for fault in differences]
-    document["stands"] = document["stands"] and not differences
+    document["passes"] = document["passes"] and not differences
     return format_json(document) + "\n"
 
 
@@ -197,6 +207,7 @@ def _build_trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
     recording = run.recording
     return {
         "stands": verdict.stands,
+        "passes": verdict.passes,
         "faults": [_build_fault(fault) for fault in verdict.faults],
         "settings": asdict(run.settings),
         "engine": recording.engine,
@@ -232,6 +243,7 @@ def _build_fault(fault: Fault) -> dict[str, Any]:
         "kind": fault.code,
         "old_kind": fault.old_kind,
         "fails": fault.fails,
+        "severity": fault.severity.label,
         "message": fault.message,
         "cause": fault.cause or None,
         "rule": fault.rule or None,

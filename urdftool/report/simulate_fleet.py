@@ -35,9 +35,9 @@ def format_table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = F
 def summarize(rows: Sequence[Row]) -> str:
     """Summarize the number of robots with each result."""
     counts = {
-        "stand": sum(row.stands is True for row in rows),
-        "stand with model errors": sum(row.stands is False and not row.fell for row in rows),
-        "do not stand": sum(row.fell for row in rows),
+        "stand": sum(row.stands is True and row.passes is True for row in rows),
+        "stand with model errors": sum(row.stands is True and not row.passes for row in rows),
+        "do not stand": sum(row.stands is False for row in rows),
         "could not be simulated": sum(row.error is not None for row in rows),
         "skipped": sum(bool(row.skipped) for row in rows),
     }
@@ -50,9 +50,9 @@ def _get_verdict_word(row: Row) -> tuple[str, str]:
         return "error", "red"
     if row.skipped:
         return "skipped", "yellow"
-    if row.stands:
+    if row.passes:
         return "stands", "green"
-    return ("does not stand" if row.fell else "model errors"), "red"
+    return ("model errors" if row.stands else "does not stand"), "red"
 
 
 def _format_what(row: Row) -> str:
@@ -66,7 +66,7 @@ def _format_what(row: Row) -> str:
         return escape_controls(row.skipped)
     kinds: dict[str, list[str]] = {}
     for fault in row.faults:
-        if fault.fails:
+        if fault.fails or (fault.is_warning and row.passes):
             kinds.setdefault(fault.code, []).append(fault.name)
     return ", ".join(
         f"{kind} ({escape_controls(names[0])}{', …' if len(names) > 1 else ''})"
@@ -79,6 +79,7 @@ def _format_what(row: Row) -> str:
 def to_json(rows: Sequence[Row], *, timings: bool = False) -> str:
     """Format the results without time series as JSON; ``timings`` adds the wall-clock times."""
     document = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
+            "passes": all(row.passes for row in rows if not row.skipped),
             "robots": [_build_row(row, timings) for row in rows]}  # fmt: skip
     return format_json(document, 1) + "\n"
 
@@ -89,6 +90,7 @@ def _build_row(row: Row, timings: bool) -> dict[str, Any]:
         "path": row.path,
         "name": row.name,
         "stands": row.stands,
+        "passes": row.passes,
         "settled": row.settled,
         "mass": row.mass,
         "engine": row.engine or None,

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable
 from typing import Any
 
 from ..errors import UrdftoolError
-from ..isolated import IsolatedProcess, ProcessDied, ProcessTimeout
+from ..isolated import LONGEST, IsolatedProcess, ProcessDied, ProcessTimeout
 
 MODULES = __package__
+
+SLOWEST = 20.0
+"""Wall-clock limit per limit of processor time, for a busy machine [1]. Chosen, no source."""
+
+_START = 5.0  # s: processor time to import an engine, in addition to the limit of the call
 
 
 class EngineDied(UrdftoolError):  # noqa: N818 -- reads as what happened
     """The engine crashed, or exceeded its time limit."""
+
+
+_ADVICE = "increase --time-limit or reduce --duration"
+
+
+def _limit_processor(time_limit: float) -> float:
+    """Return the processor time after which the system ends the process [s]."""
+    return min(time_limit, LONGEST) + _START
 
 
 class EngineProcess(IsolatedProcess):
@@ -39,7 +53,7 @@ class EngineProcess(IsolatedProcess):
             module: Module of this package, such as ``engines.driver``.
             function: Name of the function.
             arguments: Picklable arguments.
-            time_limit: Time limit [s].
+            time_limit: Limit of processor time [s], in addition to that of the start.
             on_emit: Receives what the function emits before it returns; the function then takes
                 ``emit`` as its last argument.
 
@@ -50,14 +64,17 @@ class EngineProcess(IsolatedProcess):
         try:
             return super().call(
                 f"{MODULES}.{module}", function, *arguments,
-                time_limit=time_limit, on_message=on_emit,
+                time_limit=SLOWEST * time_limit, processor_limit=_limit_processor(time_limit),
+                on_message=on_emit,
             )  # fmt: skip
         except ProcessTimeout as error:
-            raise EngineDied(
-                f"the physics engine was {error.message}; increase --time-limit or reduce "
-                "--duration"
-            ) from None
+            raise EngineDied(f"the physics engine was {error.message}; {_ADVICE}") from None
         except ProcessDied as error:
+            if error.exit_code == -getattr(signal, "SIGXCPU", 0) != 0:
+                raise EngineDied(
+                    f"the physics engine was stopped after the limit of {time_limit:g} s of "
+                    f"processor time; {_ADVICE}"
+                ) from None
             raise EngineDied(
                 f"the physics engine crashed ({error.message}); run 'urdftool lint' to find the "
                 "cause",

@@ -25,7 +25,8 @@ class Fault(Diagnostic):
 
     Attributes:
         code: Kind, such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
-        severity: ``ERROR`` fails the simulation; ``INFO`` is a remark.
+        severity: ``ERROR`` fails the simulation; ``WARNING``, about masses and inertia in the file,
+            fails it with ``--strict``; ``INFO`` is a remark.
         message: One sentence with the measured values.
         location: Location of the link or joint in the description.
         what: ``link``, ``joint`` or ``robot``.
@@ -54,8 +55,13 @@ class Fault(Diagnostic):
 
     @property
     def fails(self) -> bool:
-        """Tell whether it fails the simulation; otherwise it is a remark."""
+        """Tell whether it fails the simulation; otherwise it is a warning or a remark."""
         return self.severity is Severity.ERROR
+
+    @property
+    def is_warning(self) -> bool:
+        """Tell whether it concerns masses or inertia in the file; it fails with ``--strict``."""
+        return self.severity is Severity.WARNING
 
     @property
     def fell(self) -> bool:
@@ -63,9 +69,9 @@ class Fault(Diagnostic):
         return self.fails and self.code in FALLEN
 
     @property
-    def group(self) -> tuple[str, bool, str]:
+    def group(self) -> tuple[str, Severity, str]:
         """Return a key that is equal for faults that differ only in their link or joint."""
-        return self.code, self.fails, self.cause + self.name * (self.code == "blocked")
+        return self.code, self.severity, self.cause + self.name * (self.code == "blocked")
 
 
 def quote_names(names: Sequence[str], most: int = 4) -> str:

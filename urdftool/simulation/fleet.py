@@ -28,6 +28,7 @@ class Row:
         path: Path of the description.
         name: Name of the robot.
         stands: Whether it stands in every trial and engine; None if it could not be simulated.
+        passes: Whether it has no error in any trial and engine; None if it was not simulated.
         settled: Time at which it came to rest in the first trial [s]; None if it did not.
         mass: Mass of the robot [kg].
         faults: Faults and remarks of all trials, each once.
@@ -40,6 +41,7 @@ class Row:
     path: str
     name: str = ""
     stands: bool | None = None
+    passes: bool | None = None
     settled: float | None = None
     mass: float | None = None
     faults: list[Fault] = field(default_factory=list)
@@ -66,16 +68,17 @@ def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[F
     faults: dict[tuple[str, str], Fault] = {}
     for fault in (*(fault for verdict in verdicts for fault in verdict.faults), *more):
         known = faults.get((fault.code, fault.name))
-        if known is None or (fault.fails and not known.fails):
+        if known is None or fault.severity > known.severity:
             faults[fault.code, fault.name] = fault
     engines = dict.fromkeys(verdict.run.recording.engine for verdict in verdicts)
     return Row(
         path,
         name,
+        not any(fault.fell for fault in faults.values()),
         not any(fault.fails for fault in faults.values()),
         verdicts[0].rest.settled,
         verdicts[0].run.bodies.mass,
-        sorted(faults.values(), key=lambda fault: not fault.fails),
+        sorted(faults.values(), key=lambda fault: fault.severity, reverse=True),
         engine=", ".join(engines),
         seconds=sum(verdict.run.recording.seconds for verdict in verdicts),
     )

@@ -88,7 +88,7 @@ class Recording:
             [N·m·s/rad, N·s/m].
         still_since: Time since which nothing moved [s]; None if the robot moved to the end.
         ended: ``still``, ``time``, or ``lost`` (a value was not finite, or the robot far away).
-        seconds: Wall-clock time of the steps [s].
+        seconds: Processor time of the steps [s].
         steps: Number of steps.
     """
 

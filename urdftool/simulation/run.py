@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from time import perf_counter
 
 import numpy as np
 
@@ -134,7 +133,7 @@ def simulate(
     """
     engine, bounds = engine or next(iter(REGISTRY)), thresholds or Thresholds()
     runs = []
-    ends = perf_counter() + settings.time_limit
+    left = settings.time_limit
     for number, trial in enumerate(make_trials(settings), 1):
         progress(number, settings.trials)
         with (
@@ -143,7 +142,6 @@ def simulate(
         ):
             bodies = prepare(robot, trial)
             load_engine(engine).write_model(robot, bodies, trial, Path(folder), export_mjcf)
-            left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             known: Known = {}
 
             def on_start(
@@ -160,6 +158,7 @@ def simulate(
             swept = []
             if settings.sweep and number == 1:
                 swept = _sweep(bodies, trial, engine, Path(folder))
+        left = max(0.1, left - recording.seconds)
         runs.append(Run(trial, bodies, recording, swept, known, bounds))
     return runs
 

@@ -61,7 +61,7 @@ class Settings:
         sweep: Whether each joint is also moved through its limits.
         nudge: Angle by which gravity tilts to one side and then to the other at the start [rad],
             so that a robot balanced on a point falls.
-        time_limit: Wall-clock limit of the engine [s].
+        time_limit: Limit of the engine's processor time, for all trials [s].
         controls: Controllers of joints by name; None without a controller file. With one, ``hold``
             is ignored.
     """

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
+from ..diagnostic import Severity
 from ..model.elements import Robot
 from .checks.contact import check_contacts
 from .checks.controllers import check_controllers
@@ -25,7 +26,7 @@ class Verdict:
     Attributes:
         run: The trial.
         rest: State of the robot at the end.
-        faults: Faults, errors first, then remarks.
+        faults: Faults, errors first, then warnings and remarks.
     """
 
     run: Run
@@ -34,7 +35,12 @@ class Verdict:
 
     @property
     def stands(self) -> bool:
-        """Tell whether there is no error."""
+        """Tell whether the robot stands, whatever errors its file has."""
+        return not self.fell
+
+    @property
+    def passes(self) -> bool:
+        """Tell whether there is no error: it stands, and its file has none that affects a run."""
         return not any(fault.fails for fault in self.faults)
 
     @property
@@ -43,12 +49,19 @@ class Verdict:
         return any(fault.fell for fault in self.faults)
 
 
-def judge(robot: Robot, run: Run) -> Verdict:
-    """Judge one trial."""
+def judge(robot: Robot, run: Run, *, strict: bool = False) -> Verdict:
+    """Judge one trial; ``strict`` makes warnings errors."""
     rest = measure_final_state(run)
     faults = [_replace_cause(run, fault) for fault in _report_faults(robot, run, rest)]
-    faults.sort(key=lambda fault: not fault.fails)
+    if strict:
+        faults = [_promote(fault) for fault in faults]
+    faults.sort(key=lambda fault: fault.severity, reverse=True)
     return Verdict(run, rest, faults)
+
+
+def _promote(fault: Fault) -> Fault:
+    """Make an error of a warning."""
+    return replace(fault, severity=Severity.ERROR) if fault.is_warning else fault
 
 
 _CONSEQUENCES = frozenset(

@@ -6,7 +6,7 @@ import math
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 
@@ -82,7 +82,7 @@ def settle(
     start_contacts = world.find_overlaps()
     samples = [world.sample(0.0)]
     emit((samples[0]["poses"], start_contacts))
-    began = perf_counter()
+    began = process_time()
     still: float | None = None
     ended, done = "time", 0
     while done < steps and ended == "time":
@@ -101,7 +101,7 @@ def settle(
         still = watch.add(sample["times"], sample["poses"], sample["positions"])
         if still is not None and sample["times"] > thresholds.settle_min_time:
             ended = "still"
-    seconds = perf_counter() - began
+    seconds = process_time() - began
     columns = {name: np.array([sample[name] for sample in samples]) for name in samples[0]}
     columns["potential"] = columns["potential"] - columns["potential"][0]
     return Recording(

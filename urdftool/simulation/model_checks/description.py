@@ -52,6 +52,14 @@ KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 REMARKS = frozenset(("no-extent",))
 """Kinds that never fail a run: the shape is ignored, as by the exporters."""
 
+WARNINGS = frozenset(
+    ("no-mass", "impossible-inertia", "inertia-too-large", "too-dense", "mass-outlier")
+)
+"""Kinds of values in the file, which fail a run with ``--strict`` only.
+
+A root without mass is an error: what an engine does with it is not a motion of the robot.
+"""
+
 
 class Described(NamedTuple):
     """A finding about a link or the robot in a run.
@@ -97,12 +105,9 @@ def check_description(robot: Robot, run: Run) -> Iterator[Fault]:
 
 def _make_fault(kind: str, about: Described, cause: str) -> Fault:
     finding = about.finding
-    is_remark = kind in REMARKS
-    if kind == "no-collision-geometry":
-        is_remark = about.run.bodies.fixed_base
     return Fault(
         kind,
-        Severity.INFO if is_remark else Severity.ERROR,
+        _choose_severity(kind, about),
         finding.message,
         finding.location,
         finding.kind,
@@ -110,6 +115,15 @@ def _make_fault(kind: str, about: Described, cause: str) -> Fault:
         cause,
         finding.code,
     )
+
+
+def _choose_severity(kind: str, about: Described) -> Severity:
+    """Choose the severity of a finding: values of the file that do not describe a motion warn."""
+    if kind in REMARKS or (kind == "no-collision-geometry" and about.run.bodies.fixed_base):
+        return Severity.INFO
+    if kind == "no-mass" and about.body is about.run.bodies.bodies[0]:
+        return Severity.ERROR  # engines weld such a root to the world, or cannot move it
+    return Severity.WARNING if kind in WARNINGS else Severity.ERROR
 
 
 def _explain_always(_about: Described) -> str | None:
@@ -179,7 +193,7 @@ def _explain_density(about: Described) -> str | None:
         return None
     if compute_mass_share(link, run) <= run.thresholds.light_link:
         return None
-    return "the density exceeds that of lead; check the units of the mass and of the geometry"
+    return "check the units of the mass and of the geometry"
 
 
 _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
