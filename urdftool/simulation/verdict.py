@@ -35,7 +35,7 @@ class Verdict:
 
     @property
     def stands(self) -> bool:
-        """Tell whether the robot stands, whatever errors its file has."""
+        """Tell whether the robot stands, even if its file has errors."""
         return not self.fell
 
     @property
@@ -54,12 +54,12 @@ def judge(robot: Robot, run: Run, *, strict: bool = False) -> Verdict:
     rest = measure_final_state(run)
     faults = [_replace_cause(run, fault) for fault in _report_faults(robot, run, rest)]
     if strict:
-        faults = [_promote(fault) for fault in faults]
+        faults = [_make_error(fault) for fault in faults]
     faults.sort(key=lambda fault: fault.severity, reverse=True)
     return Verdict(run, rest, faults)
 
 
-def _promote(fault: Fault) -> Fault:
+def _make_error(fault: Fault) -> Fault:
     """Make an error of a warning."""
     return replace(fault, severity=Severity.ERROR) if fault.is_warning else fault
 
