@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from urdftool.errors import SourceError, XmlError
 from urdftool.source.document import parse, read_file
 from urdftool.source.location import SourceFile
-from urdftool.source.well_formed import MAX_DEPTH, repair
+from urdftool.source.well_formed import MAX_DEPTH, drop_end_tags_after_root, repair
 
 
 def document(text):
@@ -127,6 +127,37 @@ def test_files_that_cannot_be_read(write, tmp_path):
         read_file(write("empty.urdf", " \n"))
     with pytest.raises(SourceError, match="MiB"):
         read_file(write("large.urdf", b" " * (33 * 1024 * 1024)))
+
+
+@pytest.mark.parametrize(
+    ("rest", "place"),
+    [
+        (b"</m>", (1, 12)),
+        (b"\n</m>\n", (2, 1)),
+        (b"<!-- </x> --></m></other>", (1, 25)),
+        (b"", None),
+        (b"<!-- </m> -->", None),
+        (b"text</m>", None),
+        (b"<b/></m>", None),
+        (b"</m", None),
+    ],
+)
+def test_end_tags_after_the_root_are_dropped(rest, place):
+    file = SourceFile("m.xml", b"<m><a/>" + b"</m>" + rest)
+    dropped = drop_end_tags_after_root(file)
+    if place is None:
+        assert dropped is None
+        return
+    kept, found = dropped
+    assert (found.line, found.column) == place
+    assert parse(kept).root.tag == "m"
+    assert len(kept.data) == len(file.data)
+
+
+def test_a_second_end_tag_is_called_so():
+    for text in (b"<m/></m>", b"<m/>\n</m>\n", b"</m><m/>"):
+        with pytest.raises(XmlError, match="</m> is an end tag, but no element is open here"):
+            parse(SourceFile("m.xml", text))
 
 
 def test_lax_readers_see_the_mended_file_at_the_same_bytes():

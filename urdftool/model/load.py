@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..errors import ModelError
 from ..source.description import Description, GltfUp, read_description
+from ..source.document import Element
 from .elements import Robot
 from .read import read_robot
 
@@ -19,13 +20,26 @@ def make_robot(description: Description) -> Robot:
     """
     root = description.document.root
     if root.tag != "robot":
-        raise ModelError(
-            f"the root element is <{root.tag}>; a robot description starts with <robot>",
-            at=root.place,
-        )
+        raise ModelError(describe_root(root), at=root.place)
     robot = read_robot(root)
     robot.source = description
     return robot
+
+
+def describe_root(root: Element) -> str:
+    """Describe a root that is not ``<robot>``, and the probable format of the file."""
+    remedy = "a robot description starts with <robot>"
+    if is_old_sdf(root):
+        remedy = OLD_SDF
+    return f"the root element is <{root.tag}>; {remedy}"
+
+
+OLD_SDF = "that is SDF before 1.4, which is not read; later versions start with <sdf>"
+
+
+def is_old_sdf(root: Element) -> bool:
+    """Tell whether a root is that of SDF before 1.4: ``<gazebo version="1.0">``."""
+    return root.tag == "gazebo" and root.get("version") is not None
 
 
 def read_again(robot: Robot) -> Robot:

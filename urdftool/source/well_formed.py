@@ -6,7 +6,9 @@ external entities) and nesting deeper than ``MAX_DEPTH``.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any, Protocol
 from xml.parsers import expat
 
@@ -84,7 +86,6 @@ def _find_codec(encoding: str) -> str:
             a part of another character (``shift_jis``).
     """
     import codecs
-    import re
 
     try:
         name = codecs.lookup(encoding).name
@@ -99,8 +100,6 @@ def _as_expat_reads(file: SourceFile) -> bytes:
     """Return the bytes of a file; convert UTF-16 and UTF-32 to UTF-8, in ``file.data`` too."""
     for start, encoding in WIDE:
         if file.data.startswith(start):
-            import re
-
             text = file.data.decode(encoding).removeprefix("\ufeff")
             text = re.sub(r"^(<\?xml[^>]*?)\s+encoding\s*=\s*(\"[^\"]*\"|'[^']*')", r"\1", text)
             file.data = text.encode("utf-8")
@@ -150,7 +149,9 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
             "blanks" if blank else "a comment" if before.lstrip()[:4] == b"<!--" else "other text",
         )
     case = ""
-    if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
+    if reason == _INVALID and data[offset - 1 : offset + 1] == b"</":
+        reason = f"</{closing}> is an end tag, but no element is open here; remove it"
+    elif data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
         reason = f'the XML declaration is invalid ({reason}); use <?xml version="1.0"?>'
         case = "a wrong declaration"
     elif _is_in_comment(data, offset):
@@ -174,6 +175,7 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     return reason, rule, case
 
 
+_INVALID = "not well-formed (invalid token)"
 _UNBOUND_PREFIX = 27  # XML_ERROR_UNBOUND_PREFIX of expat
 _NOT_CLOSED = ("mismatched tag", "no element found")
 
@@ -181,6 +183,51 @@ _NOT_CLOSED = ("mismatched tag", "no element found")
 def _is_in_comment(data: bytes, offset: int) -> bool:
     before = data.rfind(b"<!--", 0, offset + 1)
     return before >= 0 and b"-->" not in data[before:offset] and b"--" in data[before + 4 :]
+
+
+def drop_end_tags_after_root(file: SourceFile) -> tuple[SourceFile, Place] | None:
+    """Return a file without end tags after its root element, and the place of the first of them.
+
+    Blanks replace the tags, so that offsets are unchanged. Comments may be between them.
+
+    Returns:
+        None if there is no such tag, or if there is other content.
+    """
+    end = _find_root_end(file)
+    rest = b"" if end is None else _COMMENT.sub(lambda c: b" " * len(c[0]), file.data[end:])
+    tags = list(_END_TAG.finditer(rest))
+    if end is None or not tags or _END_TAG.sub(b"", rest).strip():
+        return None
+    data = bytearray(file.data)
+    for tag in tags:
+        data[end + tag.start() : end + tag.end()] = b" " * len(tag[0])
+    place = Place(file, end + tags[0].start(), end + tags[0].end())
+    return SourceFile(file.path, bytes(data), file.encoding), place
+
+
+_END_TAG = re.compile(rb"</[^<>]*>")
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+
+
+def _find_root_end(file: SourceFile) -> int | None:
+    """Return the offset behind the root element; None if the text is not well-formed before."""
+    parser = expat.ParserCreate()
+    depth, ends = 0, []
+
+    def begin(_: str, __: object) -> None:
+        nonlocal depth
+        depth += 1
+
+    def finish(_: str) -> None:
+        nonlocal depth
+        depth -= 1
+        if depth == 0:
+            ends.append(parser.CurrentByteIndex)
+
+    parser.StartElementHandler, parser.EndElementHandler = begin, finish
+    with suppress(expat.ExpatError, ValueError):
+        parser.Parse(file.data, True)
+    return file.data.find(b">", ends[0]) + 1 if ends else None
 
 
 def repair(file: SourceFile) -> SourceFile | None:

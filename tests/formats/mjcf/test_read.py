@@ -280,3 +280,11 @@ def test_include_cycles_end(tmp_path):
     with pytest.raises(SourceError, match="included twice") as error:
         read(tmp_path / "m.xml")
     assert (error.value.path, error.value.line) == (str(tmp_path / "b.xml"), 2)
+
+
+def test_a_second_end_tag_is_ignored_as_by_mujoco(tmp_path):
+    file = model(tmp_path, '<body name="b"><geom size="1"/></body>')
+    file.write_text(file.read_text() + "\n</mujoco>\n")
+    equal(file)
+    (loss,) = read(file).losses
+    assert (loss.code, loss.location.line) == ("unread-end-tag", 5)

@@ -257,6 +257,50 @@ def test_the_model_with_most_joints_is_read(tmp_path):
     ]
 
 
+WORLD = """<sdf version="{}"><world name="w">{}<model name="arm"><link name="a"/></model>
+</world></sdf>"""
+
+
+@pytest.mark.parametrize(
+    ("uri", "code", "severity"),
+    [
+        ("model://sun", "unread-scenery", "info"),
+        ("model://ground_plane", "unread-scenery", "info"),
+        ("model://oak_tree", "unread-missing-model", "warning"),
+        ("https://fuel.gazebosim.org/1.0/a/models/b", "unread-missing-model", "warning"),
+    ],
+)
+def test_scenery_that_is_not_there_is_reported(tmp_path, uri, code, severity):
+    file = tmp_path / "w.world"
+    file.write_text(WORLD.format("1.6", f"<include><uri>{uri}</uri></include>"))
+    reading = read(file)
+    assert reading.robot.name == "arm"
+    (loss,) = reading.losses
+    assert (loss.code, loss.severity.name.lower(), loss.name) == (code, severity, uri)
+
+
+def test_a_world_whose_only_model_is_not_there_is_refused(tmp_path):
+    file = tmp_path / "w.world"
+    includes = "".join(f"<include><uri>model://{n}</uri></include>" for n in ("sun", "iris"))
+    file.write_text(f'<sdf version="1.6"><world name="w">{includes}</world></sdf>')
+    with pytest.raises(SourceError, match="model 'model://iris' is not found"):
+        read(file)
+
+
+def test_a_model_without_its_parts_is_refused(tmp_path):
+    file = tmp_path / "w.world"
+    part = "<include><uri>model://gripper</uri></include>"
+    file.write_text(f'<sdf version="1.6"><model name="m"><link name="a"/>{part}</model></sdf>')
+    with pytest.raises(SourceError, match="model 'model://gripper' is not found"):
+        read(file)
+
+
+def test_rules_of_the_oldest_version_are_used_for_earlier_ones(tmp_path):
+    file = tmp_path / "w.world"
+    file.write_text(WORLD.format("1.3", ""))
+    assert [(one.code, one.name) for one in read(file).losses] == [("unread-version", "1.3")]
+
+
 def test_the_name_and_pose_of_an_include_replace_those_of_the_model(tmp_path, monkeypatch):
     monkeypatch.setenv("URDFTOOL_TRUST", "1")  # the model is outside of the project
     text = f"""<sdf version="1.9"><world name="w"><include><uri>file://{HAND}</uri>

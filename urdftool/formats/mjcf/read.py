@@ -78,6 +78,9 @@ def read(
     add_extras(context, robot)
     for warning in compiled.warnings:
         losses.add("warning", f"MuJoCo warns: {warning}", "", written.place, Severity.INFO)
+    for place in expanded.surplus:
+        text = "end tags after the root element are ignored, as by MuJoCo"
+        losses.add("end-tag", text, "", place)
     found = losses.make_findings()
     robot.unread = found
     return Reading(robot, found)

@@ -16,8 +16,8 @@ from xml.sax.saxutils import quoteattr
 
 from ...errors import ModelError, SourceError, XmlError
 from ...source.document import STDIN, Element, parse, read_file
-from ...source.location import SourceFile
-from ...source.well_formed import repair
+from ...source.location import Place, SourceFile
+from ...source.well_formed import drop_end_tags_after_root, repair
 from ...workspace import Workspace
 from .read_assets import Asset, AssetNames
 
@@ -42,6 +42,7 @@ class Expanded:
         assets: Each file that the models name, by its name in ``text``.
         files: Files that were read, the main one first.
         lines: Element by its line in ``text`` or in an attached model.
+        surplus: End tags after the root of a file.
     """
 
     root: Element
@@ -50,6 +51,7 @@ class Expanded:
     assets: dict[str, Asset] = field(default_factory=dict)
     files: list[SourceFile] = field(default_factory=list)
     lines: dict[int, Element] = field(default_factory=dict)
+    surplus: list[Place] = field(default_factory=list)
 
     def get_element_at(self, line: int) -> Element:
         """Return the element of a line; the root for a line without an element."""
@@ -72,7 +74,13 @@ def expand(file: SourceFile, workspace: Workspace) -> Expanded:
             "starts with <mujoco>",
             at=root.place,
         )
-    expanded = Expanded(root, files=reader.files, lines=reader.lines, assets=reader.assets)
+    expanded = Expanded(
+        root,
+        files=reader.files,
+        lines=reader.lines,
+        assets=reader.assets,
+        surplus=reader.surplus,
+    )
     folder = Path() if file.path == STDIN else Path(file.path).parent
     main = _Model(_make_key(file.path), "", root, folder, "")
     expanded.text = reader.write_text(main, 0)
@@ -119,6 +127,7 @@ class _Reader:
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
         self.files: list[SourceFile] = []
+        self.surplus: list[Place] = []
         self.lines: dict[int, Element] = {}
         self.assets: dict[str, Asset] = {}
         self._models: dict[str, _Model] = {}
@@ -129,10 +138,19 @@ class _Reader:
         try:
             return parse(file).root
         except XmlError:
-            repaired = repair(file)
+            repaired = self._repair(file)
             if repaired is None:
                 raise
         return parse(repaired).root
+
+    def _repair(self, file: SourceFile) -> SourceFile | None:
+        repaired = repair(file)
+        dropped = drop_end_tags_after_root(repaired or file)
+        if dropped is None:
+            return repaired
+        file, place = dropped
+        self.surplus.append(place)
+        return file
 
     def write_text(self, model: _Model, first: int) -> str:
         """Write a model with one start tag per line, and register its lines.

@@ -59,6 +59,8 @@ def read(
     models = Models(finder, workspace, losses)
     root = models.parse_root(file)
     top = _choose(models.list_top_models(root), losses)
+    if top is None and models.missing:
+        raise models.missing[0]
     if top is None:
         raise ModelError("the file has no model with a link", at=root.place)
     robot = Robot(Written(top.element.place), top.name, format="sdf")
@@ -94,8 +96,8 @@ def _choose(found: list[Scope], losses: Losses) -> Scope | None:
     }
     top = max(found, key=lambda model: sizes[id(model)], default=None)
     for model in found:
-        if model is not top:
-            text = f"of {len(found)} models, one is read"
+        if top is not None and model is not top:
+            text = f"of {len(found)} models, only '{top.name}' is read"
             losses.add("model", text, model.name, model.posed.place)
     return top if top is not None and sizes[id(top)][1] else None
 

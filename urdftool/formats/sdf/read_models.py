@@ -18,11 +18,20 @@ from .read_scope import MODEL, SELF_COLLIDE, Item, Scope, read_own_pose
 from .read_values import Version, read_flag, read_text, read_version
 
 NEWEST: Version = (1, 12)
+OLDEST: Version = (1, 4)
 MAX_DEPTH = 30
 MAX_ELEMENTS = 200_000
 """Maximum number of elements with those of included files, which count each time. Chosen."""
 MAX_INCLUDES = 2000
 """Maximum number of included files, which count each time. Chosen."""
+
+
+BUILT_IN = ("sun", "ground_plane")
+"""Models that every Gazebo has: a light, and a static plane. Worlds of Gazebo include both."""
+
+
+class _NotFoundError(SourceError):
+    """An included model does not exist here."""
 
 
 class Models:
@@ -31,6 +40,7 @@ class Models:
     Attributes:
         files: Files that were read.
         losses: What the robot does not hold.
+        missing: Errors of models that a world includes and that are not found.
     """
 
     def __init__(self, packages: Packages, workspace: Workspace, losses: Losses) -> None:
@@ -39,6 +49,7 @@ class Models:
         self._workspace = workspace
         self.files: list[SourceFile] = []
         self.losses = losses
+        self.missing: list[SourceError] = []
         self._above: list[str] = []
         self._count = self._included = 0
 
@@ -62,6 +73,9 @@ class Models:
         if version > NEWEST:
             text = f"rules of SDF 1.{NEWEST[1]} are used for a later version"
             self.losses.add("version", text, root.get("version") or "", root.place)
+        if version < OLDEST:
+            text = f"rules of SDF 1.{OLDEST[1]} are used for an earlier version"
+            self.losses.add("version", text, root.get("version") or "", root.place)
         return root
 
     def list_top_models(self, root: Element) -> list[Scope]:
@@ -81,13 +95,29 @@ class Models:
                 if child.tag == "model":
                     found.append(self._read_model(child, version))
                 elif child.tag == "include":
-                    found += [one for one in (self._read_included(child),) if one is not None]
+                    found += self._read_scenery(child)
                 elif child.tag in ("actor", "light", "road", "population"):
                     text = "what else is in the world is not read"
                     self.losses.add(
                         "scenery", text, child.get("name") or "", child.place, Severity.INFO
                     )
         return found
+
+    def _read_scenery(self, element: Element) -> list[Scope]:
+        """Return the model that a world includes; report one that is not found."""
+        try:
+            model = self._read_included(element)
+        except _NotFoundError as error:
+            uri = read_text(element, "uri") or ""
+            if uri.partition("://")[2].strip("/") in BUILT_IN:
+                text = "ground and sun of Gazebo are not read"
+                self.losses.add("scenery", text, uri, element.place, Severity.INFO)
+            else:
+                text = "models that the world includes are not found, and not read"
+                self.losses.add("missing-model", text, uri, element.place)
+                self.missing.append(error)
+            return []
+        return [] if model is None else [model]
 
     def _read_model(self, element: Element, version: Version, parent: Scope | None = None) -> Scope:
         name = element.get("name") or ""
@@ -222,7 +252,7 @@ class Models:
                 return self._find_main_file(path, element)
             if self._workspace.is_file(path):
                 return path
-        raise SourceError(f"model '{uri}' is not found", at=element.place)
+        raise _NotFoundError(f"model '{uri}' is not found", at=element.place)
 
     def _list_places(self, uri: str, element: Element) -> Iterator[Path]:
         """Yield the paths that a URI may mean."""
@@ -230,7 +260,7 @@ class Models:
         folder = Path(element.file.path).resolve().parent
         if separator and scheme in ("http", "https"):
             text = f"model '{uri}' is on the network; download it and name its folder"
-            raise SourceError(text, at=element.place)
+            raise _NotFoundError(text, at=element.place)
         if separator and scheme == "file":
             yield Path(rest)
             yield folder / rest

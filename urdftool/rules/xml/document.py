@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
+from ...model.load import OLD_SDF, is_old_sdf
 from ...source.comments import list_comments
 from ...source.description import Description
 from ...source.document import Element
@@ -131,7 +132,7 @@ def unreadable_model() -> tuple[Problem, ...]:
 def describe_root(root: Element) -> str:
     """Describe a root that is not ``<robot>``, and the probable format of the file."""
     belongs = _ROOT_REMEDIES.get(root.tag, 'a robot description starts with <robot name="…">')
-    return f"the root element is <{root.tag}>; {belongs}"
+    return f"the root element is <{root.tag}>; {OLD_SDF if is_old_sdf(root) else belongs}"
 
 
 _NAME_EFFECTS = {
