@@ -112,7 +112,7 @@ def test_bad_usage(urdftool, files, words, message):
 
 def test_a_result_has_no_name_of_a_xacro_file(urdftool, files, tmp_path):
     target = tmp_path / "out.urdf.xacro"
-    result = urdftool("edit", "prefix", files[0], "l_", "-o", target)
+    result = urdftool("edit", "sign", files[0], "shoulder", "-o", target)
     assert result.code == 2
     assert f"{target}: the result is URDF without macros; give it the ending .urdf" in result.err
     assert not target.exists()

@@ -278,7 +278,7 @@ BAD = {
     "plane": (lambda r: r.mirror("xw"), "plane 'xw' is not one of"),
     "names": (lambda r: r.mirror(exchange=("x_", "y_")), "no name has 'x_' or 'y_'"),
     "tolerance": (lambda r: r.round_numbers(0.0), "is not between"),
-    "clash": (lambda r: r.attach(r, to="tip"), "both robots have a link 'base'"),
+    "clash": (lambda r: r.attach(r, to="tip"), "link 'base' is in both robots"),
     "keep": (lambda r: r.merge_fixed(keep=["nothing"]), "link 'nothing' does not exist"),
 }
 

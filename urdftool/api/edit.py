@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..edit.draft import Draft, open_draft
-from ..edit.finish import Edited, finish
+from ..edit.finish import Edited, finish, is_xacro_name
 from ..model.elements import Robot, Vector
 from ..suggestions import require_word
+
+if TYPE_CHECKING:
+    from ..edit.attach import Mount
 
 Paths = Iterable[str | Path]
 
@@ -39,20 +44,44 @@ def attach(
         files: SRDF and YAML files of the first robot, in addition to those that are found.
         other_files: Those of the other robot.
         output: Path of the URDF, to which relative paths refer; None keeps the folder. It is not
-            written; ``Edited.write`` does.
+            written; ``Edited.write`` does. With the ending ``.xacro``, the result includes the
+            sources, or calls their macros.
 
     Raises:
         ModelError: A link does not exist, or names clash.
     """
+    from ..edit.attach import Mount
+
+    mount, given = Mount(to, joint, xyz, rpy), (files, other_files)
+
+    def make(name: str, keep: frozenset[str]) -> Edited:
+        chosen = replace(mount, joint=name), prefix, keep
+        return _attach((robot, other), chosen, given, output)
+
+    if output is None or not is_xacro_name(output):
+        return make(joint, frozenset())
+    from ..edit.xacro_output import attach_in_xacro
+
+    return attach_in_xacro((robot, other), mount, prefix, make, output)
+
+
+def _attach(
+    robots: tuple[Robot, Robot],
+    chosen: tuple[Mount, str, frozenset[str]],
+    files: tuple[Paths, Paths],
+    output: str | Path | None,
+) -> Edited:
+    """Return the URDF of two robots, by mount, prefix, and names without prefix."""
     from ..edit.around import apply_changes
-    from ..edit.attach import Mount, attach_robot, list_origin_lines
+    from ..edit.attach import attach_robot, list_origin_lines
     from ..edit.prefix import add_prefix
 
-    draft, part = _open(robot, files), _open(other, other_files)
-    if prefix:
-        add_prefix(part, prefix)
+    (robot, other), (mount, text, keep) = robots, chosen
+    draft, part = _open(robot, files[0]), _open(other, files[1])
+    if text:
+        add_prefix(part, text, keep=keep)
         part = apply_changes(part)
-    first = attach_robot(draft, part, Mount(to, joint, xyz, rpy))
+    first = attach_robot(draft, part, mount)
     draft.notes += part.notes
     names = [words for words in part.lines if words[0] != "root"]
     lines = [*names, *list_origin_lines(part, first)]
@@ -81,7 +110,14 @@ def prefix(
     """
     from ..edit.prefix import add_prefix
 
-    return _run(robot, lambda draft: add_prefix(draft, text), files, output)
+    def make(_: str, keep: frozenset[str]) -> Edited:
+        return _run(robot, lambda draft: add_prefix(draft, text, keep=keep), files, output)
+
+    if output is None or not is_xacro_name(output):
+        return make("", frozenset())
+    from ..edit.xacro_output import prefix_in_xacro
+
+    return prefix_in_xacro(robot, text, make, output)
 
 
 def merge_fixed(

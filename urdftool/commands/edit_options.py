@@ -49,8 +49,8 @@ def add_edit_options(function: F) -> F:
             "-o",
             "--output",
             metavar="OUT",
-            help="Output URDF; other files are written next to it.  [default: standard output, "
-            "only the URDF]",
+            help="Output URDF; other files are written next to it. attach and prefix also write "
+            "OUT.xacro, which includes the sources.  [default: standard output, only the URDF]",
         ),
         add_name_option,
     ):

@@ -55,7 +55,7 @@ def attach_robot(arm: Draft, part: Draft, mount: Mount) -> str:
         part.remove(element)
     _drop_doubles(arm, part)
     _move_paths(arm, part)
-    text = _take_content(arm, part, first, _format_joint(mount, name, first))
+    text = _take_content(arm, part, first, format_joint(mount, name, first))
     arm.append_bytes(text)
     _copy_namespaces(arm, part)
     _join_semantics(arm, part, link.name, first)
@@ -89,7 +89,7 @@ def _check_clashes(arm: Draft, part: Draft, joint: str, dropped: set[int]) -> No
     if joint in arm.robot.joint:
         raise ModelError(f"joint '{joint}' exists; choose another name with --joint")
     one, two = ({_get_name(e): e for e in list_others(d.root)} for d in (arm, part))
-    _check_kind("element", one, two, dropped)
+    _check_kind("transmission or component", one, two, dropped)
 
 
 def _check_kind(
@@ -103,7 +103,7 @@ def _check_kind(
         element = other.xml if isinstance(other, Part) else other
         if name and element is not None and id(element) not in dropped:
             raise ModelError(
-                f"both robots have a {kind} '{name}'; choose a prefix with --prefix",
+                f"{kind} '{name}' is in both robots; choose a prefix with --prefix",
                 at=element.place,
             )
 
@@ -175,7 +175,8 @@ def move_paths(draft: Draft, folder: Path) -> None:
             draft.set(element, "filename", make_relative(uri, here.resolve(), folder.resolve()))
 
 
-def _format_joint(mount: Mount, name: str, first: str) -> list[str]:
+def format_joint(mount: Mount, name: str, first: str) -> list[str]:
+    """Return the lines of the fixed joint between two robots."""
     xyz, rpy = format_vector(mount.xyz), format_vector(mount.rpy)
     return [
         f'<joint name="{_quote(name)}" type="fixed">',

@@ -66,6 +66,7 @@ class Edited:
         files: Files next to the URDF by their relative paths: SRDF, YAML, meshes.
         notes: What is not kept, or must be known, each with its place.
         inputs: Paths of the files that were read.
+        sources: Robots of the proofs, as they were before.
     """
 
     robot: Robot
@@ -74,6 +75,7 @@ class Edited:
     files: dict[str, bytes | Path] = field(default_factory=dict)
     notes: list[Finding] = field(default_factory=list)
     inputs: list[str] = field(default_factory=list)
+    sources: list[Robot] = field(default_factory=list)
 
     @property
     def is_proved(self) -> bool:
@@ -115,9 +117,20 @@ def finish(
     proofs = [
         Proof(name, lines, _compare(source, edited, lines, rows)) for source, name, lines in sources
     ]
-    files = _name_files(draft, Path(name).stem)
+    files = _name_files(draft, get_stem(name))
     inputs = [one.path for one in (*draft.description.files, *(a.file for a in draft.around))]
-    return Edited(edited, data, proofs, files, draft.notes, inputs)
+    before = [source for source, _, _ in sources]
+    return Edited(edited, data, proofs, files, draft.notes, inputs, before)
+
+
+def prove_again(edited: Edited, robot: Robot) -> Edited:
+    """Return the result with another robot, which is compared with the same sources."""
+    rows = narrow_tolerances(ROWS, TOLERANCE)
+    proofs = [
+        Proof(proof.name, proof.lines, _compare(source, robot, proof.lines, rows))
+        for source, proof in zip(edited.sources, edited.proofs, strict=True)
+    ]
+    return replace(edited, robot=robot, proofs=proofs)
 
 
 def _read_result(draft: Draft, file: SourceFile) -> Robot:
@@ -140,6 +153,17 @@ def _compare(
     if declared.tolerance:
         rows = limit_tolerances(ROWS, declared.tolerance)
     return compare_declared(source, edited, declared, rows=rows)
+
+
+def is_xacro_name(output: str | Path) -> bool:
+    """Tell whether an output has the name of a xacro file."""
+    return Path(output).suffix == ".xacro"
+
+
+def get_stem(name: str | Path) -> str:
+    """Return the name of a file without ``.urdf``, ``.xacro`` or both."""
+    path = Path(name)
+    return Path(path.stem).stem if is_xacro_name(path) else path.stem
 
 
 def _name_files(draft: Draft, stem: str) -> dict[str, bytes | Path]:
@@ -168,7 +192,8 @@ def write_edited(
             nothing is changed then.
     """
     target = Path(output)
-    if target.suffix == ".xacro":
+    source = edited.robot.source
+    if is_xacro_name(target) and (source is None or source.expansion is None):
         raise OutputError(
             "the result is URDF without macros; give it the ending .urdf", path=target
         )
@@ -177,7 +202,7 @@ def write_edited(
     }
     for number, proof in enumerate(edited.proofs):
         end = ".map" if number == 0 else f".{number + 1}.map"
-        written[target.with_suffix(end)] = proof.text.encode("utf-8")
+        written[target.with_name(get_stem(target) + end)] = proof.text.encode("utf-8")
     written[target] = edited.data
     read = [path for path in (*edited.inputs, *inputs) if path not in (STDIN, "-")]
     check_targets(written, inputs=read)

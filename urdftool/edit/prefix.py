@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ..errors import ModelError
 from ..model.elements import Robot
 from ..source.document import Element
@@ -10,12 +12,13 @@ from .draft import Draft
 from .references import Names, list_names_in_text, list_others, rename
 
 
-def add_prefix(draft: Draft, prefix: str) -> None:
+def add_prefix(draft: Draft, prefix: str, *, keep: Collection[str] = ()) -> None:
     """Put a prefix before the names of links, joints, materials, transmissions and hardware.
 
     Args:
         draft: The robot.
         prefix: The prefix.
+        keep: The link ``world`` and hardware components that keep their names.
 
     Raises:
         ModelError: The prefix cannot be in a name, or a name is computed.
@@ -23,7 +26,7 @@ def add_prefix(draft: Draft, prefix: str) -> None:
     if not prefix or any(letter in prefix for letter in "<>&\"'$/ \t\n"):
         raise ModelError(f"'{prefix}' cannot be a prefix of names", path=draft.file.path)
     check_no_computed_names(draft)
-    names = make_names(draft.robot, prefix)
+    names = make_names(draft.robot, prefix, keep=keep)
     rename(draft, names)
     rename_in_files(draft, names.every, {"link": names.links, "joint": names.joints})
     root = draft.robot.tree.roots[0].name
@@ -32,14 +35,14 @@ def add_prefix(draft: Draft, prefix: str) -> None:
     list_names_in_text(draft, names.every, "it is not changed")
 
 
-def make_names(robot: Robot, prefix: str) -> Names:
-    """Return the names of a robot with a prefix."""
+def make_names(robot: Robot, prefix: str, *, keep: Collection[str] = ()) -> Names:
+    """Return the names of a robot with a prefix, but for those that are kept."""
     others = [e.get("name") or "" for e in list_others(robot.element)]
     return Names(
-        {name: prefix + name for name in robot.link},
+        {name: prefix + name for name in robot.link if name not in keep},
         {name: prefix + name for name in robot.joint},
         {name: prefix + name for name in map(_get_name, _list_materials(robot)) if name},
-        {name: prefix + name for name in others if name},
+        {name: prefix + name for name in others if name and name not in keep},
     )
 
 
