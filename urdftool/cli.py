@@ -18,6 +18,7 @@ import click
 
 from . import __version__
 from .commands.general_options import accept_general_options, make_general_options
+from .commands.grouped_help import CommandGroup
 from .console import Console
 from .control_characters import escape_controls
 from .errors import UrdftoolError
@@ -37,7 +38,7 @@ class ClosedPipe(Exception):  # noqa: N818 -- reads as what happened
     """Error raised when the reader of standard output has closed the pipe."""
 
 
-class Commands(click.Group):
+class Commands(CommandGroup):
     """Command group that imports each command on first use."""
 
     def invoke(self, ctx: click.Context) -> Any:

@@ -55,3 +55,24 @@ def test_examples_follow_the_options(urdftool):
     shown = urdftool("lint", "--help").out
     assert shown.index(f"{SHARED}:") < shown.index("Examples:") < shown.index("Exit code 1")
     assert "\n    urdftool lint src/ --fix\n" in shown
+
+
+@pytest.mark.parametrize("words", [(), ("export",), ("edit",), ("inertia",)])
+def test_lists_of_commands_have_whole_sentences(urdftool, words):
+    shown = urdftool(*words, "--help").out
+    assert "…" not in shown
+    assert "..." not in shown.partition("Commands:")[2].replace("A, B, ...", "")
+
+
+@pytest.mark.parametrize(
+    ("word", "advice"),
+    [
+        ("robot.urdf", "missing format (urdf, sdf, mjcf or usd) before 'robot.urdf'"),
+        ("mjfc", "did you mean 'mjcf'?"),
+        ("xyz", "choose urdf, sdf, mjcf or usd"),
+    ],
+)
+def test_export_without_a_format_lists_the_formats(urdftool, word, advice):
+    result = urdftool("export", word)
+    assert result.code == 2
+    assert advice in result.err

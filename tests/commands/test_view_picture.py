@@ -153,3 +153,30 @@ def test_links_in_a_loop_are_said_and_the_rest_drawn(urdftool, write):
     assert done.code == 1
     assert "link 'b' is not connected" in done.err
     assert pixels("p.png").shape == (60, 80, 3)
+
+
+FAULTY = ARM.replace('lower="-1" upper="1"', 'lower="1" upper="-1"')
+
+
+@pytest.mark.library("PIL")
+def test_findings_color_their_links_and_have_labels(urdftool, write, tmp_path):
+    path = write("r.urdf", FAULTY)
+    for name, more in (("plain", ()), ("findings", ("--findings",))):
+        target = tmp_path / f"{name}.png"
+        assert urdftool("view", path, "--picture", target, "--size", "400x300", *more).code == 0
+    plain, drawn = pixels(tmp_path / "plain.png"), pixels(tmp_path / "findings.png")
+    assert plain.shape == drawn.shape
+
+    def count_red(image):
+        red, green, blue = (image[..., k].astype(int) for k in range(3))
+        return int(np.count_nonzero((red > green + 60) & (red > blue + 60)))
+
+    assert count_red(plain) == 0
+    assert count_red(drawn) > 300, "the link of the joint, its label and the line between them"
+
+
+@pytest.mark.parametrize("more", [(), ("--contact-sheet", "s.png")])
+def test_findings_require_a_picture(urdftool, write, more):
+    result = urdftool("view", write("r.urdf", ARM), "--findings", *more)
+    assert result.code == 2
+    assert "--findings requires --picture" in result.err

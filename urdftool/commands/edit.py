@@ -7,13 +7,14 @@ from importlib import import_module
 import click
 
 from .general_options import accept_general_options
+from .grouped_help import CommandGroup
 
 OPERATIONS = (
     *("attach", "prefix", "merge-fixed", "root", "mirror", "zero", "sign", "cut", "round"),
 )
 
 
-class Operations(click.Group):
+class Operations(CommandGroup):
     """Group with a command for each operation, imported on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:

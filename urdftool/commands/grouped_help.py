@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from inspect import cleandoc
 from typing import Any
@@ -19,6 +20,24 @@ NAMED = "\0"
 
 _MAX_COLUMN = 26  # characters; a longer option has a line of its own
 _EXAMPLES = "\n\n\b\n"
+
+
+class CommandGroup(click.Group):
+    """Command group whose help lists its commands with whole sentences."""
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write each command with the whole first sentence of its help."""
+        names = self.list_commands(ctx)
+        commands = [(name, command) for name in names if (command := self.get_command(ctx, name))]
+        if commands:
+            with formatter.section("Commands"):
+                formatter.write_dl([(name, _get_first_sentence(one)) for name, one in commands])
+
+
+def _get_first_sentence(command: click.Command) -> str:
+    """Return the first paragraph of a help up to the end of its first sentence."""
+    paragraph = " ".join(cleandoc(command.help or "").partition("\n\n")[0].split())
+    return re.split(r"(?<=[^.]\.) (?=[A-Z'])", paragraph, maxsplit=1)[0]
 
 
 class GroupedCommand(click.Command):

@@ -9,11 +9,12 @@ import click
 from ..console import Console
 from ..inertia.shapes import SHAPES, find_shape
 from .general_options import accept_general_options
+from .grouped_help import CommandGroup
 
 OTHERS = ("mesh", "robot", "macros")
 
 
-class Kinds(click.Group):
+class Kinds(CommandGroup):
     """Group with a command for each shape, each made on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:

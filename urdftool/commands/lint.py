@@ -236,7 +236,7 @@ def command(
     output = OutputOptions(
         style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline
     )
-    output.paths, output.whole = paths, whole
+    output.paths, output.whole, output.arguments = paths, whole, tuple(arguments)
     if folders:
         output.ending = partial(summarize_robots, found, options)
     if fix or diff:

@@ -37,6 +37,7 @@ class OutputOptions:
         to_stderr: Write the findings to stderr, because the fixed description goes to stdout.
         paths: Files and folders of the command line.
         whole: Print all findings, without the limit per rule family.
+        arguments: Names of the xacro arguments of the command line.
         ending: Function that returns the last line for the reports of a run.
     """
 
@@ -50,6 +51,7 @@ class OutputOptions:
     to_stderr: bool = False
     paths: Sequence[str] = ()
     whole: bool = False
+    arguments: Sequence[str] = ()
     ending: Callable[[Sequence[Report]], str] | None = None
 
 
@@ -89,6 +91,7 @@ def report(
     else:
         write_result(text, output.output_file, inputs=_list_inputs(outcome) if to_file else [])
     _report_unread(console, outcome.reports)
+    _report_unknown_arguments(console, outcome.reports, output.arguments)
     _report_skipped(console, outcome.reports, output.paths)
     broken = _report_errors(console, outcome.reports)
     if any(report.checked or report.stopped or report.unexpanded for report in outcome.reports):
@@ -189,6 +192,24 @@ def _report_unread(console: Console, reports: Iterable[Report]) -> None:
         more = f" (and in {format_count(len(files), 'more file')})" if files else ""
         for line in format_lines([first]):
             console.print_note(line + more)
+
+
+def _report_unknown_arguments(
+    console: Console, reports: Iterable[Report], given: Sequence[str]
+) -> None:
+    """Print the arguments of the command line that no checked description declares."""
+    if not given:
+        return
+    from ..report.expansion import format_unknown_argument
+
+    checked = [report for report in reports if report.checked]
+    for name in given:
+        unknown = [report for report in checked if name in report.unknown_arguments]
+        if unknown and len(unknown) == len(checked):
+            first = unknown[0]
+            console.print_note(
+                format_unknown_argument(first.path, name, first.unknown_arguments[name])
+            )
 
 
 def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence[str]) -> None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _GROUPS = {
     "Page": "opened port host unlinted",
-    "Picture": "picture contact_sheet size camera",
+    "Picture": "picture findings contact_sheet size camera",
     "Robot": "pose show",
 }
 
@@ -52,6 +52,7 @@ def command(
     unlinted: bool,
     picture: str | None,
     contact_sheet: str | None,
+    findings: bool,
     size: tuple[int, int] | None,
     camera: tuple[float, ...] | None,
     pose: dict[str, float],
@@ -88,6 +89,8 @@ def command(
             raise click.UsageError(
                 "--picture and --contact-sheet exclude --port, --host and --open"
             )
+        if findings and (picture is None or is_mesh(path)):
+            raise click.UsageError("--findings requires --picture FILE.png of a robot")
         check_pictures(picture, contact_sheet)
         return write_pictures(
             console,
@@ -98,7 +101,10 @@ def command(
             camera=camera,
             pose=pose,
             show=show,
+            findings=findings,
         )
+    if findings:
+        raise click.UsageError("--findings requires --picture; the page shows them without it")
     if size is not None or camera is not None:
         raise click.UsageError("--size and --camera require --picture or --contact-sheet")
     from .view_page import serve_page

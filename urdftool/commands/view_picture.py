@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..drawing.png_file import Image
     from ..drawing.shapes import Shapes
     from ..model.elements import Robot
+    from ..model.pose import Pose
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -101,6 +102,11 @@ _OPTIONS = (
         help="Write a picture with every joint at both of its limits.",
     ),
     click.option(
+        "--findings",
+        is_flag=True,
+        help="With --picture: write the findings of lint at the links that they concern.",
+    ),
+    click.option(
         "--size",
         metavar="WxH",
         callback=_parse_size,
@@ -153,6 +159,7 @@ def write_pictures(
     camera: tuple[float, ...] | None = None,
     pose: Mapping[str, float] | None = None,
     show: str = "visual",
+    findings: bool = False,
 ) -> int:
     """Write the requested pictures.
 
@@ -167,6 +174,7 @@ def write_pictures(
         camera: Azimuth and elevation [degrees], and optionally distance [m].
         pose: Joint positions by name [rad or m].
         show: Geometry to show: ``visual``, ``collision`` or ``both``.
+        findings: Whether to check the robot and draw the findings on the picture.
 
     Returns:
         The exit code: 1 if a part was not drawn.
@@ -210,16 +218,36 @@ def write_pictures(
         )
     seen_from = None if camera is None else _make_camera(camera)
     if picture is not None:
-        facts = [sorted(poses.items()), camera, size or SIZE]
-        data = draw_or_read(
-            shapes, facts, lambda: draw(shapes, poses, camera=seen_from, size=size or SIZE)
-        )
+        if findings:
+            data = _draw_checked(console, robot, shapes, poses, seen_from, size or SIZE)
+        else:
+            facts = [sorted(poses.items()), camera, size or SIZE]
+            data = draw_or_read(
+                shapes, facts, lambda: draw(shapes, poses, camera=seen_from, size=size or SIZE)
+            )
         write_picture(data, picture, robot)
         width, height = read_size(data)
         console.print_note(f"wrote {picture}, {width} × {height} pixels")
     if contact_sheet is not None:
         _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
     return 1 if shapes.problems or nowhere else 0
+
+
+def _draw_checked(
+    console: Console,
+    robot: Robot,
+    shapes: Shapes,
+    poses: Mapping[str, Pose],
+    camera: Camera | None,
+    size: tuple[int, int],
+) -> bytes:
+    """Check a robot, and return a picture with its findings as a PNG file."""
+    from ..api.lint import check
+    from ..drawing.png_file import encode_png
+    from ..viewer.findings_picture import draw_findings
+
+    found = check(robot, config=console.config, grouped=True)
+    return encode_png(draw_findings(robot, shapes, poses, found, camera=camera, size=size))
 
 
 def _limit_pixels(

@@ -23,6 +23,7 @@ class Report:
         files: Source files read.
         format: Name of the format of the description.
         unread: What a reader of another format than URDF left out, and so was not checked.
+        unknown_arguments: Given xacro arguments without effect, each with the declared ones.
         skipped: Reason why it was not checked; empty if it was.
         error: Error that prevented reading it.
         stopped: Reason why its robot could not be read, so that it was not checked.
@@ -40,6 +41,7 @@ class Report:
     files: tuple[str, ...] = ()
     format: str = "urdf"
     unread: Sequence[Finding] = ()
+    unknown_arguments: dict[str, tuple[str, ...]] = field(default_factory=dict)
     skipped: str = ""
     error: UrdftoolError | None = None
     stopped: str = ""

@@ -24,6 +24,7 @@ from ..source.description import Description, is_xacro, read_description
 from ..source.document import STDIN, Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.packages import Packages
+from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
 from .merge import merge, sort_findings
 from .moot import Rejections
@@ -174,6 +175,9 @@ def _check_variant(
             failures.append(error)
             description = _read_mended(file, options, configuration)
         if description is not None:
+            report.unknown_arguments = list_unknown_arguments(
+                options.arguments, description.expansion
+            )
             root = description.document.root
             if description.expansion and not (root.find_child("link") or root.find_child("joint")):
                 from .skipped import explain_no_links

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
 from ..source.location import Call
+from ..source.unknown_arguments import list_unknown_arguments
 from ..suggestions import suggest_name
 from .json_text import format_json
 
@@ -39,21 +40,16 @@ def format_unknown_arguments(
         given: Values of the arguments.
         expansion: Result of xacro; None for plain URDF, which has no arguments.
     """
-    lines = []
-    known = {} if expansion is None else expansion.arguments
-    for name in given:
-        used = expansion is not None and f"$(arg {name})" in _format_sources(expansion)
-        if name not in known and not used:
-            hint = suggest_name(name, known, 0.6) or f"; declared: {', '.join(known) or 'none'}"
-            lines.append(
-                f"{path}: warning: no <xacro:arg> declares '{name}', so {name}:=… has no effect"
-                f"{hint}"
-            )
-    return lines
+    return [
+        format_unknown_argument(path, name, declared)
+        for name, declared in list_unknown_arguments(given, expansion).items()
+    ]
 
 
-def _format_sources(expansion: Expansion) -> str:
-    return "".join(f.data.decode(f.encoding, "replace") for f in expansion.files.values())
+def format_unknown_argument(path: str, name: str, declared: Collection[str]) -> str:
+    """Return the warning of an argument that a description does not declare."""
+    hint = suggest_name(name, declared, 0.6) or f"; declared: {', '.join(declared) or 'none'}"
+    return f"{path}: warning: no <xacro:arg> declares '{name}', so {name}:=… has no effect{hint}"
 
 
 def format_argument_list(expansion: Expansion) -> str:
