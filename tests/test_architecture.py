@@ -136,6 +136,7 @@ PLACES = {
     "PIL": (
         *("drawing/", "formats/mjcf/texture.py", "geometry/scene.py", "geometry/image_file.py"),
         *("formats/mjcf/verify_looks.py", "formats/common/asset_filter.py", "bundle/textures.py"),
+        "viewer/findings_picture.py",
     ),
     "pybullet": ("simulation/engines/pybullet/",),
     "matplotlib": ("simulation/plot.py",),
