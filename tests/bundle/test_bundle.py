@@ -367,3 +367,65 @@ def test_a_file_of_macros_is_refused(urdftool, write):
     assert result.code == 2
     assert "use a file that calls its macros" in result.err
     assert not os.path.exists("out")
+
+
+XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:arg name="limits" default="$(find arm_config)/limits.yaml"/>
+<link name="/base_link"/>
+<ros2_control name="c" type="system"><hardware><plugin>p/P</plugin>
+<param name="recipe">$(find arm_description)/etc/recipe.txt</param>
+<param name="limits">$(arg limits)</param></hardware></ros2_control>
+<gazebo><plugin name="p" filename="libp.so">
+<parameters>$(find arm_config)/control.yaml</parameters><topic>/rgb/camera_info</topic>
+<args>--params-file $(find arm_config)/control.yaml -v</args></plugin></gazebo></robot>"""
+
+
+def write_packages(write):
+    for name in ("arm_description", "arm_config"):
+        write(f"ws/src/{name}/package.xml", f"<package><name>{name}</name></package>")
+    for name in ("control.yaml", "limits.yaml"):
+        write(f"ws/src/arm_config/{name}", "a: 1\n")
+    write("ws/src/arm_description/etc/recipe.txt", "a\n")
+    write("ws/src/arm_description/urdf/r.urdf.xacro", XACRO)
+    return "ws/src/arm_description/urdf/r.urdf.xacro"
+
+
+def test_no_file_has_an_absolute_path(urdftool, write, tmp_path):
+    path = write_packages(write)
+    given = f"limits:={tmp_path}/ws/src/arm_config/limits.yaml"
+    assert urdftool("bundle", path, given, "-o", "out").code == 0
+    found = {inner.name: inner.read_bytes() for inner in (tmp_path / "out").rglob("*.*")}
+    assert {"r.urdf", "bundle.json"} <= set(found)
+    for content in found.values():
+        assert str(tmp_path).encode() not in content
+    text = found["r.urdf"].decode()
+    assert "<parameters>package://arm_config/control.yaml</parameters>" in text
+    assert '<param name="recipe">package://arm_description/etc/recipe.txt</param>' in text
+    assert "--params-file package://arm_config/control.yaml -v" in text
+    assert '"limits": "package://arm_config/limits.yaml"' in found["bundle.json"].decode()
+
+
+def test_two_machines_make_the_same_bytes(urdftool, write, tmp_path):
+    path = write_packages(write)
+    shutil.copytree(tmp_path / "ws", tmp_path / "other" / "ws")
+    for source, output in ((path, "one"), (f"other/{path}", "two")):
+        assert urdftool("bundle", source, "-o", output).code == 0
+    for inner in ("r.urdf", "bundle.json"):
+        one, two = (tmp_path / name / inner for name in ("one", "two"))
+        assert one.read_bytes() == two.read_bytes()
+
+
+def test_notes_of_collada_have_no_absolute_path(urdftool, write, tmp_path):
+    notes = (
+        "<asset><contributor><comments>exported to C:\\Users\\ann\\arm.dae; up=Z</comments>"
+        "<source_data>file:///home/ann/arm.max</source_data></contributor></asset>"
+    )
+    mark = b"<library_images>"
+    write("a.dae", files.dae("a.png").replace(mark, notes.encode() + mark))
+    write("r.urdf", files.robot(("a.dae", "a.dae")))
+    assert urdftool("bundle", "r.urdf", "-o", "out").code == 0
+    (made,) = (tmp_path / "out").rglob("*.dae")
+    content = made.read_bytes()
+    assert b"ann" not in content
+    assert b"exported to arm.dae; up=Z" in content
+    assert b"<source_data>arm.max<" in content

@@ -101,3 +101,25 @@ def test_other_zip_files(urdftool, write):
     with zipfile.ZipFile("y.zip", "w") as archive:
         archive.writestr("mine.txt", "x")
     assert "is not a bundle" in urdftool("bundle", "y.zip", "--check").err
+
+
+TOPICS = """<link name="/base_link"/><gazebo><plugin name="p" filename="libp.so">
+<topic>/rgb/high_res/camera_info</topic><ns>/gazebo/command/motor_speed</ns>{}</plugin></gazebo>"""
+
+
+def test_names_of_links_and_topics_are_no_files(urdftool, bundle):
+    path = bundle / "arm.urdf"
+    path.write_text(path.read_text().replace("</robot>", TOPICS.format("") + "</robot>"))
+    seal(bundle)
+    assert codes(urdftool) == []
+
+
+@pytest.mark.parametrize(
+    "value", ["/etc/passwd", "/nowhere/config/control.yaml", "file:///nowhere/a", "package://x/a"]
+)
+def test_values_that_name_files_outside(urdftool, bundle, value):
+    path = bundle / "arm.urdf"
+    block = TOPICS.format(f"<parameters>{value}</parameters>")
+    path.write_text(path.read_text().replace("</robot>", block + "</robot>"))
+    seal(bundle)
+    assert codes(urdftool) == ["points-out"]

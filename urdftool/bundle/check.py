@@ -134,6 +134,7 @@ def _check_references(folder: Path, inner: str, path: Path) -> Iterator[Defect]:
 
 
 def _check_description(folder: Path, inner: str, path: Path) -> Iterator[Defect]:
+    """Yield the references of a description that are missing or point out."""
     try:
         root = parse(read_file(path)).root
     except UrdftoolError as error:
@@ -144,11 +145,38 @@ def _check_description(folder: Path, inner: str, path: Path) -> Iterator[Defect]
         base = path.parent / folders.get(element.tag, "")
         names = _NAMES_A_FILE.get(element.tag, ())
         for name, value in element.attributes.items():
-            if name in names or is_outside(value):
+            if name in names or is_name_of_file(value):
                 yield from _check_reference(folder, inner, base, value)
         text = element.text.strip()
-        if is_outside(text) or (element.tag == "uri" and "://" not in text and "/" in text):
+        is_uri = element.tag == "uri" and "://" not in text and "/" in text
+        if is_uri or is_name_of_file(text):
             yield from _check_reference(folder, inner, base, text)
+
+
+_SUFFIXES = frozenset(
+    (
+        *("bmp", "bvh", "conf", "config", "csv", "dae", "dds", "exr", "fbx", "gif", "glb", "gltf"),
+        *("hdr", "ini", "jpeg", "jpg", "json", "ktx", "ktx2", "launch", "material", "md", "mtl"),
+        *("obj", "onnx", "pcd", "pgm", "png", "ply", "pt", "py", "rviz", "sdf", "sh", "so", "srdf"),
+        *("stl", "svg", "tga", "tif", "tiff", "toml", "txt", "urdf", "usd", "usda", "usdc", "usdz"),
+        *("webp", "world", "xacro", "xml", "yaml", "yml"),
+    )
+)
+"""Suffixes of files that descriptions name: without one, ``/base_link`` is a link or a topic."""
+
+
+def is_name_of_file(value: str) -> bool:
+    """Tell whether a value outside of attributes of files names a file.
+
+    It is a URI of a file, or an absolute path that exists or has a suffix of files. Names of links
+    and topics of ROS begin with ``/``, too.
+    """
+    if not is_outside(value):
+        return False
+    if not value.startswith("/"):
+        return True
+    suffix = PurePosixPath(value).suffix.lower().removeprefix(".")
+    return suffix in _SUFFIXES or os.path.exists(value)
 
 
 def _find_asset_folders(root: Element) -> dict[str, str]:

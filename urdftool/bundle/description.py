@@ -14,9 +14,13 @@ from ..source.edit import Edit, Source, apply, parse_source, remove_element, set
 from ..source.escape import escape
 from ..source.expansion import write_xml
 from ..source.location import SourceFile
+from .source_folders import replace_folders
 
 _VERSION = re.compile(rb"""\A(<\?xml\s+version\s*=\s*)("[^"]*"|'[^']*')""")
 _ENCODING = re.compile(rb"""(<\?xml[^>]*?)\s+encoding\s*=\s*("[^"]*"|'[^']*')""")
+
+
+NO_FOLDERS: Mapping[str, str] = {}
 
 
 def make_urdf(robot: Robot, name: str) -> SourceFile:
@@ -65,6 +69,7 @@ def rewrite(
     visual_uris: Mapping[str, str] | None = None,
     comment: str = "",
     strippath: bool = False,
+    folders: Mapping[str, str] = NO_FOLDERS,
 ) -> bytes:
     """Return a description with new URIs.
 
@@ -76,6 +81,7 @@ def rewrite(
         comment: Text of a comment before the root element; empty for none.
         strippath: Whether to set the option with which MuJoCo before version 4 keeps the folders
             of mesh paths.
+        folders: URIs of folders of this machine, which no value of the result contains.
     """
     source = parse_source(file)
     root = source.document.root
@@ -96,8 +102,12 @@ def rewrite(
                 if visual_uris and uri in visual_uris and _is_visual(element):
                     new = visual_uris[uri]
                 edits.append(set_attribute(source, element, name, new))
-        if element.text.strip() in uris and not element.children:
-            edits.append(_set_text(source, element, uris[element.text.strip()]))
+            elif (plain := replace_folders(value, folders)) != value:
+                edits.append(set_attribute(source, element, name, plain))
+        if not element.children and (text := element.text.strip()):
+            new = uris.get(text) or replace_folders(text, folders)
+            if new != text:
+                edits.append(_set_text(source, element, new))
     if strippath:
         edits += _keep_paths(source, root)
     return apply(file, edits)

@@ -23,6 +23,7 @@ from .manifest import MANIFEST, Manifest, compute_digest
 from .origin import find_licenses, find_repositories, list_declared_licenses, name_source
 from .presets import PRESETS, Uri
 from .ros_package import make_package_files
+from .source_folders import list_source_folders, replace_folders
 from .store import Content, Conversion, Stored, store_assets
 
 if TYPE_CHECKING:
@@ -119,6 +120,7 @@ def make_bundle(
     manifest = _make_manifest(robot.name, source_robot, description, options)
     bundle = Bundle(description, dict(stored.contents), manifest)
     source = Path(bundle.manifest.source).name
+    own_folders = list_source_folders(robot) | list_source_folders(source_robot)
     relative = options.uri_form == "relative" and any(
         a.kind == "mesh" for a in found.assets.values()
     )
@@ -129,10 +131,14 @@ def make_bundle(
         visual_uris=visual_uris,
         comment=format_comment(source),
         strippath=relative,
+        folders=own_folders,
     )
     if relative:
         bundle.manifest.changes.append('<compiler strippath="false"/> in <mujoco>')
-    bundle.manifest.missing = sorted(found.missing)
+    bundle.manifest.missing = sorted(replace_folders(uri, own_folders) for uri in found.missing)
+    bundle.manifest.arguments = {
+        name: replace_folders(value, own_folders) for name, value in manifest.arguments.items()
+    }
     bundle.notes = [*found.notes, *found.defects, *_report_conversions(robot, found, stored)]
     _add_origin(bundle, source_robot, stored)
     if options.uri_form == "package":

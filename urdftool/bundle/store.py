@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ..errors import MeshError
 from ..geometry.stl_header import read_stl_header
 from ..source.description import GltfUp
+from .author_paths import drop_author_paths
 from .collect import Asset, AssetKind, Collection
 from .layout import Layout
 from .limits import Limits
@@ -129,6 +130,8 @@ class _Store:
         content: Content = asset.path
         if any(old != new for old, new in names.items()):
             content = rewrite_references(asset.suffix, asset.path.read_bytes(), names)
+        if asset.suffix == ".dae":
+            content = _drop_author_paths(content)
         return self._put(asset, *self._shrink(asset, content))
 
     def _add_mesh(self, asset: Asset) -> str:
@@ -277,6 +280,13 @@ def _is_ascii_stl(path: Path) -> bool:
         return read_stl_header(path).kind == "ascii"
     except OSError:
         return False
+
+
+def _drop_author_paths(content: Content) -> Content:
+    """Return a COLLADA file without absolute paths in its notes; the same if it has none."""
+    data = content if isinstance(content, bytes) else content.read_bytes()
+    changed = drop_author_paths(data)
+    return content if changed == data else changed
 
 
 def _remove_folders(written: str) -> str:
