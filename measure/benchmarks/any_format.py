@@ -17,6 +17,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from urdftool.compare.check import WITHOUT_DIFFERENCE
+
 from .robots import example_folder
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "formats" / "commands.md"
@@ -96,7 +98,7 @@ def describe_export(done: Run) -> str:
     report = json.loads(done.out)
     if done.code == 2:
         return "refused: " + ", ".join(sorted({f["rule"] for f in report["findings"]}))
-    rows = [check for check in report["checks"] if check["verdict"] != "equal"]
+    rows = [check for check in report["checks"] if check["verdict"] not in WITHOUT_DIFFERENCE]
     worst = "differs" if any(c["verdict"] == "differs" for c in rows) else "announced"
     return f"{worst}: {', '.join(check['check'] for check in rows)}" if rows else "equal"
 

@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 from sdf_engines import Source, State, Target
 
-from urdftool.compare.check import is_faithful
+from urdftool.compare.check import WITHOUT_DIFFERENCE, is_faithful
 from urdftool.errors import UrdftoolError
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import Pair, compare, read_pair
@@ -65,8 +65,10 @@ def measure(path: Path, mode: str, folder: Path) -> dict[str, bool | str]:
     place.write_bytes(written.files["robot.sdf"])  # type: ignore[arg-type]
     pair = read_pair(robot, written, place, options)
     own = compare(pair)
-    row["shapes"] = all(c.verdict == "equal" for c in own if c.name in ("collisions", "visuals"))
-    row["own"] = all(check.verdict == "equal" for check in own)
+    row["shapes"] = all(
+        c.verdict in WITHOUT_DIFFERENCE for c in own if c.name in ("collisions", "visuals")
+    )
+    row["own"] = all(check.verdict in WITHOUT_DIFFERENCE for check in own)
     row["unannounced"] = not is_faithful(own)
     row["ign sdf -k at 1.9"] = _loads(robot, options, folder)
     _engines(path, pair, place, row)
@@ -86,7 +88,7 @@ def _loads(robot: Robot, options: Options, folder: Path) -> bool:
     place = folder / "old.sdf"
     place.write_bytes(write(robot, old).files["robot.sdf"])  # type: ignore[arg-type]
     check = run_loads(robot, old, place)
-    return check is not None and check.verdict == "equal"
+    return check is not None and check.verdict in WITHOUT_DIFFERENCE
 
 
 def _engines(path: Path, pair: Pair, place: Path, row: dict[str, bool | str]) -> None:

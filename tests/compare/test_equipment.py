@@ -42,3 +42,28 @@ def test_the_parameter_of_a_plugin(tmp_path):
     comparison = compare(tmp_path, URDF.format(10), URDF.format(20), ".urdf")
     (difference,) = comparison.differences
     assert (difference.row, difference.values) == ("simulator data", ("10", "20"))
+
+
+EMPTY = {
+    ".xml": '<mujoco model="m"><worldbody><body name="a"><joint/>'
+    + LIMB
+    + "</body></worldbody></mujoco>",
+    ".urdf": '<robot name="r"><link name="a"/></robot>',
+}
+
+
+@pytest.mark.parametrize(
+    "suffix", [pytest.param(".xml", marks=pytest.mark.library("mujoco")), ".urdf"]
+)
+def test_a_row_without_parts_is_not_equal(tmp_path, suffix):
+    checks = compare(tmp_path, EMPTY[suffix], EMPTY[suffix], suffix).make_checks()
+    verdicts = {check.name: check.verdict for check in checks}
+    rows = {".xml": CHANGES.keys() | {"loops"}, ".urdf": {"simulator data", "textures", "mass"}}
+    assert {verdicts[row] for row in rows[suffix]} == {"none"}
+    assert {verdicts["tree"], verdicts["visuals"]} == {"equal", "none"}
+
+
+@pytest.mark.library("mujoco")
+def test_rows_with_parts_are_equal(tmp_path):
+    checks = compare(tmp_path, MJCF, MJCF, ".xml").make_checks()
+    assert {check.name for check in checks if check.verdict == "equal"} >= CHANGES.keys()

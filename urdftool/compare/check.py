@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+WITHOUT_DIFFERENCE = frozenset(("equal", "none"))
+"""Verdicts of rows of which every part was compared, and no difference was found."""
+
 
 @dataclass
 class Check:
@@ -18,6 +21,7 @@ class Check:
         differing: Descriptions of unreported differences.
         announced: Descriptions of differences that the export reported.
         skipped: Why the property was not compared; empty if it was.
+        is_empty: Whether no robot has a part with the property, as far as it was compared.
     """
 
     name: str
@@ -27,19 +31,22 @@ class Check:
     differing: list[str] = field(default_factory=list)
     announced: list[str] = field(default_factory=list)
     skipped: str = ""
+    is_empty: bool = False
 
     @property
     def verdict(self) -> str:
         """Return the result of the comparison.
 
-        It is ``equal``, ``announced`` (every difference was reported), ``differs``, or ``not
-        compared``.
+        It is ``equal``, ``announced`` (every difference was reported), ``differs``, ``not
+        compared``, or ``none`` (no robot has a part with the property).
         """
         if self.differing:
             return "differs"
         if self.skipped:
             return "not compared"
-        return "announced" if self.announced else "equal"
+        if self.announced:
+            return "announced"
+        return "none" if self.is_empty else "equal"
 
     def compare(self, difference: float, item: str, *, known: bool = False) -> None:
         """Record a difference.
@@ -49,6 +56,7 @@ class Check:
             item: Description of the compared item.
             known: Whether the export reported the change.
         """
+        self.is_empty = False
         if difference <= self.tolerance:
             self.worst = max(self.worst, difference)
             return

@@ -95,6 +95,7 @@ def compare_robots(
     walk = _Walk(make_pair(a, b, names, meshes or MeshMeasures()), Comparison(tuple(rows)))
     pair, comparison = walk.pair, walk.comparison
     one, two = pair.a.by_name[pair.a.root], pair.b.by_name[pair.b.root]
+    comparison.record_parts("tree", a.links, b.links)
     _compare_base(pair, comparison)
     frame = _align_base(walk, one, two)
     if measure_largest(frame) > 1e-6 and (one.name == WORLD) == (two.name == WORLD):

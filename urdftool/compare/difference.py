@@ -61,7 +61,7 @@ class Comparison:
         not_comparable: Properties that a format of the two does not have.
         links: Names of matched links in the second robot, by those in the first.
         joints: Names of matched joints in the second robot, by those in the first.
-        worst: Largest difference of each row.
+        worst: Largest difference of each row; rows of which no robot has a part are absent.
         skipped: Rows that were not computed, with the reason.
     """
 
@@ -90,6 +90,22 @@ class Comparison:
         if not amount <= tolerance:
             self.differences.append(difference)
 
+    def record_parts(self, row: str, *parts: object) -> None:
+        """Record that a row compares something, if a robot has such parts."""
+        if any(parts):
+            self.worst.setdefault(row, 0.0)
+
+    def start_check(self, row: Row) -> Check:
+        """Return the row of the table for a property, without its differences."""
+        return Check(
+            row.name,
+            row.what,
+            row.tolerance,
+            self.worst.get(row.name, 0.0),
+            skipped=self.skipped.get(row.name, ""),
+            is_empty=row.name not in self.worst,
+        )
+
     def merge(self, other: Comparison) -> None:
         """Record what another comparison found in the compared rows."""
         for row in other.worst.keys() & self.tolerances.keys():
@@ -112,7 +128,7 @@ class Comparison:
         for row in self.rows:
             if row.name in self.skipped:
                 continue
-            check = Check(row.name, row.what, row.tolerance, self.worst.get(row.name, 0.0))
+            check = self.start_check(row)
             for difference in self.differences:
                 if difference.row == row.name:
                     place = check.announced if difference.is_convention else check.differing

@@ -60,6 +60,7 @@ def _compare(
         comparison.add(difference)
 
     one, two = drives
+    comparison.record_parts(_ROW, one, two)
     if one is None or two is None:
         if one is not two:
             modes = (None if drive is None else drive.mode for drive in drives)

@@ -10,8 +10,8 @@ from ..model.provenance import NOWHERE
 from ..model.settings import JOINT_TAGS, LINK_TAGS
 from .change import Change
 from .difference import Comparison, Difference
-from .extensions import collect_tags, compare_extensions
-from .mechanisms import compare_mechanisms
+from .extensions import BLOCKS, collect_tags, compare_extensions
+from .mechanisms import compare_mechanisms, list_parts_by_kind
 from .pair import Pair
 
 _BLOCKS = "simulator data"
@@ -48,9 +48,20 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
         )
     elif _BLOCKS in rows:
         comparison.skipped[_BLOCKS] = _WHY[_BLOCKS]
+    _record_parts(pair, comparison)
     for change in _list_changes(pair):
         if change.kind in _ROW_OF:
             comparison.add(_make_difference(_ROW_OF[change.kind], change))
+
+
+def _record_parts(pair: Pair, comparison: Comparison) -> None:
+    """Record which rows compare something: the kinds of parts that a robot has."""
+    for robot in (pair.a.robot, pair.b.robot):
+        for kind, parts in list_parts_by_kind(robot):
+            if kind in _ROW_OF:
+                comparison.record_parts(_ROW_OF[kind], *parts)
+        for tag in BLOCKS if robot.xml is not None else ():
+            comparison.record_parts(_BLOCKS, *robot.xml.list_children(tag))
 
 
 def _list_changes(pair: Pair) -> Iterator[Change]:

@@ -11,6 +11,8 @@ from .change import Change
 from .tolerance import close
 
 Flat = dict[str, tuple[str, Element]]
+BLOCKS = ("transmission", "gazebo", "ros2_control")
+"""Tags of the blocks."""
 _NAMING = ("name", "reference", "filename", "type")
 
 
@@ -18,7 +20,7 @@ def compare_extensions(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Change]:
     """Yield differences of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
-    for tag in ("transmission", "gazebo", "ros2_control"):
+    for tag in BLOCKS:
         one = _collect_blocks(a, tag, renamed)
         two = _collect_blocks(b, tag, {})
         for name in dict.fromkeys((*one, *two)):

@@ -54,6 +54,7 @@ def compare_looks(
     names = links[0].name, links[1].name
     scripts = [get_script(link, visual) for _, link, visual in sides]
     if any(scripts):
+        comparison.record_parts("looks", scripts)
         if scripts[0] != scripts[1]:
             _add(comparison, "looks", names, "material script", scripts, visuals)
         return
@@ -62,6 +63,7 @@ def compare_looks(
     compare_settings(pair, comparison, "looks", "link", names, rows, (one, two), visuals)
     images = [_find_image(robot, visual) for robot, _, visual in sides]
     digests = [None if path is None else pair.meshes.get_digest(path) for path in images]
+    comparison.record_parts("textures", *images)
     if digests[0] != digests[1]:
         texts = ["" if path is None else path.name for path in images]
         _add(comparison, "textures", names, "image of a visual", texts, visuals)

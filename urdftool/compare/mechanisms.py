@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
@@ -29,7 +29,8 @@ def compare_mechanisms(
         renamed: New names of links and joints by their old names.
     """
     in_blocks = a.xml is not None and b.xml is not None  # their elements are compared
-    for kind, before, after in zip(_KINDS, _list_parts(a), _list_parts(b), strict=True):
+    sides = list_parts_by_kind(a), list_parts_by_kind(b)
+    for (kind, before), (_, after) in zip(*sides, strict=True):
         if in_blocks and kind in _IN_BLOCKS:
             continue
         one, two = _index_by_name(before, renamed), _index_by_name(after, {})
@@ -57,13 +58,14 @@ _KINDS = (
 _IN_BLOCKS = ("closed loop", "camera", "mounted sensor", "light")
 
 
-def _list_parts(robot: Robot) -> tuple[Iterable[Part], ...]:
-    """Return the parts of each kind, without the frames of links, which the links have."""
+def list_parts_by_kind(robot: Robot) -> list[tuple[str, Sequence[Part]]]:
+    """Return each kind and its parts, without the frames of links, which the links have."""
     frames = [frame for frame in robot.frames if frame.kind != "body"]
-    return (
+    parts: tuple[Sequence[Part], ...] = (
         *(robot.closures, frames, robot.joint_actuators, robot.exclusions),
         *(robot.configurations, robot.cameras, robot.mounted_sensors, robot.lights),
     )
+    return list(zip(_KINDS, parts, strict=True))
 
 
 def _index_by_name(

@@ -202,7 +202,7 @@ def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[C
     """
     back = {new: old for (_, old), new in claims.renamed.items()}
     explained = [(excuse, _find_explained(source, excuse, claims)) for excuse in claims.excuses]
-    checks = {row.name: _start_check(row, comparison) for row in comparison.rows}
+    checks = {row.name: comparison.start_check(row) for row in comparison.rows}
     ordered = sorted(comparison.differences, key=lambda d: d.row in GLOBAL_ROWS)
     for difference in ordered:
         check = checks[difference.row]
@@ -236,13 +236,6 @@ def describe(difference: Difference) -> str:
 
 def _format(value: object) -> str:
     return f"{value:.{_SHOWN}g}" if isinstance(value, float) else str(value)
-
-
-def _start_check(row: Row, comparison: Comparison) -> Check:
-    worst = comparison.worst.get(row.name, 0.0)
-    return Check(
-        row.name, row.what, row.tolerance, worst, skipped=comparison.skipped.get(row.name, "")
-    )
 
 
 def _list_names(source: Robot, difference: Difference, back: Mapping[str, str]) -> set[str]:

@@ -70,6 +70,7 @@ def compare_sensors(pair: Pair, comparison: Comparison) -> None:
         elif not with_mjcf and {*pair.formats} != {"urdf"}:
             sensors = (s for s in sensors if not _is_hardware(s))
         sides.append(list(sensors))
+    comparison.record_parts(_ROW, *sides)
     for one, two in _match(pair, *sides):
         _compare(pair, one, two, comparison, plain=with_mjcf != 1)
     for side, left in enumerate(sides):

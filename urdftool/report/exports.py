@@ -47,7 +47,7 @@ def format_check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()
     lines: list[str] = []
     for check in checks:
         is_exact = check.tolerance == 0 and check.worst == 0
-        worst = "-" if is_exact or check.skipped else f"{check.worst:.1e}"
+        worst = "-" if is_exact or check.skipped or check.is_empty else f"{check.worst:.1e}"
         bound = "exact" if check.tolerance == 0 else f"{check.tolerance:.0e}"
         rows.append((check.name, check.what, worst, bound, check.verdict))
         lines += [f"{check.name}: differs: {item}" for item in check.differing]

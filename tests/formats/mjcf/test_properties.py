@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from urdftool.compare.check import is_faithful
+from urdftool.compare.check import WITHOUT_DIFFERENCE, is_faithful
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
@@ -88,4 +88,6 @@ def test_a_random_robot_is_itself(write, odd, seed):
     assert is_faithful(same_robot), format_check_table(checks)
     exact = {"lossy-inertia", "lossy-massless"}.isdisjoint(loss.code for loss in written.losses)
     if exact:
-        assert {check.verdict for check in same_robot} == {"equal"}, format_check_table(checks)
+        assert {check.verdict for check in same_robot} <= WITHOUT_DIFFERENCE, format_check_table(
+            checks
+        )

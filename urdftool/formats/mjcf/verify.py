@@ -222,7 +222,7 @@ def _compare_compiled(
 
 def _check_efforts(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare the bounds of force at the joints, which other bounds of an actuator may hide."""
-    check = Check("effort", "bounds of the force at each joint", _EXACT)
+    check = Check("effort", "bounds of the force at each joint", _EXACT, is_empty=True)
     model = compiled.model
     ranged = {one.joint for one in robot.joint_actuators if one.force_range is not None}
     for joint in robot.joints:
@@ -294,6 +294,7 @@ def _compare_dynamics(
     """Compare mass matrix and gravity of the joints, with a fixed root."""
     inertia = Check("mass matrix", "over all joints, with a fixed root", compiled.tensor_rounding)
     gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
+    inertia.is_empty = gravity.is_empty = True
     welded = _get_welded(mechanics, compiled)
     names = [joint.name for joint in mechanics.joints]
     dofs = compiled.get_dofs(names)

@@ -48,7 +48,7 @@ def check_material(
     robot: Robot, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
 ) -> Check:
     """Compare the color and the image of every visual geom."""
-    check = Check("materials", "color, image and gloss of visual geometry", SINGLE)
+    check = Check("materials", "color, image and gloss of visual geometry", SINGLE, is_empty=True)
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.get_reference()
     for link in robot.links:

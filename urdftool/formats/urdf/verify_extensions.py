@@ -55,7 +55,9 @@ def _check_actuators(
     names: Mapping[tuple[str, str], str],
     declared: DeclaredLosses,
 ) -> Check:
-    check = Check("actuators", "interfaces, ranges and gains of joints, relative", _TOLERANCE)
+    check = Check(
+        "actuators", "interfaces, ranges and gains of joints, relative", _TOLERANCE, is_empty=True
+    )
     joints = {part.name: part for block in result.ros2_controls for part in block.joints}
     for actuator in robot.joint_actuators:
         item = f"actuator '{actuator.name}' of joint '{actuator.joint}'"
@@ -110,7 +112,9 @@ def _check_sensors(
     names: Mapping[tuple[str, str], str],
     declared: DeclaredLosses,
 ) -> Check:
-    check = Check("sensors", "types, links, poses and fields of view [m, rad]", _TOLERANCE)
+    check = Check(
+        "sensors", "types, links, poses and fields of view [m, rad]", _TOLERANCE, is_empty=True
+    )
     present: dict[str, list[Sensor]] = {}
     for block in result.gazebo:
         if block.reference is not None:
@@ -201,7 +205,8 @@ def _check_srdf(
     declared: DeclaredLosses,
 ) -> Check:
     check = Check("srdf", "excluded contacts, named joint positions [rad, m]", _TOLERANCE)
-    if not (robot.exclusions or robot.configurations):
+    check.is_empty = not (robot.exclusions or robot.configurations)
+    if check.is_empty:
         return check
     file, problems = path.with_suffix(".srdf"), Written(path.name)
     if not file.is_file():

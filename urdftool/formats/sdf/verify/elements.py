@@ -49,7 +49,9 @@ def compare_elements(pair: Pair) -> Check:
     """Compare the elements of blocks that are copied unchanged."""
     check = Check("other elements", "lights, projectors, batteries, and what else is copied", EXACT)
     left = list(_list_written(pair))
-    for owner, name, element in _list_expected(pair):
+    expected = list(_list_expected(pair))
+    check.is_empty = not (left or expected)
+    for owner, name, element in expected:
         about = f"<{element.tag}> of '{name}'" if name else f"<{element.tag}>"
         known = pair.declared.has_for(BLOCKS, name)
         alike = [one for one in left if one[0] == owner and one[1].tag == element.tag]
@@ -144,6 +146,7 @@ def _compare_loops(pair: Pair, check: Check) -> None:
     for block in list_model_elements(pair.robot):
         if block.tag != "joint":
             continue
+        check.is_empty = False
         name = block.get("name") or ""
         known = pair.declared.has_for(BLOCKS, "")
         names = [n for n in elements if n not in own and (n == name or n.startswith(f"{name}_"))]
@@ -189,6 +192,7 @@ def _compare_rest(pair: Pair, check: Check, kind: str) -> None:
         for path, value in facts.items()
         if path not in held and not path.startswith(ELSEWHERE)
     }
+    check.is_empty = check.is_empty and not (found or expected)
     for item in found ^ expected.keys():
         owner, path, value = item
         known = pair.declared.has_for(BLOCKS, expected.get(item, owner))

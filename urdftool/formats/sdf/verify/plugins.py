@@ -57,7 +57,9 @@ def compare_plugins(pair: Pair) -> Check:
     """Compare every plugin."""
     check = Check("plugins", "what they are of, library, class, parameters", 0.0)
     left = list(_list_written(pair))
-    for wanted in _list_expected(pair):
+    expected = list(_list_expected(pair))
+    check.is_empty = not (left or expected)
+    for wanted in expected:
         about = f"plugin '{wanted.library}'" + (f" of '{wanted.owner}'" if wanted.owner else "")
         alike = [one for one in left if one[1].get("filename") == wanted.library]
         alike.sort(key=lambda one: _collect_unlike(one, wanted))

@@ -61,7 +61,9 @@ def compare_sensors(pair: Pair) -> Check:
     check = Check("sensors", "link or joint, pose, type, rate, topic, parameters", EXACT)
     left = list(_list_written(pair))
     base, here = _compute_base(pair), _compute_poses(pair.robot)
-    for sensor in list_expected_sensors(pair):
+    expected = list(list_expected_sensors(pair))
+    check.is_empty = not (left or expected)
+    for sensor in expected:
         part = sensor.part
         known = pair.declared.has_for(RESTING, part.name)
         about = f"sensor '{sensor.name}' of '{part.name}'"
