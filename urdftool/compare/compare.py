@@ -44,7 +44,6 @@ from .shapes import compare_shapes
 _MANY = 3
 """Number of differences from which another frame is considered."""
 
-
 _SAME = 1e-6
 """Distance [m] and angle [rad] of equal frames; above the rounding errors of printed angles."""
 

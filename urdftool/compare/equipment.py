@@ -60,8 +60,9 @@ def _record_parts(pair: Pair, comparison: Comparison) -> None:
         for kind, parts in list_parts_by_kind(robot):
             if kind in _ROW_OF:
                 comparison.record_parts(_ROW_OF[kind], *parts)
-        for tag in BLOCKS if robot.xml is not None else ():
-            comparison.record_parts(_BLOCKS, *robot.xml.list_children(tag))
+        if robot.xml is not None:
+            for tag in BLOCKS:
+                comparison.record_parts(_BLOCKS, *robot.xml.list_children(tag))
 
 
 def _list_changes(pair: Pair) -> Iterator[Change]:
