@@ -25,6 +25,10 @@ PICTURES = {
         *("--pose", "shoulder_joint=0.5", "--pose", "elbow_joint=1.2"),
         *("--show", "both", "--size", "960x720", "--picture"),
     ),
+    "view_findings.png": (
+        "demo_arm/urdf/arm.urdf.xacro",
+        *("--findings", "--size", "960x720", "--picture"),
+    ),
     "view_contact_sheet.png": (
         "demo_arm/urdf/arm_sound.urdf.xacro",
         *("--size", "320x270", "--contact-sheet"),
@@ -74,7 +78,7 @@ def run() -> int:
             return code
     for name, (robot, *words) in PICTURES.items():
         code = cli.call(["view", str(ROBOTS / robot), *words, str(FOLDER / name)])
-        if code:
+        if code > ("--findings" in words):  # 1, because a mesh of that robot is missing
             return code
     with tempfile.TemporaryDirectory() as folder:
         for name, (robot, *words) in STAGES.items():

@@ -189,10 +189,38 @@ def test_no_findings_are_a_valid_report(lint, write):
 
 def test_html_is_one_page_that_asks_for_nothing_else(lint, xacro_file):
     page = lint("html", xacro_file("r.urdf.xacro", WHEELS), "--select", "zero-axis").out
-    assert not re.search(r"(src|href|url)\s*[=(]", page)
+    assert not re.search(r"(src|href|url)\s*[=(](?!\"#|\"data:)", page)
+    assert 'href="#rule-zero-axis"' in page
+    assert 'id="rule-zero-axis"' in page
     assert "axis of joint &#x27;left_joint&#x27; is zero" in page
     assert "<mark>xyz=&quot;0 0 0&quot;</mark>" in page
     assert "macro &#x27;wheel&#x27; side=right" in page
+
+
+def test_html_begins_with_errors_and_names_files_by_relative_paths(lint, write, tmp_path):
+    boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+    path = write(
+        "r.urdf",
+        f'<robot name="r"><link name="a">{boxes}</link><link name="b">{boxes}</link>'
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+        '<axis xyz="0 0 0"/></joint></robot>',
+    )
+    page = lint("html", path).out
+    levels = re.findall(r'<article class="(\w+)"', page)
+    assert set(levels) >= {"error", "info"}
+    assert levels == sorted(levels, key=["error", "warning", "info"].index)
+    assert str(tmp_path) not in page
+    assert "<code>r.urdf:1:" in page
+
+
+@pytest.mark.library("PIL")
+def test_html_has_a_picture_of_each_robot_or_the_reason_for_none(lint, write):
+    box = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+    drawn = write("drawn.urdf", f'<robot name="r"><link name="a">{box}</link></robot>')
+    bare = write("bare.urdf", '<robot name="r"><link name="a"/><link name="b"/></robot>')
+    page = lint("html", drawn, bare).out
+    assert page.count('src="data:image/png;base64,') == 1
+    assert "bare.urdf: no picture, the robot has no visual geometry that can be read" in page
 
 
 @pytest.mark.parametrize("name", HOSTILE_NAMES)

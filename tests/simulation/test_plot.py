@@ -2,6 +2,7 @@
 
 import io
 import itertools
+import re
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -105,4 +106,5 @@ def test_nothing_else_is_printed_when_python_ends(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "urdftool", *map(str, words)], capture_output=True, text=True
     )
-    assert done.stderr == f"wrote {target}\n"
+    lines = [line for line in done.stderr.splitlines() if not re.fullmatch(r"\d+ s", line)]
+    assert lines == [f"wrote {target}"], "besides the time, which a slow machine prints"

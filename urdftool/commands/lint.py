@@ -237,6 +237,10 @@ def command(
         style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline
     )
     output.paths, output.whole, output.arguments = paths, whole, tuple(arguments)
+    if style == "html":
+        from .lint_pictures import draw_robots
+
+        output.draw = partial(draw_robots, console, options)
     if folders:
         output.ending = partial(summarize_robots, found, options)
     if fix or diff:

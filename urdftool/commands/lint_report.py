@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -38,6 +38,7 @@ class OutputOptions:
         paths: Files and folders of the command line.
         whole: Print all findings, without the limit per rule family.
         arguments: Names of the xacro arguments of the command line.
+        draw: Function that returns the pictures of a page, or the reason for each missing one.
         ending: Function that returns the last line for the reports of a run.
     """
 
@@ -52,6 +53,7 @@ class OutputOptions:
     paths: Sequence[str] = ()
     whole: bool = False
     arguments: Sequence[str] = ()
+    draw: Callable[[Outcome], Mapping[str, bytes | str]] | None = None
     ending: Callable[[Sequence[Report]], str] | None = None
 
 
@@ -85,6 +87,7 @@ def report(
         fail_on=threshold,
         statistics=output.statistics,
         whole=output.whole or to_file or (style == "concise" and not at_terminal),
+        pictures=output.draw(outcome) if output.draw is not None and style == "html" else {},
     )
     if output.to_stderr:
         click.echo(text, err=True, nl=False)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from ..diagnostic import Severity
 from ..lint.outcome import Outcome
@@ -18,6 +19,7 @@ def as_text(
     fail_on: Severity = Severity.WARNING,
     statistics: bool = False,
     whole: bool = True,
+    pictures: Mapping[str, bytes | str] = MappingProxyType({}),
 ) -> str:
     """Format a run.
 
@@ -29,11 +31,16 @@ def as_text(
         statistics: Count findings by rule instead.
         whole: Whether ``full`` and ``concise`` list every finding, or at most a screen for each
             family of rules.
+        pictures: PNG files of robots for ``html``, by path, or the reason why there is none.
     """
     if statistics:
         return _format_joined(count_by_rule(outcome))
     if style in ("full", "concise"):
         text = _format_joined(format_screen(outcome.findings, style, colors=colors, whole=whole))
+    elif style == "html":
+        from .findings_html import to_html
+
+        text = to_html(outcome, pictures)
     else:
         text = _format_in_style(outcome, style, fail_on)
     return text.encode("utf-8", "backslashreplace").decode()  # file names may contain any bytes
@@ -52,10 +59,6 @@ def _format_in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:
         from .findings_junit import to_junit
 
         return to_junit(outcome, fail_on)
-    if style == "html":
-        from .findings_html import to_html
-
-        return to_html(outcome)
     from .findings_github import format_github
 
     return _format_joined(format_github(outcome))

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import os
+import re
+from base64 import b64encode
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 from string import Template
+from types import MappingProxyType
 
 from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..lint.outcome import Outcome, Report
+from ..rules import FAMILY_OF
 from .findings import NOT_CHECKED, summarize
 from .findings_screen import sort_by_severity
 from .findings_words import (
@@ -20,28 +25,56 @@ from .findings_words import (
     format_message,
     format_remarks,
 )
+from .rule_pages import format_page
 
 _PAGE = Path(__file__).with_name("findings_page.html")
 _MOST_LINES = 6  # lines of the source that are shown for a finding
 _LONGEST_LINE = 400  # characters of a line that is shown
 
 
-def to_html(outcome: Outcome) -> str:
-    """Format a run as a page: findings by file, with filters by severity and rule."""
-    by_file: dict[str, list[Finding]] = {}
+def to_html(outcome: Outcome, pictures: Mapping[str, bytes | str] = MappingProxyType({})) -> str:
+    """Format a run as a page: findings by severity, with filters, and the pages of their rules.
+
+    Args:
+        outcome: The run.
+        pictures: PNG file of a robot with its findings by path of the description, or the reason
+            why there is none.
+    """
+    by_level: dict[Severity, list[Finding]] = {}
     for finding in sort_by_severity(outcome.findings):
-        by_file.setdefault(finding.location.path, []).append(finding)
-    files = [_format_unreadable(r) for r in outcome.reports if r.error is not None]
-    files += [_format_file(path, findings) for path, findings in by_file.items()]
+        by_level.setdefault(finding.severity, []).append(finding)
+    sections = [_format_picture(path, picture) for path, picture in pictures.items()]
+    sections += [_format_unreadable(r) for r in outcome.reports if r.error is not None]
+    sections += [_format_level(level, by_level[level]) for level in sorted(by_level, reverse=True)]
+    rules = sorted({finding.code for finding in outcome.findings} & FAMILY_OF.keys())
     return Template(_PAGE.read_text("utf-8")).substitute(
         summary=_escape_text(summarize(outcome)),
         filters=_format_filters(outcome),
-        files="\n".join(files) or "<p>Nothing was found.</p>",
+        files="\n".join(sections) or "<p>Nothing was found.</p>",
+        rules="\n".join(_format_rule(rule) for rule in rules),
     )
 
 
+def _format_picture(path: str, picture: bytes | str) -> str:
+    """Format the picture of a robot, or the reason why there is none."""
+    caption = _escape_text(path)
+    if isinstance(picture, str):
+        return f'<p class="soft">{caption}: no picture, {_escape_text(picture)}</p>'
+    data = b64encode(picture).decode()
+    image = f'<img alt="the robot with its findings" src="data:image/png;base64,{data}">'
+    return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"
+
+
+def _format_rule(rule: str) -> str:
+    """Format the page of a rule, to which the findings link."""
+    page = _escape_text(format_page(rule))
+    return f'<h3 id="rule-{escape(rule)}">{escape(rule)}</h3>\n<pre class="page">{page}</pre>'
+
+
 def _escape_text(text: str) -> str:
-    return escape(escape_controls(text))
+    """Escape a text, with paths below the current folder relative to it."""
+    here = re.compile(rf"(?<![/\w]){re.escape(os.getcwd().rstrip(os.sep) + os.sep)}")
+    return escape(escape_controls(here.sub("", text)))
 
 
 def _format_filters(outcome: Outcome) -> str:
@@ -65,9 +98,10 @@ def _format_counted(count: int, severity: Severity) -> str:
     return f"{count} {severity.label}{'s' if count != 1 and severity != Severity.INFO else ''}"
 
 
-def _format_file(path: str, findings: list[Finding]) -> str:
+def _format_level(severity: Severity, findings: list[Finding]) -> str:
     shown = "\n".join(_format_finding(finding) for finding in findings)
-    return f"<section>\n<h2>{_escape_text(path)}</h2>\n{shown}\n</section>"
+    title = _format_counted(len(findings), severity)
+    return f"<section>\n<h2>{title}</h2>\n{shown}\n</section>"
 
 
 def _format_unreadable(report: Report) -> str:
@@ -86,11 +120,12 @@ def _format_finding(finding: Finding) -> str:
     rows = "".join(
         f"<dt>{_escape_text(a)}</dt><dd>{_escape_text(b)}</dd>" for a, b in _list_rows(finding)
     )
-    place = f"{finding.location.line}:{finding.location.column}"
+    place = _escape_text(str(finding.location))
+    named = f'<a href="#rule-{rule}">{rule}</a>' if finding.code in FAMILY_OF else rule
     return (
         f'<article class="{level}" data-rule="{rule}">\n'
         f'<p><span class="level">{level}</span> {_escape_text(format_message(finding))}</p>\n'
-        f'<p class="soft"><code>{place} {rule}</code></p>\n'
+        f'<p class="soft"><code>{place} {named}</code></p>\n'
         f"{_format_source(finding)}<dl>{rows}</dl>\n</article>"
     )
 
