@@ -1,6 +1,7 @@
 """A gripper of one package on an arm of another: all files, clean, standing, verified."""
 
 import importlib.util
+import shutil
 
 import pytest
 
@@ -53,3 +54,30 @@ def test_it_stands(urdftool, attached, engine):
     result = urdftool("simulate", attached, "--fixed-base", "--engine", engine)
     assert result.code == 0, result.out
     assert "arm: stands" in result.out
+
+
+def copy_packages(tmp_path, name):
+    """Copy the packages, with the SRDF of the arm in ``config`` and a robot name in it."""
+    for package in (ARM.parents[1], HAND.parents[1]):
+        shutil.copytree(package, tmp_path / package.name)
+    urdf = tmp_path / ARM.parents[1].name / "urdf"
+    moved = urdf.parent / "config" / "moveit.srdf"
+    moved.write_text((urdf / "arm.srdf").read_text().replace('name="arm"', f'name="{name}"', 1))
+    (urdf / "arm.srdf").unlink()
+    return urdf / "arm.urdf", tmp_path / HAND.parents[1].name / "urdf" / "hand.urdf"
+
+
+def test_an_srdf_in_config_is_joined(urdftool, attached, tmp_path):
+    out = tmp_path / "config" / "robot.urdf"
+    result = urdftool("edit", "attach", *copy_packages(tmp_path, "arm"), *MOUNT, "-o", out)
+    assert result.code == 0, result.err
+    assert out.with_suffix(".srdf").read_text() == attached.with_suffix(".srdf").read_text()
+
+
+def test_an_srdf_of_another_robot_is_named(urdftool, tmp_path):
+    out = tmp_path / "other" / "robot.urdf"
+    result = urdftool("edit", "attach", *copy_packages(tmp_path, "other"), *MOUNT, "-o", out)
+    assert result.code == 0, result.err
+    assert "no SRDF of robot 'arm' is next to it" in result.err
+    assert "moveit.srdf has another robot name" in result.err
+    assert '<group name="arm">' not in out.with_suffix(".srdf").read_text()

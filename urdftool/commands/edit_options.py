@@ -106,6 +106,7 @@ def report_edit(
     console: Console, edited: Edited, output: str | None, *, force: bool, style: str
 ) -> int:
     """Write an edited robot and print its notes and its comparison; return the exit code."""
+    from ..diagnostic import Severity
     from ..formats.common.loss_report import count_messages, format_lines
     from ..report import edits as report
 
@@ -122,6 +123,6 @@ def report_edit(
         if is_printed and writes:
             click.echo(edited.data, nl=False)
         click.echo(report.format_text(edited), nl=False, err=is_printed)
-    lost = count_messages(edited.notes)
+    lost = count_messages(n for n in edited.notes if n.severity is Severity.WARNING)
     console.print_note(report.summarize(output, written, edited, lost, is_written=writes))
     return int(not edited.is_proved)

@@ -6,11 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..diagnostic import Severity
 from ..errors import ConfigError, ModelError, UrdftoolError
+from ..finding import Finding
 from ..model.numbers import number
 from ..rules.control.controller_files import get_package
 from ..rules.moveit.semantic import find_references, get_srdf_documents
-from ..source.document import parse, read_file
+from ..source.document import Document, parse, read_file
 from ..source.edit import Edit, apply
 from ..source.location import SourceFile
 from ..source.packages import shorten_path
@@ -20,6 +22,9 @@ from .draft import Draft, TextDraft, open_file
 
 _MOST_FILES = 60
 """Number of YAML files of a folder that are read. Chosen, no source."""
+_SRDF_FOLDERS = ("config", "srdf", "moveit", "urdf", "")
+"""Folders of a package in which an SRDF may be; MoveIt's Setup Assistant writes ``config``."""
+_FOLDER_WORDS = "config, srdf, moveit or urdf"
 _SUFFIXES = (".yaml", ".yml")
 
 
@@ -56,8 +61,11 @@ def add_files_around(draft: Draft, given: Iterable[str | Path] = ()) -> None:
     if description.path == "-":
         draft.around += known.values()
         return
-    for document in get_srdf_documents(draft.robot, description):
+    found = get_srdf_documents(draft.robot, description) or list(_find_in_package(draft))
+    for document in found:
         known.setdefault(_resolve(document.file.path), TextDraft(document.file))
+    if not found and not any(path.endswith(".srdf") for path in known):
+        _report_no_srdf(draft)
     for path in _list_yaml(draft, [Path(one.file.path).parent for one in known.values()]):
         if _resolve(path) in known:
             continue
@@ -68,6 +76,35 @@ def add_files_around(draft: Draft, given: Iterable[str | Path] = ()) -> None:
         except UrdftoolError:
             continue  # such as a file with $(var): it is not one of parameters
     draft.around += known.values()
+
+
+def _find_in_package(draft: Draft) -> Iterator[Document]:
+    """Yield the SRDF files of the robot's name in the folders of its package."""
+    for path in _list_srdf(draft):
+        try:
+            document = parse(read_file(shorten_path(path), draft.description.workspace))
+        except UrdftoolError:
+            continue  # it is read, with its error, where it is given by --with
+        if document.root.tag == "robot" and document.root.get("name") == draft.robot.name:
+            yield document
+
+
+def _list_srdf(draft: Draft) -> list[Path]:
+    description = draft.description
+    owner = description.packages.find_owner(Path(description.path).absolute())
+    folders = [] if owner is None else [owner[1] / name for name in _SRDF_FOLDERS]
+    return [p for f in folders for p in description.workspace.list_matches(f, "*.srdf")]
+
+
+def _report_no_srdf(draft: Draft) -> None:
+    """Record that no SRDF is edited, and the robots of those that the package has."""
+    others = [path.name for path in _list_srdf(draft)][:3]
+    rest = f"; {', '.join(others)} has another robot name" if others else ""
+    message = (
+        f"no SRDF of robot '{draft.robot.name}' is next to it or in {_FOLDER_WORDS} of its "
+        f"package{rest}; pass one with --with"
+    )
+    draft.notes.append(Finding("edit-semantics", Severity.INFO, message, draft.robot.place))
 
 
 def apply_changes(draft: Draft) -> Draft:
