@@ -93,7 +93,13 @@ def run_export(
         _print_model(written, as_json=as_json)
     not_compared = target.not_compared if verify else ()
     return report_written(
-        console, written, checks, output, as_json=as_json, not_compared=not_compared
+        console,
+        written,
+        checks,
+        output,
+        as_json=as_json,
+        not_compared=not_compared,
+        not_read=robot.unread,
     )
 
 
@@ -120,6 +126,7 @@ def report_written(
     *,
     as_json: bool,
     not_compared: Sequence[str] = (),
+    not_read: Sequence[Finding] = (),
 ) -> int:
     """Print losses to stderr, and the table or JSON to stdout; notes only with ``-v``.
 
@@ -130,6 +137,7 @@ def report_written(
         output: File or folder; ``-`` for standard output.
         as_json: Print the report as JSON.
         not_compared: Properties that ``--verify`` does not compare.
+        not_read: What the robot does not hold of its source.
 
     Returns:
         The exit code: 1 if a property differs without a reported loss.
@@ -143,14 +151,16 @@ def report_written(
     if as_json:
         from ..report.exports import to_json
 
-        click.echo(to_json(output, written.files, written.losses, checks, not_compared), nl=False)
+        text = to_json(output, written.files, written.losses, checks, not_compared, not_read)
+        click.echo(text, nl=False)
     else:
         for line in format_lines(shown):
             console.print_note(line)
         if checks:
             from ..report.exports import format_check_table
 
-            click.echo(format_check_table(checks, not_compared), nl=False, err=output == "-")
+            table = format_check_table(checks, not_compared, not_read)
+            click.echo(table, nl=False, err=output == "-")
     if output != "-":
         more = f", {format_count(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:

@@ -19,6 +19,7 @@ def to_json(
     findings: Iterable[Finding],
     checks: Sequence[Check],
     not_compared: Sequence[str] = (),
+    not_read: Sequence[Finding] = (),
 ) -> str:
     """Format the report of an export as one object.
 
@@ -28,6 +29,7 @@ def to_json(
         findings: Losses, or the defects that prevented the export.
         checks: Results of the verification; empty if it was not requested.
         not_compared: Parts that the verification does not compare.
+        not_read: What the robot does not hold of its source, which is not compared either.
     """
     report = {
         "version": 1,
@@ -36,13 +38,22 @@ def to_json(
         "findings": [build_finding_record(finding) for finding in merge_instances(findings)],
         "checks": [check.as_dict() for check in checks],
         "not_compared": list(not_compared) if checks else [],
+        "not_read": [finding.message for finding in not_read] if checks else [],
         "faithful": is_faithful(checks) if checks else None,
     }
     return format_json(report, 1) + "\n"
 
 
-def format_check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
-    """Format comparisons as a table, followed by the differences and the parts not compared."""
+def format_check_table(
+    checks: Sequence[Check], not_compared: Sequence[str] = (), not_read: Sequence[Finding] = ()
+) -> str:
+    """Format comparisons as a table, followed by the differences and the parts not compared.
+
+    Args:
+        checks: Results of the verification.
+        not_compared: Parts that the verification does not compare.
+        not_read: What the robot does not hold of its source, which is not compared either.
+    """
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
     lines: list[str] = []
     for check in checks:
@@ -57,6 +68,8 @@ def format_check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()
             lines.append(f"{check.name}: not compared: {check.skipped}")
     if not_compared:
         lines.append(f"not compared: {', '.join(not_compared)}")
+    if not_read:
+        lines.append(f"not read, so not compared: {'; '.join(one.message for one in not_read)}")
     table = render_table(rows, left=range(5), rule=True)
     return table + "".join(f"{escape_controls(line)}\n" for line in lines)
 
