@@ -8,7 +8,7 @@ SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 # tests on every core; a worker without work takes tests of another
 PARALLEL := -n auto --maxprocesses 8 --dist worksteal
 
-.PHONY: demo test test-core test-programs test-all check format docs site bench bench-peers fidelity record compare \
+.PHONY: demo dev rule check-rule test test-core test-programs test-all check format docs site bench bench-peers fidelity record compare \
   clean
 
 $(BIN)/urdftool: pyproject.toml
@@ -34,6 +34,21 @@ demo: $(BIN)/urdftool
 	$(BIN)/urdftool graph $(SOUND) -o -
 	$(BIN)/urdftool inertia robot $(SOUND)
 	$(BIN)/urdftool export sdf $(SOUND) -o $(VENV)/demo_arm --verify
+
+# what most changes need: no simulator, no mesh library
+dev:
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev-core]'
+
+# make rule NAME=heavy-damping FILE=joint/drive: the function and two robots, to be written;
+# make check-rule NAME=heavy-damping: its row in the table, fixtures, page, stated effects
+rule:
+	$(BIN)/python -m tests.new_rule $(NAME) $(FILE)
+
+check-rule:
+	$(BIN)/python -m tests.rule_table
+	$(BIN)/python docs/generate.py --rule $(NAME)
+	$(BIN)/python -m pytest -q -k $(NAME) tests/rules/test_fixtures.py tests/effects/test_table.py
 
 test: $(VENV)/.dev
 	$(BIN)/python -m pytest -m "not slow" $(PARALLEL)

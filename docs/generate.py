@@ -3,7 +3,8 @@
 These are a page per rule, from its docstring, its decorator and its fixtures; an index of rules;
 the help of each command, between marks in its page; the reference of the Python API; man pages
 and completion scripts; and the output of each ``$ command`` of a ``console`` block, run in a copy
-of the fixtures. ``--check`` writes nothing and prints the files that would change.
+of the fixtures. ``--check`` writes nothing and prints the files that would change, and
+``--rule NAME`` writes the page of that rule and the index alone.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from generator.man import list_man_pages
 from generator.python_page import insert_names
 
 from urdftool import cli
-from urdftool.rules import get_all_rules
+from urdftool.rules import get_all_rules, get_rule
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help begins", "<!-- help ends -->"
@@ -86,13 +87,26 @@ def find_stale() -> list[Path]:
     return wrong + [path for path in (DOCS / "rules").glob("*.md") if path not in fresh]
 
 
+def write_rules(names: list[str]) -> int:
+    """Write the pages of some rules and the index of rules; return the exit code."""
+    for name in names:
+        page = DOCS / "rules" / f"{name}.md"
+        page.write_text(rule_pages.write_page(get_rule(name)), "utf-8")
+        print(f"wrote {page}")
+    (DOCS / "rules" / "index.md").write_text(rule_pages.write_index(), "utf-8")
+    return 0
+
+
 def run() -> int:
     """Write the pages, or check them; return the exit code."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; print stale files")
     parser.add_argument("--no-commands", action="store_true", help="do not run console blocks")
+    parser.add_argument("--rule", action="append", help="write only the page of this rule")
     parser.add_argument("page", nargs="*", type=Path, help="run only the commands of these pages")
     options = parser.parse_args()
+    if options.rule:
+        return write_rules(options.rule)
     wrong: list[Path] = []
     if options.page:
         fresh = {}
