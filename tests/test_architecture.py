@@ -66,6 +66,10 @@ BELOW = {
         *("refusal", *BASE),
     ),
     "fmt": ("lint", "source", *BASE),
+    "server": (
+        *("fmt", "formats", "inertia", "lint", "rules", "finding", "model", "source"),
+        *("configuration", *BASE),
+    ),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "finding", "lint", "mechanics", "geometry", "inertia", "model", "refusal"),
@@ -143,6 +147,8 @@ PLACES = {
     "viser": ("viewer/server.py",),
     "websockets": ("viewer/server.py",),
     "pygraphviz": ("graph/graphviz.py",),
+    "pygls": ("server/protocol.py", "server/features.py"),
+    "lsprotocol": ("server/protocol.py", "server/features.py"),
 }
 
 

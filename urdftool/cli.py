@@ -27,7 +27,7 @@ from .terminal import install, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "verify", "view"),
-    *("simulate", "srdf", "bundle", "edit", "export", "fmt"),
+    *("simulate", "srdf", "bundle", "edit", "export", "fmt", "server"),
 )
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"

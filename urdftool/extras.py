@@ -22,6 +22,8 @@ EXTRA_OF = {
     "newton": "usd-verify",
     "robot_descriptions": "robots",
     "fcl": "srdf",
+    "pygls": "server",
+    "lsprotocol": "server",
 }
 """Extra that installs each optional library, by import name."""
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..configuration import Configuration
-from ..source.description import GltfUp
+from ..finding import Finding
+from ..source.description import Description, GltfUp
 from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..workspace import Workspace
@@ -20,6 +21,24 @@ if TYPE_CHECKING:
     from .cache import Cache
 
 ReadOther = Callable[[SourceFile, Packages], "Robot | None"]
+
+
+class Observer(Protocol):
+    """Observer of a check, in the process that checks."""
+
+    def on_read(
+        self, description: Description, robot: Robot | None, errors: list[Finding]
+    ) -> object:
+        """Receive a description before the rules run.
+
+        Args:
+            description: The description.
+            robot: Its robot; None if it could not be read.
+            errors: Why it could not be read as it is.
+        """
+
+    def on_rule(self) -> object:
+        """Raise an exception to end the check; called before each rule."""
 
 
 @dataclass
@@ -44,6 +63,7 @@ class Options:
         gltf_up: Up axis of glTF meshes; None uses the configuration.
         workspace: Access to the files of the run.
         variants: Sets of xacro arguments that launch files pass, by resolved path of the robot.
+        observer: Observer of the check, if any.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -59,6 +79,7 @@ class Options:
     gltf_up: GltfUp | None = None
     workspace: Workspace = field(default_factory=Workspace)
     variants: Mapping[str, list[dict[str, str]]] = field(default_factory=dict)
+    observer: Observer | None = None
 
     def get_key(
         self, cache: Cache, path: str | Path, configuration: Configuration, settings: Settings

@@ -306,6 +306,9 @@ def _check_description(
     findings = [
         convert_error(failure, settings.severity, unchecked=robot is None) for failure in failures
     ]
+    observer = options.observer
+    if observer is not None:
+        observer.on_read(description, robot, list(findings))
     subjects: dict[str, Any] = {
         "robot": robot,
         "description": description,
@@ -317,6 +320,8 @@ def _check_description(
     for rule in rules:
         if "robot" in rule.needs and robot is None:
             continue
+        if observer is not None:
+            observer.on_rule()
         ran.add(rule.name)
         for document in documents if "document" in rule.needs else [None]:
             subjects["document"] = document

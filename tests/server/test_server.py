@@ -1,0 +1,224 @@
+"""The server as an editor sees it, over pipes."""
+
+import pytest
+
+from tests.server.client import Client
+
+pytest.importorskip("pygls")
+
+MACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="arm" params="prefix y">
+    <link name="${prefix}arm"/>
+    <joint name="${prefix}swing" type="continuous">
+      <parent link="base"/>
+      <child link="${prefix}arm"/>
+      <origin xyz="0 ${y} 0"/>
+      <axis xyz="0 1 1"/>
+    </joint>
+  </xacro:macro>
+</robot>
+"""
+MAIN = """<robot name="two" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="arm.xacro"/>
+  <link name="base"/>
+  <xacro:arm prefix="left_" y="0.5"/>
+  <xacro:arm prefix="right_" y="-0.5"/>
+</robot>
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("robot").resolve()
+    (folder / "arm.xacro").write_text(MACRO)
+    (folder / "two.urdf.xacro").write_text(MAIN)
+    (folder / "package.xml").write_text("<package><name>two</name></package>")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def client(folder):
+    with Client(folder) as client:
+        yield client
+
+
+@pytest.fixture
+def macro(client, folder):
+    """Open the file of macros; its robot is found in the workspace."""
+    path = folder / "arm.xacro"
+    client.open(path)
+    client.wait_for(path, "axis-not-unit")
+    yield path
+    client.notify("textDocument/didClose", textDocument={"uri": path.as_uri()})
+
+
+def place(line, character):
+    return {"line": line, "character": character}
+
+
+def test_a_macro_is_checked_through_its_robot(client, macro, folder):
+    (found,) = client.list_found(macro, "axis-not-unit")
+    assert found["range"] == {"start": place(7, 12), "end": place(7, 23)}
+    assert "in 2 expansions" in found["message"]
+    related = found["relatedInformation"]
+    calls = [one["location"] for one in related if "macro 'arm'" in one["message"]]
+    main = (folder / "two.urdf.xacro").as_uri()
+    assert [(one["uri"], one["range"]["start"]["line"]) for one in calls] == [(main, 3), (main, 4)]
+    assert any("mujoco" in one["message"] for one in related)
+
+
+def test_findings_stay_and_move_while_a_tag_is_half_typed(client, macro):
+    inserted = MACRO.replace('  <xacro:macro name="arm"', '  <lin\n  <xacro:macro name="arm"')
+    client.change(
+        macro,
+        {"range": {"start": place(1, 0), "end": place(1, 0)}, "text": "  <lin\n"},
+    )
+    client.wait_for(macro, "not-well-formed")
+    (found,) = client.list_found(macro, "axis-not-unit")
+    assert found["range"]["start"] == place(8, 12)
+    client.change(macro, text=inserted.replace("  <lin\n", ""))
+    client.wait_until(lambda: not client.list_found(macro, "not-well-formed"))
+    (found,) = client.list_found(macro, "axis-not-unit")
+    assert found["range"]["start"] == place(7, 12)
+
+
+def list_actions(client, path, diagnostic, only=None):
+    context = {"diagnostics": [diagnostic], **({"only": only} if only else {})}
+    return client.ask(
+        "textDocument/codeAction",
+        textDocument={"uri": path.as_uri()},
+        range=diagnostic["range"],
+        context=context,
+    )
+
+
+def test_actions_offer_the_fix_and_a_comment(client, macro):
+    (found,) = client.list_found(macro, "axis-not-unit")
+    fix, comment = list_actions(client, macro, found)
+    assert fix["title"].endswith("(unsafe)")
+    assert not fix.get("isPreferred")
+    (edit,) = fix["edit"]["changes"][macro.as_uri()]
+    assert edit["newText"] == 'xyz="0 0.70710678118654746 0.70710678118654746"'
+    assert edit["range"]["start"] == place(7, 12)
+    (edit,) = comment["edit"]["changes"][macro.as_uri()]
+    assert edit["newText"] == "<!-- urdftool-ignore[axis-not-unit] -->\n      "
+    assert edit["range"] == {"start": place(7, 6), "end": place(7, 6)}
+    assert list_actions(client, macro, found, only=["refactor"]) == []
+
+
+def test_a_suppression_comment_removes_the_finding(client, macro):
+    (found,) = client.list_found(macro, "axis-not-unit")
+    comment = list_actions(client, macro, found)[-1]
+    (edit,) = comment["edit"]["changes"][macro.as_uri()]
+    client.change(macro, {"range": edit["range"], "text": edit["newText"]})
+    client.wait_until(lambda: not client.list_found(macro, "axis-not-unit"))
+
+
+def test_fix_all_applies_safe_fixes_only(client, folder):
+    path = folder / "limits.urdf"
+    text = """<robot name="limits">
+  <link name="a"/><link name="b"/><link name="c"/>
+  <joint name="one" type="fixed"><parent link="a"/><child link="b"/></joint>
+  <joint name="two" type="continuous">
+    <parent link="b"/><child link="c"/><axis xyz="0 1 1"/><limit effort="1" velocity="1"/>
+  </joint>
+  <gazebo reference="a"><mu1> 0.2 </mu1><material>Gazebo/Grey</material></gazebo>
+  <joint name=" three" type="fixed"><parent link="a"/><child link="c"/></joint>
+</robot>
+"""
+    path.write_text(text)
+    client.open(path)
+    client.wait_for(path, "axis-not-unit")
+    (unsafe,) = client.list_found(path, "axis-not-unit")
+    for action in list_actions(client, path, unsafe, only=["source.fixAll"]):
+        assert action["kind"] == "source.fixAll.urdftool"
+        edits = action["edit"]["changes"][path.as_uri()]
+        assert not any("0.7071" in edit["newText"] for edit in edits)
+    client.notify("textDocument/didClose", textDocument={"uri": path.as_uri()})
+    path.unlink()
+
+
+@pytest.mark.parametrize(
+    ("line", "character", "expected"),
+    [
+        (2, 18, ["`left_arm`", "`right_arm`", "prefix=left_", "mass: not written"]),
+        (6, 24, ["`0 0.5 0`", "`0 -0.5 0`", "position [m]"]),
+        (5, 24, ["link **left_arm**", "by joint `left_swing`"]),
+        (3, 40, ["`revolute`"]),
+        (7, 8, ["<axis>", "`xyz`"]),
+    ],
+)
+def test_hover(client, macro, line, character, expected):
+    found = client.ask_at("textDocument/hover", macro, line, character)
+    for text in expected:
+        assert text in found["contents"]["value"]
+
+
+def test_outline_is_the_kinematic_tree(client, macro, folder):
+    path = folder / "two.urdf.xacro"
+    client.open(path)
+    (base,) = client.ask("textDocument/documentSymbol", textDocument={"uri": path.as_uri()})
+    assert base["name"] == "base"
+    assert [(c["name"], c["range"]["start"]["line"]) for c in base["children"]] == [
+        ("left_arm", 3),
+        ("right_arm", 4),
+    ]
+    (arm,) = client.ask("textDocument/documentSymbol", textDocument={"uri": macro.as_uri()})
+    assert arm["name"] == "arm"
+    assert [child["name"] for child in arm["children"]] == ["${prefix}arm", "${prefix}swing"]
+    client.notify("textDocument/didClose", textDocument={"uri": path.as_uri()})
+
+
+def test_formatting_is_that_of_fmt(client, macro):
+    text = MACRO.replace("  <xacro:macro", "      <xacro:macro")
+    client.change(macro, text=text)
+    (edit,) = client.ask(
+        "textDocument/formatting",
+        textDocument={"uri": macro.as_uri()},
+        options={"tabSize": 2, "insertSpaces": True},
+    )
+    assert edit["range"]["start"]["line"] == 1
+    client.change(macro, text=MACRO)
+    assert not client.ask(
+        "textDocument/formatting",
+        textDocument={"uri": macro.as_uri()},
+        options={"tabSize": 2, "insertSpaces": True},
+    )
+
+
+@pytest.mark.parametrize("position", [place(10**6, 3), place(0, 10**6), place(3, 10**6)])
+def test_positions_beyond_the_end(client, macro, position):
+    question = {"textDocument": {"uri": macro.as_uri()}, "position": position}
+    client.ask("textDocument/hover", **question)
+    client.ask(
+        "textDocument/codeAction",
+        textDocument={"uri": macro.as_uri()},
+        range={"start": position, "end": position},
+        context={"diagnostics": []},
+    )
+
+
+@pytest.mark.parametrize(("encoding", "column"), [("utf-8", 20), ("utf-16", 18), ("utf-32", 17)])
+def test_columns_are_in_the_units_of_the_editor(folder, encoding, column):
+    path = folder / "units.urdf"
+    text = """<robot name="units">
+  <link name="a"/><link name="b"/>
+  <joint name="j" type="continuous"><parent link="a"/><child link="b"/>
+    <!-- 🤖 --><axis xyz="0 1 1"/>
+  </joint>
+</robot>
+"""
+    path.write_text(text, "utf-8")
+    with Client(folder, encoding=encoding) as client:
+        assert client.capabilities["positionEncoding"] == encoding
+        client.open(path)
+        client.wait_for(path, "axis-not-unit")
+        (found,) = client.list_found(path, "axis-not-unit")
+        assert found["range"]["start"] == place(3, column + 4)
+    path.unlink()
+
+
+def test_the_server_ends_with_its_editor(folder):
+    client = Client(folder)
+    client.process.stdin.close()
+    assert client.process.wait(120) == 0

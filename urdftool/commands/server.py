@@ -1,0 +1,57 @@
+"""``urdftool server``: the language server for editors."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from ..console import Console
+from .grouped_help import GroupedCommand
+from .options import add_package_options
+
+
+@click.command("server", cls=GroupedCommand, groups={"Rules": "select ignore target"})
+@click.option("--select", multiple=True, metavar="RULES", help="Check only these rules.")
+@click.option("--ignore", multiple=True, metavar="RULES", help="Skip these rules.")
+@click.option(
+    "--target",
+    multiple=True,
+    metavar="TARGET",
+    help="Target program, as in 'urdftool lint'. Repeatable.  [default: detected from the file]",
+)
+@add_package_options
+@click.pass_obj
+def command(
+    console: Console,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    target: tuple[str, ...],
+    package: dict[str, Path],
+    package_path: tuple[str, ...],
+) -> int:
+    """Serve an editor: findings, fixes, hover, outline and formatting while you type.
+
+    The editor starts this command and speaks the Language Server Protocol over standard input and
+    output. docs/editors.md lists what to write in the settings of each editor. It requires the
+    extra 'server': pip install 'urdftool[server]'.
+    """
+    from ..extras import require
+
+    require("urdftool server", "pygls", "lsprotocol")
+    from ..server.features import serve
+    from ..server.protocol import ServerSettings
+
+    settings = ServerSettings(
+        {name: str(folder) for name, folder in package.items()},
+        package_path,
+        target,
+        select or None,
+        ignore,
+    )
+    answers = os.fdopen(os.dup(1), "wb", buffering=0)
+    os.dup2(2, 1)  # what a library prints is not part of the protocol
+    with os.fdopen(os.dup(0), "rb") as questions, answers:
+        serve(settings, questions, answers)
+    return 0

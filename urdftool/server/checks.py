@@ -1,0 +1,128 @@
+"""Checks of the robots that documents belong to, in two steps: reading, then the rules."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import Any
+
+from ..finding import Finding
+from ..lint.options import Options
+from ..lint.outcome import Report
+from ..lint.run import check_file
+from ..lint.settings import Settings
+from ..model.elements import Robot
+from ..source.description import Description
+from .diagnostics import convert_findings, make_error
+from .knowledge import Knowledge, RobotState
+
+
+class _Reads:
+    """Observer that keeps what was read, and passes on why something could not be."""
+
+    def __init__(self, on_errors: Callable[[list[Finding]], None], poll: Callable[[], None]):
+        self.descriptions: list[tuple[Description, Robot]] = []
+        self.files: set[str] = set()
+        self.errors: list[Finding] = []
+        self._on_errors, self.on_rule = on_errors, poll
+
+    def on_read(self, description: Description, robot: Robot | None, errors: list[Finding]) -> None:
+        """Keep a description and its robot."""
+        self.files |= {os.path.realpath(file.path) for file in description.files}
+        if robot is not None and not errors:
+            self.descriptions.append((description, robot))
+        if errors:
+            self.errors += errors
+            self._on_errors(self.errors)
+
+
+class Checks:
+    """Checks that one message asks for."""
+
+    def __init__(
+        self, knowledge: Knowledge, emit: Callable[[Any], None], poll: Callable[[], None]
+    ) -> None:
+        """Create checks.
+
+        Args:
+            knowledge: State of the process; what is read is stored in it.
+            emit: Receives the findings of each robot.
+            poll: Called between rules; raises an exception to end the check.
+        """
+        self.knowledge, self._emit, self._poll = knowledge, emit, poll
+
+    def check(self, paths: Iterable[str]) -> dict[str, list[str]]:
+        """Check the robots that files belong to, and return these by path of the file."""
+        robots = {path: self._list_robots(path) for path in paths}
+        for robot in dict.fromkeys(one for some in robots.values() for one in some):
+            self._check_robot(robot)
+        return robots
+
+    def read(self, path: str) -> None:
+        """Read the robots that a file belongs to, without a rule."""
+        nothing = Settings(select=())
+        for robot in self._list_robots(path):
+            self._run(robot, lambda errors: None, replace(self._options(robot), settings=nothing))
+
+    def _list_robots(self, path: str) -> list[str]:
+        robots = self.knowledge.list_robots(path)
+        alone = self.knowledge.is_description(path)
+        return robots or ([os.path.realpath(path)] if alone else [])
+
+    def _options(self, robot: str) -> Options:
+        options = self.knowledge.make_options(robot)
+        known = self.knowledge.get_repository(robot).robots
+        parts_only = robot.endswith(".xacro") and robot not in known
+        return replace(options, expand=not parts_only)
+
+    def _check_robot(self, robot: str) -> None:
+        def emit_errors(errors: list[Finding]) -> None:
+            self._emit_result(robot, errors, None, reads)
+
+        reads = _Reads(emit_errors, self._poll)
+        report = self._run(robot, emit_errors, self._options(robot), reads)
+        failed = [] if report.error is None else [make_error(self.knowledge, report.error, robot)]
+        findings = [] if reads.errors else report.findings
+        if report.error is not None or reads.errors:
+            self._emit_result(robot, reads.errors, report.findings, reads, failed)
+        else:
+            self._emit_result(robot, [], findings, reads)
+
+    def _run(
+        self,
+        robot: str,
+        on_errors: Callable[[list[Finding]], None],
+        options: Options,
+        reads: _Reads | None = None,
+    ) -> Report:
+        reads = reads or _Reads(on_errors, self._poll)
+        report = check_file(robot, replace(options, observer=reads))
+        state = self.knowledge.states.setdefault(robot, RobotState())
+        state.files = {robot, *reads.files, *(state.files if reads.errors else ())}
+        if reads.descriptions and not reads.errors:
+            state.descriptions = reads.descriptions
+        return report
+
+    def _emit_result(
+        self,
+        robot: str,
+        errors: list[Finding],
+        findings: list[Finding] | None,
+        reads: _Reads,
+        failed: Iterable[dict[str, Any]] = (),
+    ) -> None:
+        """Send findings; ``errors`` say why they are not those of the whole robot."""
+        converted = convert_findings(self.knowledge, errors)
+        for one in failed:
+            converted.setdefault(one.pop("path"), []).append(one)
+        self._emit(
+            {
+                "robot": robot,
+                "errors": converted,
+                "findings": None
+                if findings is None
+                else convert_findings(self.knowledge, findings),
+                "files": sorted({robot, *reads.files}),
+            }
+        )

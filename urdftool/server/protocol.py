@@ -1,0 +1,250 @@
+"""The Language Server Protocol over standard input and output, by pygls."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from lsprotocol import converters
+from lsprotocol import types as lsp
+from pygls import uris
+from pygls.lsp.server import LanguageServer
+
+from .. import __version__
+from .moves import compare_texts, make_change
+from .publication import Publication
+from .worker_process import PATIENCE, WorkerProcess
+
+QUIET = 0.05
+"""Time [s] without an edit before a check; chosen: keys of a fast typist are 0.1 s apart."""
+
+
+@dataclass(frozen=True)
+class ServerSettings:
+    """Settings of the command line.
+
+    Attributes:
+        packages: Folders by package name.
+        package_paths: Folders that contain packages.
+        targets: Simulators and middleware; if empty, they are inferred.
+        select: Rules to check; None for the default ones.
+        ignore: Rules to skip.
+        quiet: Time [s] without an edit before a check.
+        patience: Time [s] without an answer after which the checking process is killed.
+    """
+
+    packages: Mapping[str, str]
+    package_paths: Sequence[str] = ()
+    targets: Sequence[str] = ()
+    select: Sequence[str] | None = None
+    ignore: Sequence[str] = ()
+    quiet: float = QUIET
+    patience: float = PATIENCE
+
+
+class RobotServer(LanguageServer):
+    """Language server of robot descriptions.
+
+    Attributes:
+        settings: Settings of the command line.
+        worker: The checking process.
+        publication: Diagnostics that are shown.
+    """
+
+    def __init__(self, settings: ServerSettings) -> None:
+        """Create a server that answers what :func:`add_features` declares."""
+        super().__init__("urdftool", __version__)
+        self.settings = settings
+        self.worker = WorkerProcess(self.log, settings.patience)
+        self.publication = Publication()
+        self.converter = converters.get_converter()
+        self._texts: dict[str, str] = {}
+        self._uris: dict[str, str] = {}
+        self._robots: dict[str, list[str]] = {}
+        self._changed: set[str] = set()
+        self._check: asyncio.Task[None] | None = None
+        self._ready: asyncio.Task[None] | None = None
+
+    # Names and messages --------------------------------------------------------------------
+
+    def log(self, message: str) -> None:
+        """Write a line to the log of the editor."""
+        self.window_log_message(lsp.LogMessageParams(lsp.MessageType.Warning, message))
+
+    @property
+    def encoding(self) -> str:
+        """Return the unit of columns that both sides agreed on."""
+        found = self.server_capabilities.position_encoding
+        return str(
+            found.value if isinstance(found, lsp.PositionEncodingKind) else found or "utf-16"
+        )
+
+    def make_uri(self, path: str) -> str:
+        """Return the address of a file as the editor writes it."""
+        return self._uris.get(path) or uris.from_fs_path(path) or path
+
+    def find_path(self, uri: str) -> str | None:
+        """Return the resolved path of an address; None for one that is not a file."""
+        path = uris.to_fs_path(uri) if uri.startswith("file:") else None
+        return None if path is None else os.path.realpath(path)
+
+    # Documents -----------------------------------------------------------------------------
+
+    def start_worker(self, folders: Iterable[str]) -> None:
+        """Start the checking process, with the folders of the workspace."""
+        settings = {
+            "encoding": self.encoding,
+            "folders": list(folders),
+            "packages": {name: os.path.abspath(p) for name, p in self.settings.packages.items()},
+            "package_paths": [os.path.abspath(path) for path in self.settings.package_paths],
+            "targets": list(self.settings.targets),
+            "select": None if self.settings.select is None else list(self.settings.select),
+            "ignore": list(self.settings.ignore),
+        }
+        self._ready = asyncio.get_running_loop().create_task(self.worker.configure(settings))
+
+    def open_document(self, uri: str, text: str) -> None:
+        """Check a document that was opened."""
+        path = self.find_path(uri)
+        if path is not None:
+            self._uris[path] = uri
+            self._set_text(path, text)
+
+    def change_document(
+        self, uri: str, text: str, changes: Sequence[lsp.TextDocumentContentChangeEvent]
+    ) -> None:
+        """Move the findings of a document by its edits, and check it when it is quiet."""
+        path = self.find_path(uri)
+        if path is None:
+            return
+        for change in changes:
+            if isinstance(change, lsp.TextDocumentContentChangePartial):
+                start, end = change.range.start, change.range.end
+                moved = make_change(
+                    (start.line, start.character),
+                    (end.line, end.character),
+                    change.text,
+                    self.encoding,
+                )
+            else:
+                moved = compare_texts(self._texts.get(path, ""), text, self.encoding)
+            self.publication.move(path, moved)
+        self._set_text(path, text)
+
+    def close_document(self, uri: str) -> None:
+        """Forget a document; robots without an open document have no diagnostics."""
+        path = self.find_path(uri)
+        if path is None:
+            return
+        self._texts.pop(path, None)
+        self._robots.pop(path, None)
+        self.worker.set_document(path, None)
+        self._publish(self.publication.keep(self._list_robots()))
+        self._uris.pop(path, None)
+        self.schedule(self._texts)
+
+    def _set_text(self, path: str, text: str) -> None:
+        self._texts[path] = text
+        self.worker.set_document(path, text)
+        self.schedule([path])
+
+    def _list_robots(self) -> set[str]:
+        return {robot for robots in self._robots.values() for robot in robots}
+
+    async def refresh(self) -> None:
+        """Read files again, which changed on the disk, and check all open documents."""
+        await self.ask("refresh", {})
+        self.schedule(self._texts)
+
+    # Checks --------------------------------------------------------------------------------
+
+    def schedule(self, paths: Iterable[str]) -> None:
+        """Check documents when no edit has come for a while."""
+        self._changed.update(paths)
+        if self._check is not None:
+            self._check.cancel()
+        self._check = asyncio.get_running_loop().create_task(self._check_when_quiet())
+
+    async def _check_when_quiet(self) -> None:
+        await asyncio.sleep(self.settings.quiet)
+        paths = [path for path in self._changed if path in self._texts]
+        if not paths:
+            return
+        texts = {path: self._texts[path] for path in self._texts}
+
+        def receive(part: Mapping[str, Any]) -> None:
+            if all(self._texts.get(path) is text for path, text in texts.items()):
+                self._publish(self.publication.receive(part))
+
+        robots = await self.ask("check", {"paths": paths}, receive)
+        if robots is None:
+            return
+        self._changed.difference_update(paths)
+        self._robots.update({p: found for p, found in robots.items() if p in self._texts})
+        self._publish({*paths, *self.publication.keep(self._list_robots())})
+
+    async def ask(self, method: str, params: Mapping[str, Any], receive: Any = None) -> Any:
+        """Ask the checking process, after it has the settings."""
+        if self._ready is not None:
+            await asyncio.shield(self._ready)
+        return await self.worker.ask(method, params, receive)
+
+    def _publish(self, paths: Iterable[str]) -> None:
+        for path in paths:
+            self.text_document_publish_diagnostics(
+                lsp.PublishDiagnosticsParams(
+                    self.make_uri(path), self.list_diagnostics(path), self._get_version(path)
+                )
+            )
+
+    def _get_version(self, path: str) -> int | None:
+        uri = self._uris.get(path)
+        return self.workspace.get_text_document(uri).version if uri else None
+
+    def list_diagnostics(self, path: str) -> list[lsp.Diagnostic]:
+        """Return the diagnostics of a file that are known now."""
+        found = self.with_uris(self.publication.list_diagnostics(path))
+        made: list[lsp.Diagnostic] = self.converter.structure(found, list[lsp.Diagnostic])
+        return made
+
+    # Answers -------------------------------------------------------------------------------
+
+    def with_uris(self, value: Any) -> Any:
+        """Return an answer of the checking process with addresses in place of paths."""
+        if isinstance(value, list):
+            return [self.with_uris(one) for one in value]
+        if not isinstance(value, dict):
+            return value
+        return {
+            ("uri" if key == "path" else key): (
+                self.make_uri(one) if key == "path" else self.with_uris(one)
+            )
+            for key, one in value.items()
+        }
+
+    def make_workspace_edit(self, edits: Mapping[str, list[dict[str, Any]]]) -> lsp.WorkspaceEdit:
+        """Return edits by path as an edit of documents with their versions, where they are known.
+
+        Args:
+            edits: Edits by path of the document.
+        """
+        made = {
+            path: self.converter.structure(some, list[lsp.TextEdit]) for path, some in edits.items()
+        }
+        workspace = self.client_capabilities.workspace
+        client = workspace.workspace_edit if workspace is not None else None
+        if client is None or not client.document_changes:
+            return lsp.WorkspaceEdit(changes={self.make_uri(p): some for p, some in made.items()})
+        changes = [
+            lsp.TextDocumentEdit(
+                lsp.OptionalVersionedTextDocumentIdentifier(
+                    self.make_uri(path), self._get_version(path)
+                ),
+                some,
+            )
+            for path, some in made.items()
+        ]
+        return lsp.WorkspaceEdit(document_changes=list(changes))

@@ -1,0 +1,66 @@
+"""What the checking process knows: open documents, robots of the workspace, their last checks."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+from .actions import list_actions, list_safe_edits
+from .checks import Checks
+from .formatting import format_document
+from .hover import describe_position
+from .knowledge import Knowledge
+from .symbols import list_symbols
+
+Emit = Callable[[Any], None]
+Question = Callable[[Knowledge, dict[str, Any]], Any]
+
+_QUESTIONS: dict[str, Question] = {
+    "actions": list_actions,
+    "fix-all": list_safe_edits,
+    "format": format_document,
+    "hover": describe_position,
+    "symbols": list_symbols,
+}
+
+
+class Session:
+    """Answers to the messages of the protocol process."""
+
+    def __init__(self) -> None:
+        """Create a session without documents."""
+        self.knowledge = Knowledge()
+
+    def set_document(self, path: str, text: str | None) -> None:
+        """Store the text of an open document; None for one that was closed."""
+        self.knowledge.set_document(path, text)
+
+    def answer(
+        self, method: str, params: dict[str, Any], emit: Emit, poll: Callable[[], None]
+    ) -> Any:
+        """Return the answer to a message, as JSON.
+
+        Args:
+            method: Name of the question.
+            params: Its parameters.
+            emit: Receives parts of the answer before it is complete.
+            poll: Called between rules; raises an exception to end the check.
+
+        Raises:
+            UrdftoolError: It cannot be answered.
+        """
+        if method == "configure":
+            return self.knowledge.configure(**params)
+        if method == "refresh":
+            return self.knowledge.refresh()
+        if method == "check":
+            return Checks(self.knowledge, emit, poll).check(params["paths"])
+        self._read_robots(params["path"])
+        return _QUESTIONS[method](self.knowledge, params)
+
+    def _read_robots(self, path: str) -> None:
+        """Read the robots of a file, if no check has read them."""
+        real = os.path.realpath(path)
+        if not any(real in state.files for state in self.knowledge.states.values()):
+            Checks(self.knowledge, lambda part: None, lambda: None).read(path)
