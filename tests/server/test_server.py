@@ -8,7 +8,8 @@ pytest.importorskip("pygls")
 
 MACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:macro name="arm" params="prefix y">
-    <link name="${prefix}arm"/>
+    <link name="${prefix}arm"><inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1"
+            ixy="0" ixz="0" iyz="0"/></inertial></link>
     <joint name="${prefix}swing" type="continuous">
       <parent link="base"/>
       <child link="${prefix}arm"/>
@@ -50,6 +51,7 @@ def macro(client, folder):
     client.wait_for(path, "axis-not-unit")
     yield path
     client.notify("textDocument/didClose", textDocument={"uri": path.as_uri()})
+    client.wait_until(lambda: not client.diagnostics[path.as_uri()])
 
 
 def place(line, character):
@@ -58,7 +60,7 @@ def place(line, character):
 
 def test_a_macro_is_checked_through_its_robot(client, macro, folder):
     (found,) = client.list_found(macro, "axis-not-unit")
-    assert found["range"] == {"start": place(7, 12), "end": place(7, 23)}
+    assert found["range"] == {"start": place(8, 12), "end": place(8, 23)}
     assert "in 2 expansions" in found["message"]
     related = found["relatedInformation"]
     calls = [one["location"] for one in related if "macro 'arm'" in one["message"]]
@@ -75,11 +77,11 @@ def test_findings_stay_and_move_while_a_tag_is_half_typed(client, macro):
     )
     client.wait_for(macro, "not-well-formed")
     (found,) = client.list_found(macro, "axis-not-unit")
-    assert found["range"]["start"] == place(8, 12)
+    assert found["range"]["start"] == place(9, 12)
     client.change(macro, text=inserted.replace("  <lin\n", ""))
     client.wait_until(lambda: not client.list_found(macro, "not-well-formed"))
     (found,) = client.list_found(macro, "axis-not-unit")
-    assert found["range"]["start"] == place(7, 12)
+    assert found["range"]["start"] == place(8, 12)
 
 
 def list_actions(client, path, diagnostic, only=None):
@@ -98,11 +100,11 @@ def test_actions_offer_the_fix_and_a_comment(client, macro):
     assert fix["title"].endswith("(unsafe)")
     assert not fix.get("isPreferred")
     (edit,) = fix["edit"]["changes"][macro.as_uri()]
-    assert edit["newText"] == 'xyz="0 0.70710678118654746 0.70710678118654746"'
-    assert edit["range"]["start"] == place(7, 12)
+    assert edit["newText"] == "0 0.70710678118654746 0.70710678118654746"
+    assert edit["range"] == {"start": place(8, 17), "end": place(8, 22)}
     (edit,) = comment["edit"]["changes"][macro.as_uri()]
     assert edit["newText"] == "<!-- urdftool-ignore[axis-not-unit] -->\n      "
-    assert edit["range"] == {"start": place(7, 6), "end": place(7, 6)}
+    assert edit["range"] == {"start": place(8, 6), "end": place(8, 6)}
     assert list_actions(client, macro, found, only=["refactor"]) == []
 
 
@@ -141,11 +143,11 @@ def test_fix_all_applies_safe_fixes_only(client, folder):
 @pytest.mark.parametrize(
     ("line", "character", "expected"),
     [
-        (2, 18, ["`left_arm`", "`right_arm`", "prefix=left_", "mass: not written"]),
-        (6, 24, ["`0 0.5 0`", "`0 -0.5 0`", "position [m]"]),
-        (5, 24, ["link **left_arm**", "by joint `left_swing`"]),
-        (3, 40, ["`revolute`"]),
-        (7, 8, ["<axis>", "`xyz`"]),
+        (2, 18, ["`left_arm`", "`right_arm`", "prefix=left_", "mass: 1 kg"]),
+        (7, 24, ["`0 0.5 0`", "`0 -0.5 0`", "position [m]"]),
+        (6, 24, ["link **left_arm**", "by joint `left_swing`"]),
+        (4, 40, ["`revolute`"]),
+        (8, 8, ["<axis>", "`xyz`"]),
     ],
 )
 def test_hover(client, macro, line, character, expected):
@@ -198,7 +200,7 @@ def test_positions_beyond_the_end(client, macro, position):
     )
 
 
-@pytest.mark.parametrize(("encoding", "column"), [("utf-8", 20), ("utf-16", 18), ("utf-32", 17)])
+@pytest.mark.parametrize(("encoding", "column"), [("utf-8", 23), ("utf-16", 21), ("utf-32", 20)])
 def test_columns_are_in_the_units_of_the_editor(folder, encoding, column):
     path = folder / "units.urdf"
     text = """<robot name="units">
@@ -214,7 +216,7 @@ def test_columns_are_in_the_units_of_the_editor(folder, encoding, column):
         client.open(path)
         client.wait_for(path, "axis-not-unit")
         (found,) = client.list_found(path, "axis-not-unit")
-        assert found["range"]["start"] == place(3, column + 4)
+        assert found["range"]["start"] == place(3, column)
     path.unlink()
 
 

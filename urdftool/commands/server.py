@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 
@@ -52,6 +53,19 @@ def command(
     )
     answers = os.fdopen(os.dup(1), "wb", buffering=0)
     os.dup2(2, 1)  # what a library prints is not part of the protocol
-    with os.fdopen(os.dup(0), "rb") as questions, answers:
+    with _Questions(io.FileIO(os.dup(0))) as questions, answers:
         serve(settings, questions, answers)
     return 0
+
+
+class _Questions(io.BufferedReader):
+    """Messages of the editor; this process ends with them."""
+
+    def _read_line(self, size: int | None = -1) -> bytes:
+        """Return a line; end the process if there is none, as many editors end without a word."""
+        line = super().readline(size)
+        if not line:
+            os._exit(0)
+        return line
+
+    readline = _read_line

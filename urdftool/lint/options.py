@@ -26,7 +26,7 @@ ReadOther = Callable[[SourceFile, Packages], "Robot | None"]
 class Observer(Protocol):
     """Observer of a check, in the process that checks."""
 
-    def on_read(
+    def receive_description(
         self, description: Description, robot: Robot | None, errors: list[Finding]
     ) -> object:
         """Receive a description before the rules run.
@@ -37,7 +37,7 @@ class Observer(Protocol):
             errors: Why it could not be read as it is.
         """
 
-    def on_rule(self) -> object:
+    def check_progress(self) -> object:
         """Raise an exception to end the check; called before each rule."""
 
 

@@ -308,7 +308,7 @@ def _check_description(
     ]
     observer = options.observer
     if observer is not None:
-        observer.on_read(description, robot, list(findings))
+        observer.receive_description(description, robot, list(findings))
     subjects: dict[str, Any] = {
         "robot": robot,
         "description": description,
@@ -321,7 +321,7 @@ def _check_description(
         if "robot" in rule.needs and robot is None:
             continue
         if observer is not None:
-            observer.on_rule()
+            observer.check_progress()
         ran.add(rule.name)
         for document in documents if "document" in rule.needs else [None]:
             subjects["document"] = document

@@ -103,13 +103,13 @@ def _choose_disjoint(fixes: Iterable[Fix]) -> list[Fix]:
     taken: list[tuple[str, int, int]] = []
     for fix in fixes:
         spans = [(r.place.path, r.place.start, r.place.end) for r in fix.replacements]
-        if not any(_overlap(one, other) for one in spans for other in taken):
+        if not any(_has_overlap(one, other) for one in spans for other in taken):
             chosen.append(fix)
             taken += spans
     return chosen
 
 
-def _overlap(one: tuple[str, int, int], other: tuple[str, int, int]) -> bool:
+def _has_overlap(one: tuple[str, int, int], other: tuple[str, int, int]) -> bool:
     return one[0] == other[0] and one[1] <= other[2] and other[1] <= one[2]
 
 

@@ -25,9 +25,11 @@ class _Reads:
         self.descriptions: list[tuple[Description, Robot]] = []
         self.files: set[str] = set()
         self.errors: list[Finding] = []
-        self._on_errors, self.on_rule = on_errors, poll
+        self._on_errors, self.check_progress = on_errors, poll
 
-    def on_read(self, description: Description, robot: Robot | None, errors: list[Finding]) -> None:
+    def receive_description(
+        self, description: Description, robot: Robot | None, errors: list[Finding]
+    ) -> None:
         """Keep a description and its robot."""
         self.files |= {os.path.realpath(file.path) for file in description.files}
         if robot is not None and not errors:
@@ -63,14 +65,16 @@ class Checks:
         """Read the robots that a file belongs to, without a rule."""
         nothing = Settings(select=())
         for robot in self._list_robots(path):
-            self._run(robot, lambda errors: None, replace(self._options(robot), settings=nothing))
+            self._run(
+                robot, lambda errors: None, replace(self._make_options(robot), settings=nothing)
+            )
 
     def _list_robots(self, path: str) -> list[str]:
         robots = self.knowledge.list_robots(path)
         alone = self.knowledge.is_description(path)
         return robots or ([os.path.realpath(path)] if alone else [])
 
-    def _options(self, robot: str) -> Options:
+    def _make_options(self, robot: str) -> Options:
         options = self.knowledge.make_options(robot)
         known = self.knowledge.get_repository(robot).robots
         parts_only = robot.endswith(".xacro") and robot not in known
@@ -81,7 +85,7 @@ class Checks:
             self._emit_result(robot, errors, None, reads)
 
         reads = _Reads(emit_errors, self._poll)
-        report = self._run(robot, emit_errors, self._options(robot), reads)
+        report = self._run(robot, emit_errors, self._make_options(robot), reads)
         failed = [] if report.error is None else [make_error(self.knowledge, report.error, robot)]
         findings = [] if reads.errors else report.findings
         if report.error is not None or reads.errors:

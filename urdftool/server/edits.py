@@ -20,14 +20,14 @@ def make_edit(knowledge: Knowledge, file: SourceFile, after: bytes) -> dict[str,
     most = min(len(before), len(after))
     head = count_common(before, after, most)
     tail = count_common(before[::-1], after[::-1], most - head)
-    head, tail = _avoid_halves(before, after, head, tail)
+    head, tail = _shorten_common(before, after, head, tail)
     return {
         "range": knowledge.make_table(file).get_range(head, len(before) - tail),
         "newText": after[head : len(after) - tail].decode(file.encoding, "replace"),
     }
 
 
-def _avoid_halves(before: bytes, after: bytes, head: int, tail: int) -> tuple[int, int]:
+def _shorten_common(before: bytes, after: bytes, head: int, tail: int) -> tuple[int, int]:
     """Return lengths of a common start and end that cut no character and no line end."""
     while head and (_is_inside(before, head) or _is_inside(after, head)):
         head -= 1

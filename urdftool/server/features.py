@@ -74,11 +74,11 @@ def _add_actions(server: RobotServer) -> None:
             return []
         only = params.context.only
         found: list[lsp.CodeAction] = []
-        if only is None or any(_includes(kind, "quickfix") for kind in only):
+        if only is None or any(_is_included(kind, "quickfix") for kind in only):
             span = ls.converter.unstructure(params.range)
             actions = await ls.ask("actions", {"path": path, "range": span}) or []
             found += [_make_action(ls, one, params.context.diagnostics) for one in actions]
-        if only is not None and any(_includes(kind, FIX_ALL) for kind in only):
+        if only is not None and any(_is_included(kind, FIX_ALL) for kind in only):
             edits = await ls.ask("fix-all", {"path": path})
             if edits:
                 edit = ls.make_workspace_edit(edits)
@@ -93,7 +93,7 @@ def _add_actions(server: RobotServer) -> None:
         return ls.converter.structure(edits, list[lsp.TextEdit]) if edits else None
 
 
-def _includes(kind: object, other: str) -> bool:
+def _is_included(kind: object, other: str) -> bool:
     """Tell whether a kind of action that an editor asks for includes another."""
     asked = str(getattr(kind, "value", kind))
     return other == asked or other.startswith(asked + ".") or not asked

@@ -36,7 +36,7 @@ class Session:
         """Store the text of an open document; None for one that was closed."""
         self.knowledge.set_document(path, text)
 
-    def answer(
+    def compute_answer(
         self, method: str, params: dict[str, Any], emit: Emit, poll: Callable[[], None]
     ) -> Any:
         """Return the answer to a message, as JSON.

@@ -13,12 +13,12 @@ from .frames import Closed, Inbox, pack
 from .session import Session
 
 
-class Cancelled(Exception):  # noqa: N818 -- reads as what happened
+class CheckEnded(Exception):  # noqa: N818 -- reads as what happened
     """Signal that a newer check waits, which makes the present one useless."""
 
 
 def serve() -> None:
-    """Answer the messages of standard input until it ends; the main function of the process.
+    """Handle the messages of standard input until it ends; the main function of the process.
 
     Standard output is kept for answers: what a library prints goes to standard error.
     """
@@ -48,14 +48,14 @@ class Worker:
         self.session = Session()
 
     def run(self) -> None:
-        """Answer messages until the other process ends."""
+        """Handle messages until the other process ends."""
         try:
             while True:
-                self._answer(self.inbox.take())
+                self._send_answer(self.inbox.take())
         except (Closed, BrokenPipeError):
             return
 
-    def _answer(self, question: dict[str, Any]) -> None:
+    def _send_answer(self, question: dict[str, Any]) -> None:
         number = question["id"]
         for path, text in question.get("documents", {}).items():
             self.session.set_document(path, text)
@@ -64,10 +64,12 @@ class Worker:
             self.send(pack({"id": number, "part": part}))
 
         try:
-            result = self.session.answer(question["method"], question["params"], emit, self._poll)
+            result = self.session.compute_answer(
+                question["method"], question["params"], emit, self._poll
+            )
             answer = {"id": number, "result": result}
-        except Cancelled:
-            answer = {"id": number, "result": None, "cancelled": True}
+        except CheckEnded:
+            answer = {"id": number, "result": None, "ended": True}
         except UrdftoolError as error:
             answer = {"id": number, "result": None, "error": error.message}
         except (Closed, BrokenPipeError):
@@ -80,7 +82,7 @@ class Worker:
         """Stop the present check if a newer one waits.
 
         Raises:
-            Cancelled: A check waits.
+            CheckEnded: A check waits.
         """
         if any(question["method"] == "check" for question in self.inbox.poll()):
-            raise Cancelled
+            raise CheckEnded
