@@ -16,7 +16,7 @@ MOST_CALLS = 20
 """Related places of one diagnostic; chosen: editors show them in a small window."""
 
 _LEVELS = {Severity.ERROR: 1, Severity.WARNING: 2, Severity.INFO: 3}
-_UNNECESSARY = 1  # DiagnosticTag of the protocol
+_UNNECESSARY = 1  # DiagnosticTag; source: specification of the protocol, 3.17
 _UNUSED = frozenset(("unused-macro", "unused-property", "unused-argument", "unused-suppression"))
 _PAGES = "https://urdftool.readthedocs.io/rules"
 

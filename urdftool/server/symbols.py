@@ -12,7 +12,7 @@ from .knowledge import Knowledge, make_path
 MOST_SYMBOLS = 5000
 """Symbols of one document; chosen: editors freeze with tens of thousands (vscode-yaml#485)."""
 
-_CLASS, _FUNCTION, _VARIABLE, _EVENT = 5, 12, 13, 24  # SymbolKind of the protocol
+_CLASS, _FUNCTION, _VARIABLE, _EVENT = 5, 12, 13, 24  # SymbolKind; source: the protocol, 3.17
 _KINDS = {
     "link": _CLASS,
     "joint": _EVENT,
