@@ -17,7 +17,9 @@ MOST_CALLS = 20
 
 _LEVELS = {Severity.ERROR: 1, Severity.WARNING: 2, Severity.INFO: 3}
 _UNNECESSARY = 1  # DiagnosticTag; source: specification of the protocol, 3.17
-_UNUSED = frozenset(("unused-macro", "unused-property", "unused-argument", "unused-suppression"))
+_UNUSED = frozenset(
+    ("unused-arg", "unused-macro", "unused-material", "unused-property", "unused-suppression")
+)
 _PAGES = "https://urdftool.readthedocs.io/rules"
 
 
