@@ -297,6 +297,19 @@ class Joint(Part):
         """Tell whether the type requires limits."""
         return self.type in ("revolute", "prismatic")
 
+    @property
+    def turns_freely(self) -> bool:
+        """Tell whether it is continuous, or revolute with a drive and no written bound.
+
+        By the letter of URDF both bounds of the latter are zero, and it could not move; but an
+        effort or a velocity is written for a joint that moves. Bounds that are written count.
+        """
+        limit = self.limit
+        if self.type != "revolute" or limit is None:
+            return self.type == "continuous"
+        is_bounded = limit.lower is not None or limit.upper is not None
+        return not is_bounded and bool(limit.effort or limit.velocity)
+
 
 @dataclass
 class Robot(RobotConversions, Part):

@@ -116,10 +116,10 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
 def get_limits(joint: Joint) -> tuple[float, float]:
     """Return the lower and upper limit of a joint [rad, m], as URDF readers interpret it.
 
-    A missing bound is 0; the limits of a continuous joint and of a joint without ``<limit>`` are
-    infinite.
+    A missing bound is 0; the limits of a continuous joint, of a revolute one with an effort or
+    velocity but neither bound, and of a joint without ``<limit>`` are infinite.
     """
-    if joint.limit is None or joint.type == "continuous":
+    if joint.limit is None or joint.turns_freely:
         return -math.inf, math.inf
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 

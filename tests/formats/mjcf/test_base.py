@@ -45,6 +45,13 @@ FREE = {
         "</robot>", limb("arm", "0.2 0 0.1", solid('<sphere radius="0.1"/>')) + "</robot>"
     ),
 }
+ROTOR = solid('<cylinder radius="0.1" length="0.01"/>')
+FLYING = {
+    "rotors": quadruped(tuple(f"rotor_{n}" for n in range(4))),
+    "a name": robot(link("trunk", TRUNK), limb("arm_1", "0 0 0.1", ROTOR)).replace(
+        'name="r"', 'name="hextilt_flying_arm"'
+    ),
+}
 HELD = {
     "torso with hanging arms": biped("hand"),
     "torso with grippers": biped("gripper_base"),
@@ -70,6 +77,19 @@ def test_what_stands_on_its_legs_is_free(write, name):
     assert is_free(written)
     assert written.summary[0].startswith("free base (it stands on ")
     assert not is_free(export(write("r.urdf", FREE[name]), base="fixed"))
+
+
+@pytest.mark.parametrize("name", FLYING)
+def test_what_flies_is_free(write, name):
+    written = export(write("r.urdf", FLYING[name]))
+    assert is_free(written)
+    assert not is_free(export(write("r.urdf", FLYING[name]), base="fixed"))
+
+
+def test_a_file_says_that_its_robot_flies(write):
+    one = robot(link("trunk", TRUNK))
+    assert is_free(export(write("quadrotor_base.urdf", one)))
+    assert not is_free(export(write("base.urdf", one)))
 
 
 @pytest.mark.parametrize("name", HELD)

@@ -52,7 +52,7 @@ def test_limits_at_the_edge(write, inside, kind, range_, rule):
 
 
 @pytest.mark.parametrize(
-    ("limit", "value"), [('<limit lower="0.5" upper="0.5"/>', "0.5"), ("<limit effort='1'/>", "0")]
+    ("limit", "value"), [('<limit lower="0.5" upper="0.5"/>', "0.5"), ("<limit/>", "0")]
 )
 def test_a_locked_joint_that_is_kept_is_an_equality(write, limit, value):
     written, _ = exported(write, limit, keep_locked_joints=True)
@@ -66,7 +66,7 @@ def test_a_locked_joint_that_is_kept_is_an_equality(write, limit, value):
     ("limit", "kind", "pose", "rule"),
     [
         ('<limit lower="0" upper="0"/>', "revolute", ("0 0 2", None), "lossy-limit-equal"),
-        ("<limit effort='1'/>", "revolute", ("0 0 2", None), "lossy-limit-missing"),
+        ("<limit/>", "revolute", ("0 0 2", None), "lossy-limit-missing"),
         ('<limit lower="1" upper="1"/>', "prismatic", ("0 0 3", None), "lossy-limit-equal"),
         (
             '<limit lower="3.141592653589793" upper="3.141592653589793"/>',
@@ -85,6 +85,13 @@ def test_a_locked_joint_is_welded_at_its_position(write, limit, kind, pose, rule
     assert find(model, "site", "j").getparent() is body
     assert list(model.find("worldbody").iter("joint")) == []
     assert rules(written) == [rule]
+
+
+@pytest.mark.parametrize("limit", ['effort="1"', 'velocity="9"', 'effort="1.7" velocity="111"'])
+def test_a_driven_joint_without_bounds_is_continuous(write, limit):
+    written, element = exported(write, f"<limit {limit}/>", "revolute")
+    assert element.get("range") is None
+    assert "lossy-limit-missing" in rules(written)
 
 
 def test_what_mimics_a_locked_joint_is_held_where_it_leads(write):

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import PurePath
 
 from ...model.drives import get_commanded_joints
 from ...model.elements import Joint
@@ -34,6 +35,13 @@ ALIGNED = 0.95
 
 FEET = frozenset(("leg", "foot", "feet", "toe", "ankle", "calf", "shank"))
 """Words in the names of the last links of legs."""
+
+ROTORS = frozenset(("rotor", "propeller", "prop"))
+"""Words in the names of links that lift a robot which flies."""
+
+FLYING = frozenset(("quadrotor", "quadcopter", "hexarotor", "hexacopter", "multirotor",
+                    "multicopter", "drone", "uav", "flying"))  # fmt: skip
+"""Words in the name of a robot, or of its file, that flies."""
 
 LEGS = FEET | {"knee", "hip", "thigh", "wheel", "track"}
 HANDS = frozenset(("hand", "gripper", "finger", "thumb", "palm", "wrist", "arm", "forearm",
@@ -115,8 +123,9 @@ def explain_free_base(
 
     The base floats if the robot stands on a driven wheel or on two wheels; if only bodies that move
     relative to the root reach the ground: on two or more chains, below the center of mass, and not
-    named like hands; or if two or more chains end in links named like feet or legs. A robot without
-    collision geometry has a fixed base.
+    named like hands; if two or more chains end in links named like feet or legs; or if it flies, by
+    the names of its rotors, its own or that of its file. A robot without collision geometry has a
+    fixed base.
 
     Args:
         tree: The rigid bodies.
@@ -125,6 +134,8 @@ def explain_free_base(
     """
     if not any(link.collisions for link in tree.robot.links):
         return None  # it would fall through the floor
+    if flying := _describe_flight(tree):
+        return flying
     commanded = get_commanded_joints(tree.robot)
     branches = [j for j in tree.moving if tree.group[j.parent] == tree.root.name]
     if not commanded and len(branches) < 2:
@@ -175,6 +186,19 @@ def _describe_legs(tree: RigidTree) -> str | None:
         if body not in inner and words & FEET:
             legs.setdefault(_get_chain(tree, body)[0], body)
     return f"it has legs: {_format_listed(list(legs.values()))}" if len(legs) > 1 else None
+
+
+def _describe_flight(tree: RigidTree) -> str | None:
+    """Describe the rotors of a robot that flies, or the name that says it; None for others."""
+    robot = tree.robot
+    rotors = [link.name for link in robot.links if ROTORS & set(_split_words(link.name))]
+    if len(rotors) > 1:
+        return f"it has rotors: {_format_listed(rotors)}"
+    stem = "" if robot.source is None else PurePath(robot.source.path).stem
+    for name in (robot.name, stem):
+        if FLYING & set(_split_words(name)):
+            return f"its name says that it flies: {name}"
+    return None
 
 
 def _compute_top(ground: Ground) -> float:

@@ -11,6 +11,7 @@ from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import JOINTS_OF_MUJOCO
+from ..common.missing_bounds import explain_missing_bounds
 from ..written import Written
 from .digits import format_numbers_text, number_text
 from .gazebo import get_attributes
@@ -132,7 +133,9 @@ def _bound_losses(
             yield "limit-unused", text, Severity.INFO
         return
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
-    if limit.lower is None and limit.upper is None:
+    if joint.turns_freely:
+        yield "limit-missing", explain_missing_bounds(joint), Severity.WARNING
+    elif limit.lower is None and limit.upper is None:
         held = "its link is welded there" if welded else "an equality constraint holds it there"
         yield (
             "limit-missing",

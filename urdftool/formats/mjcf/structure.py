@@ -133,9 +133,10 @@ class Structure:
 def get_bounds(joint: Joint) -> tuple[float, float] | None:
     """Return lower and upper limit [rad or m]; None for an unlimited joint.
 
-    A missing limit counts as zero, as the URDF specification defines.
+    A missing limit counts as zero, as the URDF specification defines, unless the other is missing
+    too and the joint has an effort or velocity.
     """
-    if not joint.is_limited or joint.limit is None:
+    if not joint.is_limited or joint.limit is None or joint.turns_freely:
         return None
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 

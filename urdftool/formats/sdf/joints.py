@@ -8,6 +8,7 @@ from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
 from ...model.pose import compute_cross, compute_norm
 from ..common.actuator_config import JointSettings
+from ..common.missing_bounds import explain_missing_bounds
 from ..common.numbers import format_numbers_text, number_text
 from .extensions import convert_joint_extensions, report_dissolved_joint
 from .inertials import WEIGHTLESS
@@ -99,6 +100,9 @@ def _add_bounds(node: Node, t: Translation, part: Joint) -> None:
     if limit is None:
         text = f"joint '{part.name}' has no limits; it moves without limits"
         t.report_loss("limit", text, part, part)
+        return
+    if part.turns_freely:
+        t.report_loss("limit", explain_missing_bounds(part), limit, part)
         return
     if limit.lower is None and limit.upper is None:
         text = (

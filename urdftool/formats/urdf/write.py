@@ -17,6 +17,7 @@ from ..common.force_fallbacks import (
     report_passed_defects,
     report_tree_defects,
 )
+from ..common.missing_bounds import explain_missing_bounds
 from ..common.naming import replace_file_name
 from ..defects import refuse
 from ..written import Written
@@ -118,6 +119,9 @@ def _add_joint(t: Translation, joint: Joint) -> None:
         kind = "continuous"
         text = f"joint '{joint.name}' is continuous, since URDF has no screws"
         t.written.report_loss("screw", text, joint.place, kind="joint", name=joint.name)
+    if kind == "revolute" and joint.turns_freely:
+        kind, text = "continuous", explain_missing_bounds(joint)
+        t.written.report_loss("limit", text, joint.place, kind="joint", name=joint.name)
     node = _make_joint(t, name, kind, parent, child, joint.origin)
     if kind == "fixed":
         return

@@ -20,6 +20,7 @@ from ...model.pose import (
     compute_norm,
     rotation_from_quaternion,
 )
+from ..common.missing_bounds import explain_missing_bounds
 from ..written import Written
 from .bodies import Bodies
 from .joint_values import JointValues
@@ -134,6 +135,14 @@ class JointWriter:
         return usd.GetPrim()
 
     def _write_limits(self, prim: Usd.Prim, joint: Joint) -> None:
+        if joint.turns_freely and joint.type != "continuous":
+            self.written.report_loss(
+                "limit-missing",
+                explain_missing_bounds(joint),
+                joint.place,
+                kind="joint",
+                name=joint.name,
+            )
         lower, upper = get_limits(joint)
         for name, bound in (("lowerLimit", lower), ("upperLimit", upper)):
             if math.isfinite(bound):

@@ -86,6 +86,9 @@ def _add_shape(
     folder: MeshFolder,
     roles: tuple[bool, bool],
 ) -> None:
+    if context.has_zero_scale(prim):
+        context.report_loss("shape", "shapes with a scale of zero are left out", prim)
+        return
     frame = context.get_pose(context.stage.GetPrimAtPath(owner))
     shift = context.shifts.get(owner, IDENTITY)
     matrix = context.get_matrix(prim)

@@ -185,6 +185,10 @@ class Context:
             raise self.make_error(prim, "xformOpOrder", "has a scale of zero")
         return matrix
 
+    def has_zero_scale(self, prim: Usd.Prim) -> bool:
+        """Tell whether the transform of a prim to the stage has a scale of zero."""
+        return self._cache.GetLocalToWorldTransform(prim).GetDeterminant3() == 0
+
     def get_pose(self, prim: Usd.Prim) -> Pose:
         """Return the pose of a prim in the stage [m], without its scale."""
         return compute_pose(self.get_matrix(prim), self.length)

@@ -8,6 +8,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
 
 from ...diagnostic import Severity
 from ...geometry.tessellate import tessellate
+from ...model.bounds import has_extent
 from ...model.elements import (
     Box,
     Capsule,
@@ -91,6 +92,16 @@ class ShapeWriter:
         *,
         is_shared: bool,
     ) -> None:
+        if not isinstance(geometry, Plane) and not has_extent(geometry):
+            self.written.report_loss(
+                "shape",
+                f"{get_shape_name(geometry)} of link '{link.name}' has a size of zero or less, and "
+                "is left out",
+                shape.place,
+                kind="link",
+                name=link.name,
+            )
+            return
         stage = self.links.builder.stage
         with self.links.builder.edit_layer(GEOMETRY):
             prim = self._create_geometry(scope, name, geometry, is_shared=is_shared)
