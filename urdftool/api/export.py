@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..formats.common.cut import Cut, Cutter
     from ..formats.common.option import Base, FixInertia
     from ..formats.mjcf.options import Actuators, Exclude
-    from ..formats.sdf.options import FixedJoints, Target, Uri
+    from ..formats.sdf.options import ChosenBase, FixedJoints, Target, Uri
 
 
 def export_sdf(
@@ -29,6 +29,7 @@ def export_sdf(
     version: str = "",
     fixed_joints: FixedJoints = "",
     uri: Uri = "",
+    base: ChosenBase = "",
     world: bool = False,
     fix_inertia: FixInertia = "none",
     mesh_dir: str = "meshes",
@@ -47,6 +48,8 @@ def export_sdf(
         fixed_joints: ``"keep"``, or ``"lump"`` to merge their links; empty uses the default of the
             target.
         uri: Form of mesh URIs; empty uses the default of the target.
+        base: ``"auto"`` decides as the export to MJCF does; ``"fixed"`` adds a joint to the world;
+            ``"free"``; empty for the base of the description, free if it defines none.
         world: Whether to write a world with ground and sun around the model.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
         mesh_dir: Folder of the meshes, relative to the model.
@@ -71,6 +74,7 @@ def export_sdf(
         "version": version,
         "fixed_joints": fixed_joints,
         "uri": uri,
+        "base": base,
         "world": world,
         "fix_inertia": fix_inertia,
         "mesh_dir": mesh_dir,
@@ -79,7 +83,7 @@ def export_sdf(
     }
     folder, file = get_folder_and_file(output or robot.name or "robot")
     options = make_options(Options, choices, folder=folder, file=file)
-    sdf, robot = format_named("sdf"), weld_base(robot)
+    sdf, robot = format_named("sdf"), robot if base == "free" else weld_base(robot)
     written = sdf.write(robot, options)
     written.losses += check_plugins(robot, target)
     written.checks = finish_export(

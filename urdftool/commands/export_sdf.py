@@ -19,7 +19,7 @@ from .read_other import read_any
 
 _GROUPS = {
     "Output": "output world uri mesh_dir overwrite style",
-    "Conversion": "target version fixed_joints fix_inertia actuator_config",
+    "Conversion": "target version base fixed_joints fix_inertia actuator_config",
     "Verification": "verified strict force",
 }
 
@@ -63,7 +63,8 @@ def command(
         choices["uri"] = "file"  # standard output has no folder for relative URIs
     folder, file = get_folder_and_file(MODEL if place == "-" else place)
     options = make_options(Options, choices, folder=folder, file=file)
-    model = weld_base(read_any(console, robot, package, package_path, quiet=True))
+    model = read_any(console, robot, package, package_path, quiet=True)
+    model = model if options.base == "free" else weld_base(model)
     report_gltf_axes(console, model)
     return run_export(
         console,

@@ -189,6 +189,8 @@ LOSSES = {
     "ros2-control": "`<ros2_control>` is read from robot_description, not from SDF",
     "safety": "`<safety_controller>` is kept as a comment",
     "sensor": "a sensor's type was translated, or the target does not have it",
+    "welded-base": "the root is fixed to the world by a joint (`--base`)",
+    "free-base": "the root is free because of what carries the robot (`--base auto`)",
     "shape": "a shape that cannot be exported is dropped (`--force`)",
     "texture": "a texture is missing, or there is no folder for the script that Classic requires",
     "transmission": "a transmission is kept as a comment",

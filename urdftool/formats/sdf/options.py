@@ -20,6 +20,7 @@ from ..registry import format_named
 
 Target = Literal["gz", "gazebo-classic"]
 FixedJoints = Literal["", "keep", "lump"]
+ChosenBase = Literal["", "auto", "fixed", "free"]
 Uri = Literal["", "relative", "model", "package", "file"]
 
 VERSIONS: dict[str, tuple[str, ...]] = {
@@ -88,6 +89,15 @@ class Options:
             "and model only.",
             words=get_args(Uri)[1:],
             metavar="FORM",
+        ),
+    )
+    base: ChosenBase = field(
+        default="",
+        metadata=declare(
+            "Base of the robot: auto (as export mjcf decides), fixed by a joint to the world, or "
+            "free.  [default: as the description defines it; free if it does not]",
+            words=get_args(ChosenBase)[1:],
+            metavar="BASE",
         ),
     )
     world: bool = field(

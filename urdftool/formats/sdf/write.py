@@ -25,6 +25,7 @@ from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL as STRUCTURAL
 from ..defects import Refused, make_defect, refuse
 from ..written import Written
+from .base import apply_base
 from .joint_settings import choose_joint_settings
 from .mesh_files import MeshFiles, find_meshes
 from .model import add_model
@@ -62,12 +63,15 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     found += report_mesh_defects(robot, meshes)
     if any(finding.code in FATAL | STRUCTURAL for finding in found):
         refuse(found, force=options.force, fatal=FATAL)
+    decided = Written(options.file or MODEL)
+    robot = apply_base(robot, options.base, decided)
     plan = make_plan(robot, lump=options.lump)
     if options.fix_inertia == "none":
         found += report_inertia_defects(robot, plan)
     refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
+    written.losses += decided.losses
     report_unexpressed(robot, written, expressed=("base", "joint-spring"))
     settings = choose_joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)

@@ -13,7 +13,7 @@ from ....compare.rows import ROWS as ROWS_OF_ROBOTS
 from ....errors import UrdftoolError
 from ....model.elements import Dynamics, Joint, Limit, Robot
 from ....model.load import read_again
-from ....model.world import add_gazebo_base
+from ....model.world import WORLD, add_gazebo_base, weld_base
 from ...common.actuator_config import JointSettings, read_actuator_config
 from ...common.force_fallbacks import drop_invalid_parts
 from ...written import Written
@@ -77,7 +77,7 @@ def read_pair(robot: Robot, written: Written, place: Path, options: Options | No
         UrdftoolError: The file cannot be read back.
     """
     options = options or Options()
-    source = _read_source(robot, options)
+    source = _read_source(robot, options, written)
     packages = None if robot.source is None else robot.source.packages.make_finder_for(place)
     reading = read(place, packages=packages)
     losses = [*written.losses, *list_added_bodies(source)]
@@ -87,12 +87,16 @@ def read_pair(robot: Robot, written: Written, place: Path, options: Options | No
     return Pair(source, reading.robot, claims, declared, options, open_model(place))
 
 
-def _read_source(robot: Robot, options: Options) -> Robot:
-    """Return the robot as its file defines it, with the values of an actuator file."""
+def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
+    """Return the robot as its file and the user define it: base, values of an actuator file."""
     source = read_again(robot)
     if options.force:
         source = drop_invalid_parts(source)
     source = add_gazebo_base(source)
+    if options.base == "fixed" or any(one.code == "lossy-welded-base" for one in written.losses):
+        root = source.tree.roots[0]
+        if root.name != WORLD and source.base is not None:
+            source = weld_base(replace(source, base=replace(source.base, is_free=False)))
     if options.actuator_config is None:
         return source
     names = [joint.name for joint in source.joints if joint.type in MOVABLE]
