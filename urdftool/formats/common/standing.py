@@ -189,7 +189,7 @@ def _describe_legs(tree: RigidTree) -> str | None:
 
 
 def _describe_flight(tree: RigidTree) -> str | None:
-    """Describe the rotors of a robot that flies, or the name of a robot that flies; None for others."""
+    """Describe the rotors of a robot that flies, or the name that shows it; None for others."""
     robot = tree.robot
     rotors = [link.name for link in robot.links if ROTORS & set(_split_words(link.name))]
     if len(rotors) > 1:
