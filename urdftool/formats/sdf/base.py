@@ -25,7 +25,7 @@ def apply_base(robot: Robot, base: ChosenBase, written: Written) -> Robot:
         written: Receives a note about the joint, or about a base that is free.
     """
     roots = robot.tree.roots
-    if base in ("", "free") or len(roots) != 1 or roots[0].name == WORLD:
+    if base == "" or base == "free" or len(roots) != 1 or roots[0].name == WORLD:
         return robot
     tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
     home, _ = start_positions(robot)

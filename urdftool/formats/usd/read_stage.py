@@ -187,7 +187,7 @@ class Context:
 
     def has_zero_scale(self, prim: Usd.Prim) -> bool:
         """Tell whether the transform of a prim to the stage has a scale of zero."""
-        return self._cache.GetLocalToWorldTransform(prim).GetDeterminant3() == 0
+        return not bool(self._cache.GetLocalToWorldTransform(prim).GetDeterminant3())
 
     def get_pose(self, prim: Usd.Prim) -> Pose:
         """Return the pose of a prim in the stage [m], without its scale."""
