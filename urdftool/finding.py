@@ -35,11 +35,11 @@ class Cause(NamedTuple):
 
     Attributes:
         rules: Rules whose finding is the cause.
-        site: Element that this cause concerns.
+        sites: Elements of which one has that finding.
     """
 
     rules: tuple[str, ...]
-    site: Site
+    sites: tuple[Site, ...]
 
 
 @dataclass(slots=True)

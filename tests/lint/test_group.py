@@ -246,7 +246,7 @@ def fact(rule, name, start=8, *, cause=(), severity=Severity.WARNING, calls=(), 
         "link",
         name,
         site=("r.urdf", start),
-        cause=Cause(cause, ("r.urdf", start)) if cause else None,
+        cause=Cause(cause, (("r.urdf", start),)) if cause else None,
         **more,
     )
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ..diagnostic import Fix, Replacement
 from ..extras import find_missing_library
-from ..finding import Finding
+from ..finding import Finding, Site
 from ..model.elements import Robot
 from ..rules import get_rule
 from ..rules.fix import FixContext, OutsideError, Proposal, RefusedError
@@ -55,8 +55,9 @@ def add_fixes(
         options: Options of the command line.
     """
     groups: dict[tuple[Any, ...], list[Finding]] = {}
+    open_findings = {(finding.code, finding.site) for finding in findings}
     for finding in findings:
-        if finding.code in FIXES:
+        if finding.code in FIXES and not _waits(finding, origins.get(id(finding)), open_findings):
             place = finding.location
             key: tuple[Any, ...] = (finding.code, place.path, place.start, place.end)
             key = key if place.calls else (*key, *get_fact(finding))
@@ -93,6 +94,15 @@ def add_fixes(
         if replacements or rewrites:
             safe = all(proposal.safe for proposal in whole) and not _deletes_comments(replacements)
             group[0].fixes = (Fix(safe, whole[0].message, replacements, rewrites),)
+
+
+def _waits(
+    finding: Finding, origin: Origin | None, open_findings: Container[tuple[str, Site | None]]
+) -> bool:
+    """Tell whether a fix would compute with values of which another finding is open."""
+    doubting = get_rule(finding.code).rests_on + (finding.cause.rules if finding.cause else ())
+    sites = origin.problem.cause_sites if origin is not None else ()
+    return any((rule, site) in open_findings for rule in doubting for site in sites)
 
 
 def _deletes_comments(replacements: Sequence[Replacement]) -> bool:

@@ -84,7 +84,8 @@ def _list_candidates(
     cause: Cause, causes: Mapping[tuple[str, Site | None], list[int]]
 ) -> Iterable[int]:
     for rule in cause.rules:
-        yield from causes.get((rule, cause.site), ())
+        for site in cause.sites:
+            yield from causes.get((rule, site), ())
 
 
 def _explains(cause: Finding, finding: Finding) -> bool:

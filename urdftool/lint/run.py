@@ -455,7 +455,7 @@ def _convert_finding(
         hint,
         site=problem.site,
         group=Group(rule.group, problem.group, problem.alike) if rule.group else None,
-        cause=Cause(causes, problem.cause_site) if causes else None,
+        cause=Cause(causes, problem.cause_sites) if causes else None,
         owner=problem.owner,
         data=problem.data,
     )

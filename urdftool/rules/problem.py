@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from ..diagnostic import Severity
@@ -23,7 +23,8 @@ class Problem:
         severity: Replaces the rule's, if it depends on the case.
         group: The message for several such problems, with ``{count}`` and ``{names}``, for a rule
             that groups them; see the module's docstring.
-        cause: The subject of the finding that explains this one; None for the same subject.
+        cause: The subject of the finding that explains this one, or the subjects whose values
+            this one reads; None for the same subject.
         caused_by: Replaces the rule's, if it depends on the case.
         effects: Keys of the rule's effects that hold, if that depends on the case; None for those
             whose key names no case.
@@ -56,7 +57,7 @@ class Problem:
         hint: str = "",
         severity: Severity | None = None,
         group: str = "",
-        cause: Part | Element | None = None,
+        cause: Part | Element | Sequence[Part | Element] | None = None,
         caused_by: tuple[str, ...] | None = None,
         effects: Collection[str] | None = None,
         alike: object = None,
@@ -119,9 +120,10 @@ class Problem:
         return _get_site(self.subject)
 
     @property
-    def cause_site(self) -> Site:
-        """File and first byte of the subject of the finding that explains this one."""
-        return _get_site(self.subject if self.cause is None else self.cause)
+    def cause_sites(self) -> tuple[Site, ...]:
+        """File and first byte of each subject whose finding explains this one."""
+        cause = self.subject if self.cause is None else self.cause
+        return tuple(map(_get_site, cause if isinstance(cause, Sequence) else (cause,)))
 
 
 def _get_site(subject: Part | Element) -> Site:

@@ -26,8 +26,8 @@ Arguments of the decorator control how findings are reported together:
 
 ``caused_by=("placeholder-inertia",)``
     A finding of one of these rules about the same element explains a finding of this rule, which
-    is then listed under it. ``Problem(cause=…)`` names another element, and
-    ``Problem(caused_by=…)`` other rules, or none.
+    is then listed under it, and not fixed before it. ``Problem(cause=…)`` names another element, or
+    all elements whose values this finding reads, and ``Problem(caused_by=…)`` other rules, or none.
 
 ``of_motion=True``
     The problem matters only for moving parts, such as an inertia that is too large: for links that
@@ -148,6 +148,8 @@ class Rule:
         make_fix: Proposes changes for a problem, or None for cases that it does not fix; None if
             the rule has no fix.
         fix_traits: Facts about the fix.
+        rests_on: Rules that doubt values from which its fix computes others: the fix waits until
+            these report nothing about the subject, as for the rules of ``caused_by``.
         full_check: Check of a robot that reports every case, each at its own part; None if
             ``check`` does so.
     """
@@ -168,6 +170,7 @@ class Rule:
     formats: tuple[str, ...] = ("urdf",)
     make_fix: Callable[..., Proposal | None] | None = None
     fix_traits: FixTraits | None = None
+    rests_on: tuple[str, ...] = ()
     full_check: CheckRobot | None = None
 
     def full(self, check: CheckRobot) -> CheckRobot:
@@ -188,12 +191,14 @@ class Rule:
         writes_meshes: bool = False,
         renames: bool = False,
         reveals: bool = False,
+        rests_on: tuple[str, ...] = (),
     ) -> Callable[[Make], Make]:
-        """Make a function the fix of this rule; the arguments are those of :class:`FixTraits`."""
+        """Make a function the fix; arguments as in :class:`FixTraits`, and ``rests_on``."""
 
         def register(make: Make) -> Make:
             self.make_fix = make
             self.fix_traits = FixTraits(applicability, of_file, writes_meshes, renames, reveals)
+            self.rests_on = rests_on
             return make
 
         return register

@@ -489,7 +489,6 @@ FIXES: dict[str, FixTraits] = {
     "dynamics-as-child-elements": FixTraits(UNSAFE),
     "mimic-unknown-joint": FixTraits(UNSAFE),
     "mimic-chain": FixTraits(UNSAFE),
-    "mimic-limits-inconsistent": FixTraits(UNSAFE),
     "soft-limits-lock-joint": FixTraits(UNSAFE),
     "soft-limits-outside-hard": FixTraits(UNSAFE),
     "missing-inertial": FixTraits(UNSAFE),

@@ -22,7 +22,7 @@ from ..fix import (
 from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import LIGHT, find_negligible_links
-from .corrections import write_tensor
+from .corrections import MASS_IN_DOUBT, write_tensor
 from .frame import compute_tensor_about_center
 from .proposals import format_tensor
 from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
@@ -177,7 +177,7 @@ def _describe_remedy(link: Link, inertial: Inertial, box: Bounds) -> tuple[str, 
     )
 
 
-@inertial_not_at_com_suspect.fix(UNSAFE)
+@inertial_not_at_com_suspect.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
 def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the center of the geometry, and the inertia about it if it is about the frame."""
     link = context.get_link(problem)

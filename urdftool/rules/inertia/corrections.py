@@ -27,6 +27,12 @@ from .solids import DENSITY, compute_box, compute_solid_tensor, compute_volume, 
 _SMALL = (0.01, 1e-6)
 """Mass [kg] and moments [kg·m²] for a frame to which a simulator requires a mass."""
 
+MASS_IN_DOUBT = (
+    *("zero-mass", "negative-mass", "implausible-mass", "implausible-density", "mass-outlier"),
+    *("immense-number", "not-a-number"),
+)
+"""Rules that doubt a mass: no inertia is computed from it before."""
+
 
 def make_inertial(link: Link, context: FixContext) -> tuple[float, Lines] | None:
     """Compute the ``<inertial>`` of a link from its geometry, at the density of water.
@@ -153,7 +159,7 @@ def write_tensor(
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or not is_consistent(six):
         return None
-    why = why or f"write {format_tensor(six)}"
+    why = f"{why}: {format_tensor(six)}" if why else f"write {format_tensor(six)}"
     element = inertial.inertia.element
     least = 1e-12 * max(map(abs, six))
     changes = [

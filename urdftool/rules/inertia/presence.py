@@ -195,7 +195,9 @@ def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
     if found is None or found[0] < _LIGHTEST:
         return None
     change = prepend_child(link.element, *found[1])
-    return unsafe(f"add the <inertial> of its geometry at {DENSITY:g} kg/m³", change)
+    numbers = "".join(line.strip() for line in found[1][1:-1])
+    what = f"add the <inertial> of its geometry at {DENSITY:g} kg/m³: {numbers}"
+    return unsafe(what, change)
 
 
 @rule(

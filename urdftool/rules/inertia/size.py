@@ -21,7 +21,13 @@ from ..fix import FixContext, Proposal
 from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import find_rigid_bodies, find_slight_parts
-from .corrections import correct_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
+from .corrections import (
+    MASS_IN_DOUBT,
+    correct_slip,
+    write_inertia_of_shapes,
+    write_meant_inertia,
+    write_tensor,
+)
 from .density import find_outlier
 from .frame import compute_tensor_about_com
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
@@ -115,7 +121,7 @@ def is_placeholder(link: Link, six: SymmetricTensor) -> bool:
     return solid is None or not all(0.5 <= moment / xx <= 2 for moment in solid)
 
 
-@placeholder_inertia.fix(UNSAFE)
+@placeholder_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
 def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the inertia of the geometry, except for dummies, whose inertia is negligible."""
     return (
@@ -221,7 +227,7 @@ def _has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
     return not get_extents(robot).get_counted(link) and (certain or bool(link.collisions))
 
 
-@inertia_exceeds_geometry.fix(UNSAFE)
+@inertia_exceeds_geometry.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
 def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the intended inertia, or that of the geometry if it certainly is the body."""
     link, certain = context.get_link(problem), problem.data["certain"]

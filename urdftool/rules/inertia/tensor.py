@@ -14,7 +14,7 @@ from ...source.location import Place
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import compute_body_inertia, compute_mass, find_rigid_bodies
-from .corrections import write_inertia_of_shapes, write_meant_inertia
+from .corrections import MASS_IN_DOUBT, write_inertia_of_shapes, write_meant_inertia
 from .joint_inertia import compute_joint_inertia
 from .proposals import describe_remedy, get_recompute_hint
 from .solids import describe_solid, get_solid_kind
@@ -118,8 +118,8 @@ def inertia_triangle_inequality(
         )
 
 
-@inertia_not_positive_definite.fix(UNSAFE)
-@inertia_triangle_inequality.fix(UNSAFE)
+@inertia_not_positive_definite.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
+@inertia_triangle_inequality.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
 def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the intended inertia, or that of the geometry."""
     return write_meant_inertia(problem, context)
@@ -191,7 +191,8 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
         set_attribute(element, name, f"{value + more:.10g}")
         for name, value in (("ixx", xx), ("iyy", yy), ("izz", zz))
     ]
-    return unsafe(f"increase each moment by {factor * excess:.1g}", *changes)
+    written = " ".join(f'{change.name}="{change.value}"' for change in changes)
+    return unsafe(f"increase each moment by {factor * excess:.1g}: write {written}", *changes)
 
 
 @rule(
@@ -357,8 +358,8 @@ def _is_fixed_to_more(robot: Robot, links: list[Link], smallest: float) -> bool:
     return least > smallest * most
 
 
-@zero_inertia.fix(UNSAFE)
-@singular_inertia.fix(UNSAFE)
+@zero_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
+@singular_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
 def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the inertia of the geometry."""
     return write_inertia_of_shapes(problem, context)

@@ -11,7 +11,6 @@ from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Probl
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, suggest_name
 from ..xml.vocabulary_table import find_misspelled_attributes
-from .range import get_bounds
 
 APPLIES_TO = ("mimic",)
 
@@ -229,6 +228,7 @@ def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | Non
     effects={
         "mujoco": "4.0: limit and mimic constraint conflict, and the leader stops early too",
     },
+    caused_by=("limit-in-degrees", "prismatic-in-millimeters"),
     formats=ANY_FORMAT,
 )
 def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
@@ -236,56 +236,34 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
 
     At the limit of the leader, the mimic joint would have to be beyond its own limit. In MuJoCo 4.0
     the mimic constraint and the limit conflict: the leader stops early, and a gripper may
-    oscillate. ``tolerance`` [rad or m] is the difference that is ignored.
+    oscillate. ``tolerance`` [rad or m] is the difference that is ignored. The description does not
+    tell which of the two joints has the right limits, so there is no fix. Joints whose bounds are
+    exchanged, or that mimic each other in a circle, are not reported.
     """
+    circular = {problem.name for problem in report_joints_of_cycles(robot)}
     for joint, mimic in _iterate_mimic_joints(robot):
         leader = robot.joint.get(mimic.joint)
         if leader is None or leader.limit is None or joint.limit is None:
             continue
-        if not (joint.is_limited and leader.is_limited) or leader is joint:
+        if not (joint.is_limited and leader.is_limited) or joint.name in circular:
             continue
         bounds = (leader.limit.lower, leader.limit.upper, joint.limit.lower, joint.limit.upper)
         if None in bounds:
             continue
         low, high, lower, upper = (value or 0.0 for value in bounds)
         ends = sorted(mimic.multiplier * value + mimic.offset for value in (low, high))
-        if low <= high and (ends[0] < lower - tolerance or ends[1] > upper + tolerance):
+        is_narrow = ends[0] < lower - tolerance or ends[1] > upper + tolerance
+        if low <= high and lower <= upper and is_narrow:
             name = "lower" if ends[0] < lower - tolerance else "upper"
             yield Problem(
                 joint,
                 f"mimic joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
                 f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}; "
-                f"reduce the limits of '{leader.name}'",
+                f"reduce the limits of '{leader.name}', or extend those of '{joint.name}'",
                 at=joint.limit.locate_attribute(name),
+                cause=(joint, leader),
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )
-
-
-@mimic_limits_inconsistent.fix(UNSAFE)
-def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | None:
-    """Reduce the limits of the leader to the range that the mimic joint allows.
-
-    The limits of the mimic joint are not increased, because the hardware defines them.
-    """
-    joint = context.get_joint(problem)
-    mimic = joint.mimic
-    leader = context.robot.joint.get(mimic.joint) if mimic is not None else None
-    if mimic is None or leader is None or not mimic.multiplier:
-        return None
-    own, other = get_bounds(joint), get_bounds(leader)
-    if own is None or other is None:
-        return None
-    ends = sorted((value - mimic.offset) / mimic.multiplier for value in own[1:])
-    limit, lower, upper = other
-    low, high = max(ends[0], lower), min(ends[1], upper)
-    if low >= high:
-        return None
-    changes = []
-    if low > lower:
-        changes.append(set_attribute(limit.element, "lower", format_numbers([low])))
-    if high < upper:
-        changes.append(set_attribute(limit.element, "upper", format_numbers([high])))
-    return unsafe(f"limit '{leader.name}' to {low:g} … {high:g}", *changes)
 
 
 @rule(

@@ -1,0 +1,89 @@
+"""Two defects in one robot: fixes write only numbers that a message has, and none on a defect.
+
+Each pair is planted in a small robot. A number in the fixed file stands in the file before, or in a
+message of the first report: the user has seen it.
+"""
+
+import itertools
+import os
+import re
+
+import pytest
+
+from urdftool.lint.fix_run import fix_description
+from urdftool.lint.options import Options
+from urdftool.lint.run import check_file
+
+BODY = """<inertial><origin xyz="0 0 0.1"/><mass value="{mass}"/><inertia ixx="0.0042" ixy="0" \
+ixz="0" iyy="0.0042" iyz="0" izz="0.0017"/></inertial>
+    <visual><origin xyz="0 0 0.1"/><geometry><box size="0.1 0.1 0.2"/></geometry></visual>
+    <collision><origin xyz="0 0 0.1"/><geometry><box size="0.1 0.1 0.2"/></geometry></collision>"""
+ROBOT = f"""<robot name="r">
+  <link name="base">
+    {BODY.format(mass=1.0)}
+  </link>
+  <link name="arm">
+    {BODY.format(mass=1.01)}
+  </link>
+  <link name="hand">
+    {BODY.format(mass=1.02)}
+  </link>
+  <joint name="leader" type="revolute">
+    <parent link="base"/><child link="arm"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+    <limit lower="-1.1" upper="1.2" effort="9" velocity="3"/>
+  </joint>
+  <joint name="follower" type="revolute">
+    <parent link="arm"/><child link="hand"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+    <limit lower="-1.3" upper="1.4" effort="8" velocity="2"/><mimic joint="leader"/>
+  </joint>
+</robot>
+"""
+PLANTED = {
+    "limits swapped": ('lower="-1.1" upper="1.2"', 'lower="1.2" upper="-1.1"'),
+    "limits of the follower swapped": ('lower="-1.3" upper="1.4"', 'lower="1.4" upper="-1.3"'),
+    "limits in degrees": ('lower="-1.1" upper="1.2"', 'lower="-63" upper="69"'),
+    "follower in degrees": ('lower="-1.3" upper="1.4"', 'lower="-74" upper="80"'),
+    "follower too narrow": ('lower="-1.3" upper="1.4"', 'lower="-0.5" upper="0.6"'),
+    "mimics in a circle": ('velocity="3"/>', 'velocity="3"/><mimic joint="follower"/>'),
+    "axis of length two": ('<axis xyz="0 1 0"/>\n    <limit lower="-1.1"',
+                           '<axis xyz="0 2 0"/>\n    <limit lower="-1.1"'),
+    "rpy in degrees": ('<origin xyz="0 0 0.2"/>', '<origin xyz="0 0 0.2" rpy="0 90 0"/>'),
+    "mass in grams": ('<mass value="1.01"/>', '<mass value="1010"/>'),
+    "mass negative": ('<mass value="1.01"/>', '<mass value="-1.01"/>'),
+    "mass zero": ('<mass value="1.01"/>', '<mass value="0"/>'),
+    "inertia of one": ('value="1.01"/><inertia ixx="0.0042" ixy="0" ixz="0" iyy="0.0042" iyz="0" '
+                       'izz="0.0017"',
+                       'value="1.01"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"'),
+    "inertia zero": ('value="1.01"/><inertia ixx="0.0042" ixy="0" ixz="0" iyy="0.0042" iyz="0" '
+                     'izz="0.0017"',
+                     'value="1.01"/><inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"'),
+    "moment negative": ('value="1.01"/><inertia ixx="0.0042"',
+                        'value="1.01"/><inertia ixx="-0.0042"'),
+    "center far away": ('<inertial><origin xyz="0 0 0.1"/><mass value="1.01"/>',
+                        '<inertial><origin xyz="0 0 3.7"/><mass value="1.01"/>'),
+    "effort missing": ('effort="9" ', ""),
+}  # fmt: skip
+NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+def _numbers(text):
+    return {f"{abs(float(number)):.4g}" for number in NUMBER.findall(text)}
+
+
+@pytest.mark.parametrize("first", PLANTED)
+def test_no_fix_of_a_pair_writes_a_number_that_no_message_has(first, tmp_path):
+    others = [other for one, other in itertools.combinations(PLANTED, 2) if one == first]
+    for second in others:
+        text = ROBOT
+        for name in (first, second):
+            text = text.replace(*PLANTED[name], 1)
+        path = tmp_path / "r.urdf"
+        path.write_text(text, "utf-8")
+        options = Options(fixes=True)
+        report = check_file(path, options)
+        fixed = fix_description(report, options, unsafe=True)
+        after = fixed.after.get(os.fspath(path), text.encode()).decode()
+        shown = [f"{f.message} {f.hint} {' '.join(x.message for x in f.fixes)}"
+                 for f in report.findings]  # fmt: skip
+        known = _numbers(text) | _numbers(" ".join(shown)) | {"0", "1"}
+        assert _numbers(after) <= known, (first, second, dict(fixed.applied))
