@@ -103,9 +103,28 @@ class Sides:
         """Tell whether the joints of a pair are not mirror images."""
         return id(pair.left) in self._displaced
 
-    def _compute_offsets(self, pair: Pair) -> tuple[Vector, Vector] | None:
-        """Compute the vectors from the parents to the links, in the root frame [m]."""
-        ends = (pair.left.name, pair.right.name)
+    def is_taken_back(self, pair: Pair) -> bool:
+        """Tell whether the next joints of a displaced pair are mirror images again."""
+        return any(
+            (steps := self._compute_offsets(pair, after)) is not None
+            and _compute_gap(pair, *steps, 1 if self.normal is None else self.normal)
+            <= _compute_tolerance(steps[0])
+            for after in self.pairs
+            if (after.left_joint.parent, after.right_joint.parent)
+            == (pair.left.name, pair.right.name)
+        )
+
+    def _compute_offsets(
+        self, pair: Pair, last: Pair | None = None
+    ) -> tuple[Vector, Vector] | None:
+        """Compute the vectors from the parents of a pair to its links, in the root frame [m].
+
+        Args:
+            pair: The pair.
+            last: A pair below it, to whose links the vectors are computed instead.
+        """
+        until = pair if last is None else last
+        ends = (until.left.name, until.right.name)
         begins = (pair.left_joint.parent, pair.right_joint.parent)
         if not all(name in self.poses for name in (*ends, *begins)):
             return None

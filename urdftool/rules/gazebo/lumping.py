@@ -223,7 +223,7 @@ def add_inertial_of_kept_link(problem: Problem, context: FixContext) -> Proposal
 
 
 @rule(
-    ERROR,
+    WARNING,
     on=GAZEBO,
     effects={
         "gz, gazebo-classic": (
@@ -238,7 +238,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
     sdformat recognizes the shapes of a link by names that begin with the name of the link. It takes
     ``<collision name="hull">`` as a shape of a lumped link: it renames the shape, and does not
     apply friction, contact or material of the link. Remove the name, or begin it with the name of
-    the link.
+    the link. For a visual, which loses its color, it is an info.
     """
     for link in robot.links:
         words = {
@@ -258,6 +258,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
                         f"name of {what} '{shape.name}' does not begin with '{link.name}', so "
                         f"Gazebo applies no {lost} to it; write '{link.name}_{shape.name}'",
                         at=shape.locate_attribute("name"),
+                        severity=WARNING if what == "collision" else INFO,
                         alike=(what, *sorted(tags)),
                         data={"write": f"{link.name}_{shape.name}", "elements": sorted(tags)},
                     )

@@ -18,7 +18,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, quote, suggest_name
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
@@ -158,7 +158,7 @@ def _get_block(joint: Element) -> Element:
 
 
 @rule(
-    ERROR,
+    WARNING,
     effects={
         "gz, gazebo-classic": "drop it, without a message (sdformat 12.3)",
     },
@@ -170,8 +170,8 @@ def misplaced_extension(robot: Robot) -> Iterator[Problem]:
     Friction, contact, color and gravity are settings of links; springs, stops, feedback and
     ``preserveFixedJoint`` are settings of joints. In a block of the other kind, or without a
     reference, Gazebo drops them: ``preserveFixedJoint`` of a link does not preserve its joint. A
-    sensor without a reference to a link is dropped too. If the joint is fixed and lumped, the
-    keyword should be removed, because Gazebo has no such joint.
+    sensor without a reference to a link is dropped too. If the joint is fixed and lumped, or
+    already has the keyword, it should be removed: then the finding is an info.
     """
     for block in robot.gazebo:
         name = block.reference or ""
@@ -216,6 +216,7 @@ def _report_misplaced(
         block.element,
         f"{tags} {verb} no effect {where}; {remedy}",
         at=children[0],
+        severity=WARNING if change == "move" else INFO,
         alike=(*(child.tag for child in children), name in robot.link, name in robot.joint, change),
         data={"elements": list(dict.fromkeys(child.tag for child in children))},
     )

@@ -245,7 +245,7 @@ def implausible_density(
     least: float = 5.0,
     most: float = 12000.0,
     least_possible: float = 1.0,
-    most_possible: float = 22600.0,
+    most_possible: float = 19300.0,
     small: float = 0.02,
     dummy: float = 1e-3,
     most_of_box: float = 8000.0,
@@ -253,8 +253,9 @@ def implausible_density(
 ) -> Iterator[Problem]:
     """A link's density is implausible: its mass does not fit its size.
 
-    Usual materials have 5 kg/m³ (``least``, foam) to 12,000 kg/m³ (``most``, lead); none is denser
-    than 22,600 kg/m³ (``most_possible``, osmium). Usually a unit is wrong: grams, or millimeters.
+    Usual materials have 5 kg/m³ (``least``, foam) to 12,000 kg/m³ (``most``, lead); none in
+    robots is denser than 19,300 kg/m³ (``most_possible``, tungsten). Usually a unit
+    is wrong: grams, or millimeters.
 
     For a mesh or several shapes, the density in their bounding box counts: a body of steel has at
     most ``most_of_box``, and air about ``least_possible``. It is only an info if a material could
@@ -385,9 +386,16 @@ def _is_plausible_in_body(
         return False
     if density < least:
         return any(other.mass >= link.mass for other, _ in attached)
-    own = reach.get_link_box(link)
-    box = reach.get_inertial_box(link, own) if own is not None else None
-    volume = math.prod(box.size) if box is not None else 0.0
+    own = box = reach.get_link_box(link)
+    if own is None or box is None:
+        return False
+    for other, at in reach.get_counted(link):
+        more = reach.get_body_box(link, "all", [(other, at)])
+        if more is not None:
+            box = box.join(more)
+        elif not other.mass:
+            return True  # its unknown geometry may have the mass
+    volume = math.prod(box.size)
     return box is not own and (volume <= 0 or link.mass / volume <= most)
 
 

@@ -8,30 +8,32 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ...model.elements import Joint, Link, Robot, Vector
-from ..rule import ANY_FORMAT, INFO, Problem, rule
+from ..rule import ANY_FORMAT, INFO, WARNING, Problem, rule
 from ..symmetry import Pair, Sides, get_family, get_sides
 from ..words import quote
 
 
 @rule(
-    INFO,
+    WARNING,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco": "place the joint as written",
     },
     group="robot",
     formats=ANY_FORMAT,
 )
-def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
+def joint_not_mirrored(robot: Robot, *, small: float = 0.01) -> Iterator[Problem]:
     """A joint is not at the mirror image of the corresponding joint on the other side.
 
     Left and right are recognized by link names; ambiguous names are not compared. Reported are
     joints that move, of robots where most pairs are symmetric. Only the first displaced joint of a
     limb is reported. Limbs whose joints have the same ``<origin>`` on both sides are copies, and
-    not reported.
+    not reported, neither is a displacement that the next joint takes back. Up to ``small`` [m] it
+    is an info.
     """
-    for pair, gap in get_sides(robot).off:
+    sides = get_sides(robot)
+    for pair, gap in sides.off:
         right = pair.right_joint
-        if right.is_fixed:
+        if right.is_fixed or sides.is_taken_back(pair):
             continue
         if right.parent != pair.left_joint.parent and _has_the_same_origin(pair):
             continue
@@ -40,6 +42,7 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
             f"joint '{right.name}' is {gap * 1000:.3g} mm from the mirror image of "
             f"'{pair.left_joint.name}'; correct the origin of one of them",
             at=right.origin or right,
+            severity=INFO if gap <= small else WARNING,
             data={"twin": pair.left_joint.name, "distance": gap},
         )
 
@@ -136,7 +139,7 @@ def _find_asymmetric_ranges(
 
 
 @rule(
-    INFO,
+    WARNING,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
             "keep the axis: the same command turns one of them in the opposite direction"

@@ -11,7 +11,7 @@ from ...source.description import Description
 from ..file_rewrites import COPIED
 from ..fix import FixContext, Proposal, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .changes import find_existing_uses, propose_compiler, write_new_file
 from .mesh_uses import MeshUse, get_mesh_uses
 from .uris import find_malformation
@@ -106,7 +106,6 @@ def write_mesh_folder(problem: Problem, context: FixContext) -> Proposal | None:
 
 @rule(
     WARNING,
-    raised={"mujoco": ERROR},
     on=("mujoco",),
     effects={
         "mujoco": "3.3 uses one file for both; 4.0 loads both files",

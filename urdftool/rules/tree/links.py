@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
@@ -271,12 +271,15 @@ def report_every_unknown_parent(robot: Robot) -> Iterator[Problem]:
 
 def _report_unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Problem:
     name = joint.parent
+    below = {joint.child, *robot.tree.list_descendants(joint.child)}
+    possible = [link for link in robot.link if link not in below]
     is_world = name == "world"
     return Problem(
         joint,
-        f"parent '{name}' of joint '{joint.name}' is not a link{_describe_remedy(name, robot)}",
+        f"parent '{name}' of joint '{joint.name}' is not a link"
+        f"{_describe_remedy(name, robot, possible)}",
         at=parent.locate_attribute("link"),
-        data={"suggestion": find_nearest(name, robot.link)},
+        data={"suggestion": find_nearest(name, possible)},
         severity=INFO if is_world and is_for_another_reader(robot.xml) else None,
         effects=select_holding(
             _WITHOUT_PARENT, "the parent is world" if is_world else "the parent is not world"
@@ -355,7 +358,7 @@ def report_every_unknown_child(robot: Robot) -> Iterator[Problem]:
 def _report_unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> Problem:
     name, orphans = joint.child, _find_orphans(robot, joint)
     meant = orphans[0] if alone and len(orphans) == 1 else find_nearest(name, orphans, 0.6)
-    right = _describe_remedy(name, robot)
+    right = _describe_remedy(name, robot, robot.link)
     if meant:
         right = f"; did you mean '{meant}', which has no parent joint?"
     return Problem(
@@ -372,13 +375,13 @@ def _find_orphans(robot: Robot, joint: Joint) -> list[str]:
     return [link.name for link in robot.tree.roots if link.name not in above]
 
 
-def _describe_remedy(name: str, robot: Robot) -> str:
+def _describe_remedy(name: str, robot: Robot, possible: Iterable[str]) -> str:
     if name == "world":
         return '; add <link name="world"/>'
     remedy = f'; add <link name="{name}"/>'
     if robot.source is not None and robot.source.expansion is not None:
         remedy += ", or check the file that includes this one"
-    return suggest_name(name, robot.link) or remedy
+    return suggest_name(name, possible) or remedy
 
 
 @unknown_child_link.fix(UNSAFE, reveals=True)

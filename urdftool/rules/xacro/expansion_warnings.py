@@ -47,11 +47,13 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
 
     ``pi``, ``e``, ``min``, ``len``, ``radians`` and the names of Python's ``math`` are available in
     every expression. A new definition replaces the built-in, also where ``${pi/2}`` means the
-    number. If the value is the same, such as 3.14159 for ``pi``, the finding is an info.
+    number. If the value is the same, such as 3.14159 for ``pi``, or the name is a parameter, whose
+    value ends with the macro, the finding is an info.
     """
     seen: set[tuple[str, str, int]] = set()
     for match, root, place in _match_warnings(description, _GLOBAL):
-        at = _find_parameter(description, match[1], place) or place
+        parameter = _find_parameter(description, match[1], place)
+        at = parameter or place
         key = (match[1], at.path, at.start)
         if key in seen:
             continue
@@ -69,6 +71,7 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
                 root,
                 f"'{match[1]}' is a built-in name of xacro; rename it",
                 at=at,
+                severity=INFO if parameter is not None else None,
                 data={"name": match[1]},
             )
 
