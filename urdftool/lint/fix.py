@@ -11,7 +11,7 @@ from ..finding import Finding, Site
 from ..model.elements import Robot
 from ..rules import get_rule
 from ..rules.fix import FixContext, OutsideError, Proposal, RefusedError
-from ..rules.rule import Problem
+from ..rules.rule import GAZEBO, Problem
 from ..rules.table import FIXES
 from ..source.comments import list_comments
 from ..source.description import Description
@@ -57,7 +57,10 @@ def add_fixes(
     groups: dict[tuple[Any, ...], list[Finding]] = {}
     open_findings = {(finding.code, finding.site) for finding in findings}
     for finding in findings:
-        if finding.code in FIXES and not _waits(finding, origins.get(id(finding)), open_findings):
+        if finding.code in FIXES and not (
+            _waits(finding, origins.get(id(finding)), open_findings)
+            or _is_for_one_generation(finding, report.targets)
+        ):
             place = finding.location
             key: tuple[Any, ...] = (finding.code, place.path, place.start, place.end)
             key = key if place.calls else (*key, *get_fact(finding))
@@ -103,6 +106,14 @@ def _waits(
     doubting = get_rule(finding.code).rests_on + (finding.cause.rules if finding.cause else ())
     sites = origin.problem.cause_sites if origin is not None else ()
     return any((rule, site) in open_findings for rule in doubting for site in sites)
+
+
+def _is_for_one_generation(finding: Finding, targets: frozenset[str]) -> bool:
+    """Tell whether a fix is for one of two generations of Gazebo that both are targets."""
+    return targets.issuperset(GAZEBO) and get_rule(finding.code).on in (
+        ("gz",),
+        ("gazebo-classic",),
+    )
 
 
 def _deletes_comments(replacements: Sequence[Replacement]) -> bool:

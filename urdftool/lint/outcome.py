@@ -19,6 +19,7 @@ class Report:
         path: Path of the description.
         findings: Findings that are not suppressed.
         targets: Targets for which it was checked.
+        overruled: Why a generation of Gazebo of which it has a plugin is not a target.
         ignored: Suppressed findings, each with the reason in its comment.
         files: Source files read.
         format: Name of the format of the description.
@@ -37,6 +38,7 @@ class Report:
     path: str
     findings: list[Finding] = field(default_factory=list)
     targets: frozenset[str] = frozenset()
+    overruled: str = ""
     ignored: list[tuple[Finding, str]] = field(default_factory=list)
     files: tuple[str, ...] = ()
     format: str = "urdf"

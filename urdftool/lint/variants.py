@@ -108,6 +108,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
             f for f in findings if not (f.variants and f.code.startswith("unused-"))
         ),
         targets=frozenset().union(*(report.targets for report in checked.values())),
+        overruled="; ".join(sorted({report.overruled for report in checked.values()} - {""})),
         ignored=[(finding, reasons[_get_key(finding)]) for finding in hidden],
         files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
         stopped="; ".join(f"with {name}: {reason}" for name, reason in stopped.items()),

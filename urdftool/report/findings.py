@@ -171,6 +171,8 @@ def summarize(outcome: Outcome) -> str:
     known = f", {len(outcome.known)} in the baseline" if outcome.known else ""
     hidden = f", {suppressed} ignored by comments" if suppressed else ""
     names = ", ".join(sorted(targets)) or "any reader of URDF"
+    overruled = sorted({report.overruled for report in checked} - {""})
+    names = "; ".join((names, *overruled))
     where = f" in {format_count(files, 'file')}" if files else ""
     missing = len(outcome.not_checked)
     unchecked = f", {format_count(missing, 'file')} not checked" if missing else ""
