@@ -58,7 +58,7 @@ def add_fixes(
     open_findings = {(finding.code, finding.site) for finding in findings}
     for finding in findings:
         if finding.code in FIXES and not (
-            _waits(finding, origins.get(id(finding)), open_findings)
+            _is_waiting(finding, origins.get(id(finding)), open_findings)
             or _is_for_one_generation(finding, report.targets)
         ):
             place = finding.location
@@ -99,7 +99,7 @@ def add_fixes(
             group[0].fixes = (Fix(safe, whole[0].message, replacements, rewrites),)
 
 
-def _waits(
+def _is_waiting(
     finding: Finding, origin: Origin | None, open_findings: Container[tuple[str, Site | None]]
 ) -> bool:
     """Tell whether a fix would compute with values of which another finding is open."""

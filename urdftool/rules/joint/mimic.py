@@ -237,7 +237,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
     At the limit of the leader, the mimic joint would have to be beyond its own limit. In MuJoCo 4.0
     the mimic constraint and the limit conflict: the leader stops early, and a gripper may
     oscillate. ``tolerance`` [rad or m] is the difference that is ignored. The description does not
-    tell which of the two joints has the right limits, so there is no fix. Joints whose bounds are
+    show which of the two joints has the right limits, so there is no fix. Joints whose bounds are
     exchanged, or that mimic each other in a circle, are not reported.
     """
     circular = {problem.name for problem in report_joints_of_cycles(robot)}
