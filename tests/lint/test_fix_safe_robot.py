@@ -21,7 +21,7 @@ STATED = {
                                 ("simulator data", "visual/material/ambient"),
                                 ("simulator data", "visual/material/diffuse")},
     "missing-gz-frame-id": {("sensors", "frame")},
-    "ogre-material-script": {("simulator data", "material"),
+    "ogre-material-script": {("simulator data", "material"), ("looks", "material script"),
                              ("simulator data", "gazebo[chassis] added")},
     "plugin-class-mismatch": {("simulator data", "plugin")},
     "ros2-control-nested": {("simulator data", "removed"), ("simulator data", "added")},
