@@ -29,13 +29,28 @@ _COLORS = {
     Severity.INFO: (31, 95, 168),
 }
 _INK, _PAPER, _SOFT = (29, 36, 48), (255, 255, 255), (91, 102, 117)
-_ROBOT_WIDTH = 0.46  # part of the picture between both columns of labels
-_TINT = 0.65  # weight of the color of a severity in that of its link
+"""Colors of text, labels and remarks, 0 … 255. Chosen, no source."""
+
+_ROBOT_WIDTH = 0.46
+"""Part of the picture between both columns of labels. Chosen, no source."""
+
+_TINT = 0.65
+"""Weight of the color of a severity in that of its link. Chosen, no source."""
+
 _GRAY = 0.72
-_LETTERS = 48  # most characters of a line of a label
-_LINES = 3  # lines of a message
-_HEIGHT = 960  # pixels, for which the sizes below are
+"""Brightness of links without findings, 0 … 1. Chosen, no source."""
+
+_LETTERS = 48
+"""Most characters of a line of a label. Chosen, no source."""
+
+_LINES = 3
+"""Most lines of the message of a label. Chosen, no source."""
+
+_HEIGHT = 960
+"""Height of a picture [pixels] for which the sizes below are. Chosen, no source."""
+
 _TITLE, _TEXT, _STEP, _PAD = 19, 17, 22, 10
+"""Letters of the rule and of the message, a line, and a margin [pixels]. Chosen, no source."""
 
 
 @dataclass
