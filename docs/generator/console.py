@@ -27,7 +27,7 @@ BLOCK = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n\n```\w+\n(.*?)```", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]*pictures/([^)/]+)\)")
 RUN = re.compile(r"<!-- run: (.*?) -->")
-PROGRESS = re.compile(r"^(?:\d+ of \d+ \w+, )?\d+ s(?:: .*)?\n", re.MULTILINE)
+PROGRESS = re.compile(r"^(?:\d+ of \d+ [\w ]+, )?\d+ s(?:: .*)?\n", re.MULTILINE)
 UNSEEN = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "FORCE_COLOR", "URDFTOOL_TRUST")
 
 

@@ -16,8 +16,8 @@ from ..source.description import GltfUp
 if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.common.cut import Cut, Cutter
-    from ..formats.common.option import Base, FixInertia
-    from ..formats.mjcf.options import Actuators, Exclude
+    from ..formats.common.option import Actuators, Base, FixInertia
+    from ..formats.mjcf.options import Exclude
     from ..formats.sdf.options import ChosenBase, FixedJoints, Target, Uri
 
 
@@ -97,6 +97,7 @@ def export_mjcf(
     output: str | Path | None = None,
     *,
     actuators: Actuators = "auto",
+    timestep: float | None = None,
     base: Base = "auto",
     scene: bool = False,
     srdf: str | Path | None = None,
@@ -120,8 +121,11 @@ def export_mjcf(
     Args:
         robot: A robot from ``load``.
         output: A folder, or a file that ends in .xml or .mjcf; None writes nothing.
-        actuators: ``"auto"`` follows transmissions, ros2_control and drive plugins; ``"none"``; or
+        actuators: ``"auto"`` follows transmissions, ros2_control and drive plugins, and gives the
+            other joints position servos; ``"described"`` gives them none; ``"none"``; or
             ``"position"``, ``"velocity"`` or ``"motor"`` for all joints.
+        timestep: Physics time step [s], written to the model, for which gains are chosen; None for
+            MuJoCo's 0.002.
         base: ``"fixed"`` or ``"free"``; ``"auto"`` is free if the robot stands on legs or driven
             wheels, or if the description requires it.
         scene: Whether to write a scene with floor and light too.
@@ -164,6 +168,7 @@ def export_mjcf(
     name = Path(output).name if output is not None else ""
     choices = {
         "actuators": actuators,
+        "timestep": timestep,
         "base": base,
         "scene": scene,
         "srdf": srdf,

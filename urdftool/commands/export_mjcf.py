@@ -33,7 +33,7 @@ def _parse_pose(
 _GROUPS = {
     "Output": "output scene mesh_dir overwrite style",
     "Robot": "base pose srdf base_sensors exclude fuse keep_locked_joints fix_inertia decompose",
-    "Actuators": "actuators actuator_config armature",
+    "Actuators": "actuators timestep actuator_config armature",
     "Verification": "verified strict force",
 }
 
@@ -65,7 +65,7 @@ def command(
 
     \b
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
-        urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --actuators position
+        urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --timestep 0.004
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import make_cutter, measure_overlap
     from ..formats.registry import format_named

@@ -196,7 +196,8 @@ def test_no_actuator_is_said_once_it_matters(write, urdftool):
         assert result.code == 0
         return "has no actuators" in result.err
 
-    assert said(quadruped())
+    assert said(quadruped(), "--actuators", "described")
+    assert not said(quadruped())  # servos hold it
     assert not said(quadruped(), "--actuators", "none")
     assert not said(quadruped(), "--actuators", "motor")
     assert not said(robot(link("trunk", TRUNK)))

@@ -8,10 +8,20 @@ from lxml import etree
 import urdftool
 from urdftool.errors import ConfigError
 from urdftool.formats.common.actuator_config import read_actuator_config
-from urdftool.formats.mjcf.actuator import PART, TIMESTEP, position_gain
+from urdftool.formats.common.joint_loads import GRAVITY, JointLoad, compute_joint_loads
+from urdftool.formats.common.servo_gains import (
+    FREQUENCY,
+    PART,
+    POSITION_GAIN,
+    SAG,
+    TIMESTEP,
+    choose_position_gain,
+)
 from urdftool.formats.mjcf.options import Options
+from urdftool.formats.mjcf.structure import create_structure
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf
+from urdftool.mechanics.spatial_inertia import link_inertia
 from urdftool.model.load import load
 
 from .robots import INERTIAL, export, find, joint, link, robot, rules, tree
@@ -33,13 +43,51 @@ def test_a_placeholder_effort_is_bounded_by_the_inertia(write):
     inertia = 0.05 * 0.1**2 + 1e-5
     gain = float(next(e.get("kp") for e in tree(written).iter("position") if e.get("kp")))
     assert gain == pytest.approx(PART * inertia / TIMESTEP**2, rel=6e-3)
-    assert gain < 10 * 1000
+    assert gain < POSITION_GAIN["hinge"] * 1000
     assert "lossy-gains" in rules(written)
 
 
-def test_a_gain_below_the_bound_is_that_of_the_effort():
-    assert position_gain("hinge", 3.0, 1.0).value == 30.0
-    assert position_gain("slide", None, 1.0).value == 1000.0
+@pytest.mark.parametrize(
+    ("effort", "load", "value", "force"),
+    [
+        (3.0, JointLoad(1.0), 3 * POSITION_GAIN["hinge"], None),
+        (3.0, JointLoad(1.0, stiffness=500.0), 500.0, None),  # twice m·g·h
+        (1e6, JointLoad(0.5), PART * 0.5 / TIMESTEP**2, None),
+        (None, JointLoad(0.5), 0.5 * FREQUENCY**2, 0.5 * FREQUENCY**2 * 0.1),
+        (None, JointLoad(0.5, force=5.0), 5.0 / SAG, 5.0 / SAG * 0.1),
+        (None, JointLoad(), 100.0, None),  # nothing is known
+    ],
+)
+def test_the_gain_of_a_position_servo(effort, load, value, force):
+    gain = choose_position_gain("hinge", effort, load)
+    assert gain.value == pytest.approx(value)
+    assert gain.force == (None if force is None else pytest.approx(force))
+
+
+def test_a_longer_step_has_a_lower_bound():
+    short, long = (choose_position_gain("hinge", 1e6, JointLoad(1.0), dt) for dt in (0.002, 0.004))
+    assert short.value == pytest.approx(4 * long.value)
+
+
+def test_the_load_at_home_is_that_of_statics(write):
+    """A bar of 2 kg, whose center is 0.5 m from its horizontal axis, and a slide that lifts it."""
+    inertial = (
+        '<inertial><origin xyz="0.5 0 0"/><mass value="2"/>'
+        '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>'
+    )
+    text = robot(
+        link("base"), link("car"), link("bar", inertial),
+        joint("lift", "base", "car", kind="prismatic", inside=LIMIT.replace("0 1 0", "0 0 1")),
+        joint("turn", "car", "bar", inside=LIMIT),
+    )  # fmt: skip
+    loaded = load(write("r.urdf", text))
+    masses = {one.name: link_inertia(one) for one in loaded.links}
+    loads = compute_joint_loads(create_structure(loaded), masses, {})
+    carried = 2 + masses["car"].mass
+    assert loads["turn"].inertia == pytest.approx(0.1 + 2 * 0.5**2)
+    assert loads["turn"].force == pytest.approx(2 * GRAVITY * 0.5)
+    assert loads["lift"].inertia == pytest.approx(carried)
+    assert loads["lift"].force == pytest.approx(carried * GRAVITY)
 
 
 @pytest.mark.library("mujoco")

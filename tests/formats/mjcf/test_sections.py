@@ -33,15 +33,17 @@ def actuators(write, text, **choices):
     return found
 
 
-def test_auto_without_a_word_is_none(write):
-    assert actuators(write, chain()) == []
+def test_joints_that_nothing_drives_get_servos(write):
+    assert [tag for tag, _ in actuators(write, chain())] == ["position", "position"]
+    assert actuators(write, chain(), actuators="described") == []
+    assert "lossy-added-servo" in rules(export(write("r.urdf", chain())))
 
 
 def test_position_servos(write):
     (tag, first), _ = actuators(write, chain(), actuators="position")
     assert tag == "position"
     assert first == {
-        "name": "j", "joint": "j", "kp": "300", "dampratio": "1", "inheritrange": "1",
+        "name": "j", "joint": "j", "kp": "1200", "dampratio": "1", "inheritrange": "1",
     }  # fmt: skip
 
 

@@ -18,6 +18,9 @@ _KEY = "option"
 Base = Literal["auto", "fixed", "free"]
 """Whether the root of a robot is fixed to the world."""
 
+Actuators = Literal["auto", "described", "none", "position", "velocity", "motor"]
+"""Described drives and position servos for the rest; described ones; none; one kind for all."""
+
 FixInertia = Literal["none", "lift", "balance", "box"]
 """Reject it; the nearest consistent tensor; a sphere's of the same mean; a box's of its size."""
 
@@ -148,4 +151,19 @@ BASE = declare(
     "Base of the robot; auto: free for robots with legs or driven wheels, or if the file "
     "defines it so.",
     words=get_args(Base),
+)
+
+ACTUATORS = declare(
+    "Actuators: auto (as transmissions, ros2_control and drive plugins describe, and position "
+    "servos for the other joints), described (without these servos), none, or position, velocity "
+    "or motor for all joints.",
+    words=get_args(Actuators),
+    metavar="KIND",
+)
+
+TIMESTEP = declare(
+    "Physics time step [s], for which gains of servos are chosen.  [default: 0.002]",
+    kind=float,
+    metavar="SECONDS",
+    minimum=1e-6,
 )

@@ -85,10 +85,9 @@ def _summarize(structure: Structure, options: Options, actuators: int, written: 
     written.summary.append(f"{held} base ({structure.reason})")
     written.summary.append("1 actuator" if actuators == 1 else f"{actuators} actuators")
     moves = any(structure.get_kind(joint) in ("hinge", "slide") for joint in structure.moving)
-    if moves and not actuators and options.actuators == "auto":
+    if moves and not actuators and options.actuators in ("auto", "described"):
         written.advice.append(
-            "the model has no actuators: no transmission, ros2_control or drive plugin names a "
-            "joint; --actuators position adds servos"
+            "the model has no actuators, as the source describes; --actuators position adds servos"
         )
 
 

@@ -10,18 +10,20 @@ from typing import Literal, get_args
 from ...model.elements import Robot
 from ..common.cut import Cutter
 from ..common.option import (
+    ACTUATORS,
     BASE,
     DECOMPOSE,
     FIX_INERTIA,
     FORCE,
     MESH_FOLDER,
+    TIMESTEP,
+    Actuators,
     Base,
     FixInertia,
     check_options,
     declare,
 )
 
-Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Exclude = Literal["touching", "adjacent", "none"]
 
 Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]
@@ -43,15 +45,8 @@ class Options:
             search for overlaps unless ``exclude`` requires it.
     """
 
-    actuators: Actuators = field(
-        default="auto",
-        metadata=declare(
-            "Actuators: none, position, velocity or motor for all joints, or auto (from "
-            "transmissions, ros2_control and drive plugins).",
-            words=get_args(Actuators),
-            metavar="KIND",
-        ),
-    )
+    actuators: Actuators = field(default="auto", metadata=ACTUATORS)
+    timestep: float | None = field(default=None, metadata=TIMESTEP)
     base: Base = field(default="auto", metadata=BASE)
     scene: bool = field(
         default=False, metadata=declare("Also write scene.xml with a floor and a light.", kind=bool)

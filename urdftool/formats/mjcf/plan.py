@@ -17,15 +17,16 @@ from ...model.mechanism import Base, Configuration, Frame, Light
 from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
+from ..common.joint_loads import JointLoad, compute_joint_loads
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
+from ..common.standing import Ground, measure_ground
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
 from .home import Home, choose_home_positions, get_robot_origin, place_home
 from .inertials import compute_inertials
 from .joint import PLANAR_SUFFIXES, get_axis, get_plane
-from .joint_inertia import compute_joint_inertias
 from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
 from .loops import plan_closures
@@ -94,10 +95,8 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
     settings = choose_joint_settings(structure, options)
     structure = replace(structure, robot=set_joint_values(structure, settings, written))
-    inertias = compute_joint_inertias(structure, masses, positions)
-    for joint in structure.robot.joints:
-        if joint.name in inertias and joint.dynamics is not None:
-            inertias[joint.name] += joint.dynamics.armature or 0.0
+    ground = measure_ground(structure, boxes, positions, home.pose) if free else None
+    loads = _compute_loads(structure, masses, home, ground)
     sites = [
         Frame(joint.provenance, joint.name, joint.child, "site")
         for joint in structure.joints
@@ -113,13 +112,31 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         closures=plan_closures(structure, written),
         links=[_set_priority(link, robot.format) for link in structure.robot.links],
         base=None if structure.in_world else _plan_base(robot, home, is_free=free),
-        joint_actuators=plan_actuators(structure, options.actuators, inertias, settings, written),
+        joint_actuators=plan_actuators(structure, options, loads, settings, ground, written),
         exclusions=plan_exclusions(structure, srdf.disabled if srdf else (), options.exclude),
         configurations=[Configuration(None, "home", _list_single(structure, positions))],
-        world=_choose_world(structure) | robot.world,
+        world=_choose_world(structure) | robot.world | _set_timestep(options),
     )
     structure = replace(structure, robot=planned)
     return Plan(name, options, structure, home, masses, boxes, wrong)
+
+
+def _compute_loads(
+    structure: Structure, masses: Mapping[str, LinkInertia], home: Home, ground: Ground | None
+) -> dict[str, JointLoad]:
+    """Compute what each joint moves, with its armature, and holds at home."""
+    bodies = {name: one.body for name, one in masses.items()}
+    loads = compute_joint_loads(structure, bodies, home.positions, home.pose, ground)
+    for joint in structure.robot.joints:
+        load, armature = loads.get(joint.name), joint.dynamics and joint.dynamics.armature
+        if load is not None and armature:
+            loads[joint.name] = replace(load, inertia=load.inertia + armature)
+    return loads
+
+
+def _set_timestep(options: Options) -> Settings:
+    """Return the setting of the time step that the user chose."""
+    return {} if options.timestep is None else {"timestep": Value(None, options.timestep)}
 
 
 def _plan_base(robot: Robot, home: Home, *, is_free: bool) -> Base:

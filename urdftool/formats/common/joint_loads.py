@@ -1,0 +1,182 @@
+"""What each joint moves and holds at home, for the choice of gains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+import numpy.typing as npt
+
+from ...mechanics.spatial_inertia import SpatialInertia
+from ...model.elements import Joint
+from ...model.kinematics import link_poses
+from ...model.pose import IDENTITY, Pose
+from .rigid_tree import RigidTree
+from .standing import CLEARANCE, Ground
+
+Array = npt.NDArray[np.float64]
+
+GRAVITY = 9.81
+"""Gravity [m/s²], MuJoCo's default."""
+
+LEVEL_AXIS = 0.7
+"""Largest vertical component of the axis of a hinge about which a robot can tip; chosen, no
+source."""
+
+_RESERVE = 2.0
+"""Ratio of stiffness to the m·g·h at which an inverted pendulum tips; chosen, no source."""
+
+
+@dataclass(frozen=True)
+class JointLoad:
+    """What a joint moves and holds while the other joints do not move.
+
+    Attributes:
+        inertia: Inertia that it moves [kg·m² or kg].
+        force: Torque or force with which it holds the robot against gravity [N·m or N].
+        stiffness: Stiffness [N·m/rad] below which a robot above its feet may tip; 0 for none.
+    """
+
+    inertia: float = 0.0
+    force: float = 0.0
+    stiffness: float = 0.0
+
+
+def compute_joint_loads(
+    tree: RigidTree,
+    masses: Mapping[str, SpatialInertia],
+    positions: Mapping[str, float],
+    root: Pose = IDENTITY,
+    ground: Ground | None = None,
+) -> dict[str, JointLoad]:
+    """Compute inertia and static load of each joint with one degree of freedom.
+
+    The ground carries a free robot at the corners of the boxes of its lowest bodies, by the forces
+    of the least sum of squares that balance its weight.
+
+    Args:
+        tree: The rigid bodies.
+        masses: Mass properties of the links in their frames, as exported.
+        positions: Joint positions by name [rad or m].
+        root: Pose of the root in the world.
+        ground: Geometry near the ground, for a free root; None for a fixed one.
+
+    Returns:
+        The loads by joint name; an inertia is the diagonal element of the mass matrix.
+    """
+    poses = {name: root @ pose for name, pose in link_poses(tree.robot, positions).items()}
+    names = [name for name in masses if name in poses]
+    bodies = _Bodies(
+        [tree.group[name] for name in names],
+        np.array([masses[name].mass for name in names]),
+        np.array([poses[name].transform(masses[name].com) for name in names]).reshape(-1, 3),
+        np.array([masses[name].transform(poses[name]).inertia for name in names]).reshape(-1, 3, 3),
+    )
+    carriers, points = _list_contacts(ground)
+    forces = _share_weight(bodies, points)
+    below = _get_bodies_below(tree)
+    found = {}
+    for joint in tree.moving:
+        if joint.type not in ("revolute", "continuous", "prismatic"):
+            continue
+        moved = below[tree.group[joint.child]]
+        held = np.array([carrier in moved for carrier in carriers], dtype=bool)
+        load = _compute_load(
+            joint, poses[joint.child], bodies.select(moved), points[held], forces[held]
+        )
+        if held.any():
+            load = replace(load, stiffness=_compute_stiffness(joint, poses[joint.child], bodies))
+        found[joint.name] = load
+    return found
+
+
+@dataclass(frozen=True)
+class _Bodies:
+    """Masses [kg], centers of mass [m] and tensors [kg·m²] of links, and their rigid bodies."""
+
+    groups: Sequence[str]
+    masses: Array
+    centers: Array
+    tensors: Array
+
+    def select(self, groups: set[str]) -> _Bodies:
+        """Return the links of some rigid bodies."""
+        rows = [index for index, name in enumerate(self.groups) if name in groups]
+        return _Bodies(
+            [self.groups[row] for row in rows],
+            self.masses[rows],
+            self.centers[rows],
+            self.tensors[rows],
+        )
+
+
+def _get_axis(joint: Joint, pose: Pose) -> Array:
+    """Return the unit axis of a joint in the world; zero without a direction."""
+    xyz = (1.0, 0.0, 0.0) if joint.axis is None else joint.axis.xyz
+    axis: Array = np.array(pose.rotation) @ np.array(xyz)
+    length = float(np.linalg.norm(axis))
+    return axis / length if length else axis
+
+
+def _compute_load(
+    joint: Joint, pose: Pose, moved: _Bodies, points: Array, forces: Array
+) -> JointLoad:
+    axis = _get_axis(joint, pose)
+    if joint.type == "prismatic":
+        pull = (forces.sum() - GRAVITY * moved.masses.sum()) * axis[2]
+        return JointLoad(float(moved.masses.sum()), float(abs(pull)))
+    start = np.array(pose.translation)
+    arms = np.cross(axis, moved.centers - start)
+    about = np.einsum("i,nij,j->n", axis, moved.tensors, axis)
+    inertia = float((about + moved.masses * (arms**2).sum(axis=1)).sum())
+    torque = -GRAVITY * float(moved.masses @ arms[:, 2])
+    torque += float(forces @ np.cross(axis, points - start)[:, 2])
+    return JointLoad(inertia, abs(torque))
+
+
+def _compute_stiffness(joint: Joint, pose: Pose, bodies: _Bodies) -> float:
+    """Return twice m·g·h [N·m/rad] of the robot above a hinge that is not upright, else 0."""
+    total = float(bodies.masses.sum())
+    is_upright = abs(_get_axis(joint, pose)[2]) > LEVEL_AXIS
+    if joint.type != "revolute" or is_upright or not total:
+        return 0.0
+    height = float(bodies.masses @ bodies.centers[:, 2]) / total - pose.translation[2]
+    return _RESERVE * total * GRAVITY * max(height, 0.0)
+
+
+def _list_contacts(ground: Ground | None) -> tuple[list[str], Array]:
+    """Return the bodies that the ground carries, and the points [m] where, shape (n, 3)."""
+    if ground is None:
+        return [], np.zeros((0, 3))
+    top = ground.low + CLEARANCE * ground.size
+    found = [
+        (body, (x, y, low[2]))
+        for body in ground.get_near(CLEARANCE)
+        for low, high in ground.boxes[body]
+        if low[2] <= top
+        for x, y in product((low[0], high[0]), (low[1], high[1]))
+    ]
+    points = np.array([point for _, point in found], dtype=np.float64).reshape(-1, 3)
+    return [body for body, _ in found], points
+
+
+def _share_weight(bodies: _Bodies, points: Array) -> Array:
+    """Return the vertical forces [N] at points that carry the weight, shape (n,)."""
+    total = float(bodies.masses.sum())
+    if not len(points) or not total or not np.isfinite(points).all():
+        return np.zeros(len(points))
+    center = bodies.masses @ bodies.centers[:, :2] / total
+    rows = np.vstack([np.ones(len(points)), (points[:, :2] - center).T])
+    forces: Array = np.linalg.lstsq(rows, np.array([GRAVITY * total, 0.0, 0.0]), rcond=None)[0]
+    return forces
+
+
+def _get_bodies_below(tree: RigidTree) -> dict[str, set[str]]:
+    """Return for each rigid body itself and those that move with it; floating ones do not."""
+    below = {name: {name} for name in tree.members}
+    for joint in reversed(tree.moving):
+        if joint.type != "floating":
+            below[tree.group[joint.parent]] |= below[tree.group[joint.child]]
+    return below
