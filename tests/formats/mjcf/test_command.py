@@ -57,7 +57,7 @@ def test_a_folder_that_is_not_ours(urdftool, tmp_path):
 def test_an_edited_model_is_kept(urdftool, tmp_path):
     urdftool("export", "mjcf", ARM, "-o", tmp_path / "out")
     model = tmp_path / "out" / "arm.xml"
-    model.write_text(model.read_text().replace('kp="600"', 'kp="900"'))
+    model.write_text(model.read_text().replace('kp="2400"', 'kp="900"'))
     result = urdftool("export", "mjcf", ARM, "-o", tmp_path / "out")
     assert result.code == 2
     assert "was edited" in result.err

@@ -94,7 +94,7 @@ def test_joints_of_one_role_share_a_class_with_their_gains(write):
     ]
     (default,) = (e for e in model.iter("default") if e.get("class") == "knee")
     assert default.find("joint").get("range") == "-1 1"
-    assert default.find("position").get("kp") == "50"
+    assert default.find("position").get("kp") == "200"
     assert [dict(e.attrib) for e in model.find("actuator")] == [
         {"name": e.get("name"), "class": "knee", "joint": e.get("name")} for e in knees
     ]

@@ -55,10 +55,10 @@ def list_drives(
     """
     robot = tree.robot
     described = dict(_list_described(robot, written)) if actuators in AUTO else {}
-    passive: set[str] = set()
+    passive = set(_list_loop_joints(robot)) if actuators == "auto" else set()
     raised: set[str] = set()
     if actuators == "auto" and described:
-        passive = set(_list_casters(tree, described, ground))
+        passive |= set(_list_casters(tree, described, ground))
         raised = set(_list_limp(described, joints, ground))
     found, left = [], []
     for joint in joints:
@@ -116,6 +116,21 @@ def _list_casters(
         is_low = bool(near & below[tree.group[joint.child]])
         if joint.type == "continuous" and is_low and joint.name not in described:
             yield joint.name
+
+
+def _list_loop_joints(robot: Robot) -> Iterator[str]:
+    """Yield the joints of each closed loop except one, which determines the others."""
+    for closure in robot.closures:
+        if closure.parent not in robot.link or closure.child not in robot.link:
+            continue
+        chains = [
+            [name, *robot.tree.list_ancestors(name)] for name in (closure.parent, closure.child)
+        ]
+        loop = [n for chain in reversed(chains) for n in reversed(chain)
+                if any(n not in other for other in chains)]  # fmt: skip
+        joints = [robot.tree.get_parent_joint(name) for name in loop]
+        moving = [j.name for j in joints if j is not None and not j.is_fixed]
+        yield from moving[1:]
 
 
 def _list_limp(
@@ -186,7 +201,7 @@ def _report_follower(joint: Joint, written: Written) -> None:
 def _report_added(
     robot: Robot, added: list[Drive], left: list[str], actuators: Actuators, written: Written
 ) -> None:
-    """Report the servos that the description does not have, and the wheels that get none."""
+    """Report the servos that the description does not have, and the joints that get none."""
     if actuators != "auto":
         return
     if added:
@@ -203,8 +218,9 @@ def _report_added(
         )
     if left:
         written.report_loss(
-            "caster",
-            f"wheels next to driven ones turn freely, without a servo: {_format_listed(left)}",
+            "passive-joint",
+            "casters next to driven wheels, and joints that a closed loop moves, get no servo: "
+            f"{_format_listed(left)}",
             robot.place,
             severity=Severity.INFO,
             data={"joints": left},

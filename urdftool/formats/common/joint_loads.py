@@ -75,7 +75,7 @@ def compute_joint_loads(
         np.array([masses[name].transform(poses[name]).inertia for name in names]).reshape(-1, 3, 3),
     )
     carriers, points = _list_contacts(ground)
-    forces = _share_weight(bodies, points)
+    forces = _compute_forces(bodies, points)
     below = _get_bodies_below(tree)
     found = {}
     for joint in tree.moving:
@@ -162,7 +162,7 @@ def _list_contacts(ground: Ground | None) -> tuple[list[str], Array]:
     return [body for body, _ in found], points
 
 
-def _share_weight(bodies: _Bodies, points: Array) -> Array:
+def _compute_forces(bodies: _Bodies, points: Array) -> Array:
     """Return the vertical forces [N] at points that carry the weight, shape (n,)."""
     total = float(bodies.masses.sum())
     if not len(points) or not total or not np.isfinite(points).all():

@@ -83,7 +83,9 @@ def _summarize(structure: Structure, options: Options, actuators: int, written: 
     """Summarize base and actuators, which are easily overlooked in a model."""
     held = "free" if structure.free else "fixed"
     written.summary.append(f"{held} base ({structure.reason})")
-    written.summary.append("1 actuator" if actuators == 1 else f"{actuators} actuators")
+    count = "1 actuator" if actuators == 1 else f"{actuators} actuators"
+    is_assumed = any(loss.code == "lossy-gains" for loss in written.losses)
+    written.summary.append(f"{count} with assumed gains" if is_assumed else count)
     moves = any(structure.get_kind(joint) in ("hinge", "slide") for joint in structure.moving)
     if moves and not actuators and options.actuators in ("auto", "described"):
         written.advice.append(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from ...finding import Finding
 from ...model.elements import Axis, Joint, Limit, Link, Origin, Robot
-from ...model.mechanism import Base, Configuration, Frame, Light
+from ...model.mechanism import Base, Configuration, Frame, JointActuator, Light
 from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
@@ -104,15 +104,17 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     ]
     frames = [*sites, *(one for one in robot.frames if one.kind != "body")]
     sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
+    actuators = plan_actuators(structure, options, loads, settings, ground, written)
     planned = replace(
         structure.robot,
+        joints=_set_efforts(structure.robot, actuators),
         frames=sensors.frames,
         mounted_sensors=sensors.sensors,
         cameras=sensors.cameras,
         closures=plan_closures(structure, written),
         links=[_set_priority(link, robot.format) for link in structure.robot.links],
         base=None if structure.in_world else _plan_base(robot, home, is_free=free),
-        joint_actuators=plan_actuators(structure, options, loads, settings, ground, written),
+        joint_actuators=actuators,
         exclusions=plan_exclusions(structure, srdf.disabled if srdf else (), options.exclude),
         configurations=[Configuration(None, "home", _list_single(structure, positions))],
         world=_choose_world(structure) | robot.world | _set_timestep(options),
@@ -132,6 +134,20 @@ def _compute_loads(
         if load is not None and armature:
             loads[joint.name] = replace(load, inertia=load.inertia + armature)
     return loads
+
+
+def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
+    """Return the joints with the effort limits of their servos, which the model has."""
+    forces = {one.joint: max(map(abs, one.force_range)) for one in actuators
+              if one.force_range is not None and robot.format != "mjcf"}  # fmt: skip
+    joints = []
+    for joint in robot.joints:
+        if joint.name in forces:
+            endless = Limit(joint.provenance, -math.inf, math.inf)
+            limit = Limit(joint.provenance) if joint.type == "continuous" else endless
+            joint = replace(joint, limit=replace(joint.limit or limit, effort=forces[joint.name]))
+        joints.append(joint)
+    return joints
 
 
 def _set_timestep(options: Options) -> Settings:
