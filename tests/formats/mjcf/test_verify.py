@@ -34,7 +34,10 @@ def test_small_robots_are_equal(name, base, tmp_path):
     options = Options(srdf=GOLDENS[name].srdf, base=base, actuators="position")
     checks = verified(name, tmp_path, options)
     expected = {"platform": {"equal", "announced"}}.get(name, {"equal"})
-    verdicts = {check.verdict for check in checks} - {"not compared", "none"}
+    # gains are for the step of the model, 2 ms; at 5 ms, the rover on two wheels rolls by 26 mm
+    steps = [check for check in checks if check.name == "runs"]
+    assert {check.verdict for check in steps} <= {"equal", "announced"}
+    verdicts = {check.verdict for check in checks if check not in steps} - {"not compared", "none"}
     assert verdicts <= expected, format_check_table(checks)
 
 
@@ -93,14 +96,14 @@ def test_locked_joints_are_equal(write, urdftool, keep):
 )
 def test_a_change_of_a_welded_joint_is_found(write, tmp_path, old, new, failing):
     robot = load(write("r.urdf", LOCKED))
-    written = write_mjcf(robot, Options())
+    written = write_mjcf(robot, Options(actuators="none"))
     text, count = re.subn(old, new, written.files[written.main].decode())
     assert count
     text = re.sub(r"(?s)<keyframe>.*</keyframe>", "", text)  # has a value for each joint
     written.files[written.main] = text.encode()
     write_directory(tmp_path / "m", written.files, main=written.main)
-    again = write_mjcf(robot, Options())
-    checks = verify(robot, written, tmp_path / "m" / written.main, again)
+    again = write_mjcf(robot, Options(actuators="none"))
+    checks = verify(robot, written, tmp_path / "m" / written.main, again, Options(actuators="none"))
     assert failing in [check.name for check in checks if check.verdict == "differs"]
 
 

@@ -139,9 +139,9 @@ def _list_limp(
     """Yield the joints with an effort interface that let a robot fall which stands on its legs.
 
     In ROS, a controller holds such joints by their position; a motor without torque holds nothing.
-    Wheels are continuous joints.
+    Wheels are continuous joints, and a robot with a driven one does not stand on legs.
     """
-    if ground is None:
+    if ground is None or "velocity" in {kind for kind, _ in described.values()}:
         return
     for joint in joints:
         if described.get(joint.name, ("", 0.0))[0] == "motor" and joint.type != "continuous":

@@ -28,7 +28,7 @@ LIMITS = (
 TORN = ("lossy-floating",)
 """A floating body is a child of the world instead of its parent."""
 
-EFFORT = ("lossy-effort", "not-a-number", "lossy-actuator-config")
+EFFORT = ("lossy-effort", "lossy-limit-missing", "not-a-number", "lossy-actuator-config")
 """The effort limit of a joint was changed."""
 
 SHAPES = (

@@ -137,15 +137,19 @@ def _compute_loads(
 
 
 def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
-    """Return the joints with the effort limits of their servos, which the model has."""
+    """Return the joints with the effort limits of their servos, which the model has.
+
+    A revolute joint without limits and an effort of zero stay as they are: both are reported.
+    """
     forces = {one.joint: max(map(abs, one.force_range)) for one in actuators
               if one.force_range is not None and robot.format != "mjcf"}  # fmt: skip
     joints = []
     for joint in robot.joints:
-        if joint.name in forces:
-            endless = Limit(joint.provenance, -math.inf, math.inf)
-            limit = Limit(joint.provenance) if joint.type == "continuous" else endless
-            joint = replace(joint, limit=replace(joint.limit or limit, effort=forces[joint.name]))
+        limit = joint.limit
+        if limit is None and joint.type == "continuous":
+            limit = Limit(joint.provenance)
+        if joint.name in forces and limit is not None and limit.effort != 0:
+            joint = replace(joint, limit=replace(limit, effort=forces[joint.name]))
         joints.append(joint)
     return joints
 
