@@ -124,13 +124,13 @@ def report_gains(
     if not assumed:
         return
     servos = "1 servo" if len(assumed) == 1 else f"{len(assumed)} servos"
-    text = (
-        f"gains of {servos} are assumed, because URDF has none: "
-        f"{POSITION_GAIN['hinge']:g}/rad of the effort limit"
-    )
+    text = f"gains of {servos} are assumed, because the description has none"
     forces = [name for name, gain in assumed.items() if gain.force is not None]
     if forces:
-        text += f", with a force range by inertia and load for {_format_listed(forces)}"
+        text += (
+            "; without an effort limit, they follow from inertia and load, also the force range, "
+            f"for {_format_listed(forces)}"
+        )
     bounded = [name for name, gain in assumed.items() if gain.is_bounded]
     if bounded:
         text += (

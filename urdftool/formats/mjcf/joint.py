@@ -111,7 +111,7 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
         yield (
             "effort",
             f"effort 0 of joint '{joint.name}' cannot be written (0 is no bound in MuJoCo); its "
-            "effort is not bounded",
+            "limit is left out",
             Severity.WARNING,
         )
     if limit.velocity is not None:
