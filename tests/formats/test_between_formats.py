@@ -53,7 +53,7 @@ def test_the_base_is_as_in_the_source(write, body, fixed, tmp_path):
 
 def test_a_slide_without_limits_stays_so(write):
     robot = api.load(write("m.sdf", sdf(link("a") + link("b") + joint("a", "b", kind="prismatic"))))
-    assert "range=" not in api.export_mjcf(robot).text.partition("<worldbody>")[2]
+    assert " range=" not in api.export_mjcf(robot).text.partition("<worldbody>")[2]
     again = api.load(write("m.xml", api.export_mjcf(robot).text))
     assert "<lower>" not in api.export_sdf(again).text
 
