@@ -19,6 +19,7 @@ from ..model.kinematics import link_poses
 from ..model.mechanism import Base
 from ..model.pose import make_pose
 from ..model.provenance import NOWHERE
+from ..model.settings import is_set
 from ..model.world import WORLD
 from .check import Check
 from .compare import compare_robots
@@ -177,18 +178,18 @@ def _compute_world_poses(robot: Robot, base: Base) -> dict[str, Array]:
 
 
 def join_trees(robot: Robot) -> Robot:
-    """Return a robot of several trees with its roots on a link ``world``, where they move freely.
+    """Return a robot of several trees with its roots on a link ``world``.
 
-    A reader of SDF does the same with a model of several trees.
+    They move freely, or are fixed if the robot is static. A reader of SDF does the same with a
+    model of several trees.
     """
     roots = [link.name for link in robot.tree.roots if link.name != WORLD]
     if len(robot.tree.roots) < 2:
         return robot
     links = robot.links if WORLD in robot.link else [Link(robot.provenance, WORLD), *robot.links]
     origin = None if robot.base is None else robot.base.origin
-    joints = [
-        Joint(None, f"{name}_floating", "floating", WORLD, name, origin=origin) for name in roots
-    ]
+    kind = "fixed" if is_set(robot.settings, "static") else "floating"
+    joints = [Joint(None, f"{name}_floating", kind, WORLD, name, origin=origin) for name in roots]
     return replace(robot, links=links, joints=[*robot.joints, *joints], base=None)
 
 

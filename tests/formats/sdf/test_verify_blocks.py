@@ -53,6 +53,11 @@ PARTS = {
         "<selfCollide>1</selfCollide><gravity>false</gravity><dampingFactor>0.1</dampingFactor>",
     ),
     "stops": gazebo("j", "<stopCfm>0.1</stopCfm><implicitSpringDamper>true</implicitSpringDamper>"),
+    "scripts": gazebo(
+        "b",
+        "<material>mine</material><visual><material><ambient>0 1 0 1</ambient></material></visual>",
+    )
+    + gazebo("c", "<visual><material><script><name>other</name></script></material></visual>"),
     "looks": gazebo("b", "<material>Gazebo/RedTransparent</material>")
     + gazebo("c", "<material><ambient>1 0 0 1</ambient></material>"),
     "light": gazebo("c", '<light name="l" type="point"><pose>0 0 1 0 0 0</pose></light>'),
@@ -104,6 +109,12 @@ CHOICES = {
 @pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
 def test_an_export_is_faithful(tmp_path, part, choices):
     checks = checks_of(made(part), tmp_path, **choices)
+    assert is_faithful(checks.values()), [c.differing for c in checks.values() if c.differing]
+
+
+@pytest.mark.parametrize("choices", CHOICES.values(), ids=CHOICES)
+def test_a_static_robot_of_two_trees_is_faithful(tmp_path, choices):
+    checks = checks_of(made(PARTS["whole"], link("e", inertial())), tmp_path, force=True, **choices)
     assert is_faithful(checks.values()), [c.differing for c in checks.values() if c.differing]
 
 
