@@ -127,7 +127,10 @@ def actuators(written):
 def test_driven_wheels_at_the_ground_make_the_base_free(write):
     written = export(write("r.urdf", cart(*DRIVEN)))
     assert is_free(written)
-    assert written.summary == ["free base (it has driven wheels left, right)", "2 actuators"]
+    assert written.summary == [
+        "free base (it has driven wheels left, right)",
+        "2 actuators with assumed gains",
+    ]
 
 
 def test_two_wheels_that_nothing_drives_do_so_too(write):

@@ -1,0 +1,61 @@
+"""The row ``runs``: what becomes of a free robot from its start, also before it has settled."""
+
+import pytest
+
+from urdftool.formats.common.losses import DeclaredLosses
+from urdftool.formats.mjcf.verify_runs import check_runs
+
+pytestmark = pytest.mark.library("mujoco")
+
+ROBOT = """<mujoco><compiler angle="radian"/><option timestep="{timestep}"/>
+<worldbody><geom type="plane" size="0 0 1"/>
+<body pos="0 0 {height}"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="5"/>
+{legs}</body></worldbody>{actuators}</mujoco>"""
+
+LEG = """<body pos="{x} {y} -0.1"><joint name="{name}" axis="0 1 0" range="-1 1" limited="true"/>
+<geom type="capsule" fromto="0 0 0 {bend} 0 -0.2" size="0.02" mass="0.2"/></body>"""
+
+CORNERS = {"a": (0.1, 0.1), "b": (0.1, -0.1), "c": (-0.1, 0.1), "d": (-0.1, -0.1)}
+
+
+def make(folder, *, height=0.32, legs=4, bend=0.05, servos=False, timestep=0.002):
+    """Write a box on legs that do not stand straight, or without a leg."""
+    chosen = list(CORNERS.items())[:legs]
+    inside = "".join(LEG.format(x=x, y=y, bend=bend, name=n) for n, (x, y) in chosen)
+    driven = "".join(f'<position joint="{n}" kp="200" kv="5"/>' for n, _ in chosen)
+    actuators = f"<actuator>{driven}</actuator>" if servos and driven else ""
+    path = folder / "model.xml"
+    path.write_text(
+        ROBOT.format(height=height, legs=inside, actuators=actuators, timestep=timestep)
+    )
+    return path
+
+
+def runs(path):
+    return check_runs(path, DeclaredLosses(frozenset()), excluded=False)
+
+
+def test_a_box_on_the_floor_stays(tmp_path):
+    check = runs(make(tmp_path, height=0.1, legs=0))
+    assert (check.verdict, check.announced) == ("equal", [])
+
+
+def test_servos_hold_the_legs(tmp_path):
+    assert runs(make(tmp_path, servos=True)).verdict == "equal"
+
+
+def test_legs_without_servos_fall(tmp_path):
+    check = runs(make(tmp_path))
+    assert check.verdict == "announced"
+    assert all(text.startswith("falls: ") for text in check.announced)
+    assert all(text.endswith("not held: no servo") for text in check.announced)
+
+
+def test_a_robot_that_starts_above_the_floor_sags(tmp_path):
+    check = runs(make(tmp_path, height=0.14, legs=0))
+    assert check.verdict == "announced"
+    assert [text.partition(",")[0] for text in check.announced] == ["sags by 0.04 m"] * 2
+
+
+def test_the_step_of_the_model_is_run(tmp_path):
+    assert "1 and 5 ms" in runs(make(tmp_path, height=0.1, legs=0, timestep=0.001)).what
