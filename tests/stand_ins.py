@@ -50,7 +50,7 @@ def make(folder):
     shutil.copy(ARM / "arm_sound.urdf.xacro", folder / "quadruped.urdf.xacro")
     shutil.copy(ARM / "link_sound.macro.xacro", folder / "link_sound.macro.xacro")
     shutil.copytree(ROBOTS / "laser_bot", folder / "src" / "laser_bot")
-    for name in ("gripper.urdf", "left_arm.urdf"):
+    for name in ("gripper.urdf", "gripper.xacro", "left_arm.urdf"):
         shutil.copy(ROBOTS.parent / "edit" / name, folder / name)
     shutil.copy(ROBOTS / "mira_description/urdf/mira.urdf", folder / "mira.urdf")
     mobile = packages / "my_robot/urdf/mobile_manipulator.urdf.xacro"

@@ -68,6 +68,7 @@ def test_words_of_hold_are_those_of_the_command():
 OF_COMMANDS = {
     *("package", "package_path", "named", "words", "robot", "robots", "gltf_up"),  # of `load`
     *("style", "output", "cache_dir", "picture", "jobs"),
+    *("debug", "quiet", "trust", "verbose"),  # which the command line adds to each command
 }
 PYTHON = {
     "simulate": {"robot", "settings", *("gravity", "nudge", "tilt", "start_rpy")},
