@@ -59,6 +59,9 @@ HELD = {
     "legs that are not below the mass": quadruped(trunk=TRUNK.replace("<mass", "<x/><mass")
         .replace("<inertial>", '<inertial><origin xyz="2 0 0"/>')
         .replace('value="1"', 'value="100"')),
+    "rotors of motors": robot(
+        link("trunk", TRUNK), limb("joint1_rotor", "0 0 0.1"), limb("joint2_rotor", "0 0 1", LEG)
+    ),
     "one leg": robot(link("trunk", TRUNK), limb("leg", "0 0 0")),
     "hand of three fingers": quadruped(("finger_1", "finger_2", "finger_3", "thumb")),
     "arm": robot(

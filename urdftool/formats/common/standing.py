@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from pathlib import PurePath
 
@@ -37,7 +37,11 @@ FEET = frozenset(("leg", "foot", "feet", "toe", "ankle", "calf", "shank"))
 """Words in the names of the last links of legs."""
 
 ROTORS = frozenset(("rotor", "propeller", "prop"))
-"""Words in the names of links that lift a robot which flies."""
+"""Words in the names of links that lift a robot which flies; motors have rotors, too."""
+
+_OF_ROTORS = frozenset(("front", "back", "rear", "left", "right", "top", "bottom", "upper", "lower",
+                        "fl", "fr", "bl", "br", "rl", "rr", "cw", "ccw", "link"))  # fmt: skip
+"""Other words in the names of rotors that lift a robot, beside its own name and numbers."""
 
 FLYING = frozenset(("quadrotor", "quadcopter", "hexarotor", "hexacopter", "multirotor",
                     "multicopter", "drone", "uav", "flying"))  # fmt: skip
@@ -191,7 +195,8 @@ def _describe_legs(tree: RigidTree) -> str | None:
 def _describe_flight(tree: RigidTree) -> str | None:
     """Describe the rotors of a robot that flies, or the name that shows it; None for others."""
     robot = tree.robot
-    rotors = [link.name for link in robot.links if ROTORS & set(_split_words(link.name))]
+    others = _OF_ROTORS | ROTORS | set(_split_words(robot.name))
+    rotors = [link.name for link in robot.links if _is_rotor(_split_words(link.name), others)]
     if len(rotors) > 1:
         return f"it has rotors: {_format_listed(rotors)}"
     stem = "" if robot.source is None else PurePath(robot.source.path).stem
@@ -199,6 +204,12 @@ def _describe_flight(tree: RigidTree) -> str | None:
         if FLYING & set(_split_words(name)):
             return f"it flies, by its name: {name}"
     return None
+
+
+def _is_rotor(words: Iterable[str], others: Set[str]) -> bool:
+    """Tell whether a name is that of a rotor and of nothing else, such as the motor of a hip."""
+    named = {word for word in words if not word.isdigit()}
+    return bool(named & ROTORS) and named <= others
 
 
 def _compute_top(ground: Ground) -> float:

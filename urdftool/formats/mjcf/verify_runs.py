@@ -6,7 +6,7 @@ The module reads only the exported file and shares no code with the exporter.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -308,10 +308,19 @@ def compute_lowest_point(mujoco: Any, model: Any, data: Any) -> float:
 
 
 def _list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
+    """Yield the height [m] of the lowest point of each collision geom that is not a plane."""
+    kinds = mujoco.mjtGeom
     for geom in range(model.ngeom):
-        if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
+        kind = int(model.geom_type[geom])
+        collides = model.geom_contype[geom] or model.geom_conaffinity[geom]
+        if not collides or kind in (int(kinds.mjGEOM_PLANE), int(kinds.mjGEOM_HFIELD)):
             continue
-        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
+        rotation = data.geom_xmat[geom].reshape(3, 3)
+        place, size = data.geom_xpos[geom], model.geom_size[geom]
+        if kind in _REACHES:
+            yield float(place[2] - _REACHES[kind](rotation[2], size))
+            continue
+        if kind == int(kinds.mjGEOM_MESH):
             mesh = int(model.geom_dataid[geom])
             first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
             points = model.mesh_vert[first : first + count]
@@ -319,5 +328,17 @@ def _list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
             middle, half = model.geom_aabb[geom][:3], model.geom_aabb[geom][3:]
             signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
             points = middle + signs * half
-        rotation = data.geom_xmat[geom].reshape(3, 3)
-        yield float((points @ rotation.T + data.geom_xpos[geom])[:, 2].min())
+        yield float((points @ rotation.T + place)[:, 2].min())
+
+
+_SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER = 2, 3, 4, 5  # of mjtGeom
+
+_REACHES: dict[int, Callable[[Array, Array], float]] = {
+    _SPHERE: lambda _, size: float(size[0]),
+    _CAPSULE: lambda up, size: float(size[0] + abs(up[2]) * size[1]),
+    _ELLIPSOID: lambda up, size: float(np.linalg.norm(up * size)),
+    _CYLINDER: lambda up, size: float(
+        abs(up[2]) * size[1] + size[0] * math.sqrt(max(0.0, 1 - up[2] ** 2))
+    ),
+}
+"""How far shapes reach below their center [m]: by the world's z axis in the shape, and its size."""
