@@ -51,6 +51,21 @@ def test_legs_without_servos_fall(tmp_path):
     assert all(text.endswith("not held: no servo") for text in check.announced)
 
 
+def test_a_motor_is_no_servo(tmp_path):
+    path = make(tmp_path, servos=True)
+    path.write_text(path.read_text().replace('kp="200" kv="5"', "").replace("<position", "<motor"))
+    assert all(text.endswith("not held: no servo") for text in runs(path).announced)
+    assert runs(path).announced
+
+
+def test_an_arm_without_a_servo_is_not_equal(tmp_path):
+    path = make(tmp_path, height=1)
+    path.write_text(path.read_text().replace("<freejoint/>", ""))
+    check = runs(path)
+    assert check.verdict == "announced"
+    assert all(text.startswith("joints move by up to ") for text in check.announced)
+
+
 def test_a_robot_that_starts_above_the_floor_sags(tmp_path):
     check = runs(make(tmp_path, height=0.125, legs=0))
     assert check.verdict == "announced"

@@ -41,7 +41,7 @@ ROTORS = frozenset(("rotor", "propeller", "prop"))
 
 _OF_ROTORS = frozenset(("front", "back", "rear", "left", "right", "top", "bottom", "upper", "lower",
                         "fl", "fr", "bl", "br", "rl", "rr", "cw", "ccw", "link"))  # fmt: skip
-"""Other words in the names of rotors that lift a robot, beside its own name and numbers."""
+"""Other words in the names of rotors that lift a robot, in addition to its own name and numbers."""
 
 FLYING = frozenset(("quadrotor", "quadcopter", "hexarotor", "hexacopter", "multirotor",
                     "multicopter", "drone", "uav", "flying"))  # fmt: skip

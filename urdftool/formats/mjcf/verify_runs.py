@@ -33,6 +33,9 @@ DRIFT = 0.02
 TILT = 3.0
 """Maximum tilt of a free base from the start [°]; chosen, no source."""
 
+SWING = 0.1
+"""Maximum motion of joints that no servo holds [rad or m]; chosen, no source."""
+
 FALLEN_TILT = 30.0
 """Tilt of a free base above which the robot has fallen [°]; chosen, no source."""
 
@@ -57,6 +60,7 @@ class Trial:
         tilt: Tilt of a free base from the start [°].
         drop: Drop of the center of mass above a free base, relative to its height at the start.
         sink: Drop of a free base [m].
+        swing: Motion of a joint of a fixed base from the start [rad or m].
         is_held: Whether a servo holds a joint, or there is no joint that needs one.
         speed: Highest joint speed at the end [rad/s or m/s].
         is_free: Whether a base is free and stands on a floor.
@@ -69,6 +73,7 @@ class Trial:
     tilt: float = 0.0
     drop: float = 0.0
     sink: float = 0.0
+    swing: float = 0.0
     speed: float = 0.0
     is_free: bool = False
     is_held: bool = True
@@ -94,6 +99,12 @@ class Trial:
             yield f"sags by {self.sink:.2g} m, and tilts by {self.tilt:.2g}° {at}"
         else:
             yield f"the base moves by {self.drift:.2g} m and tilts by {self.tilt:.2g}° {at}"
+
+    def describe_swing(self) -> Iterator[str]:
+        """Describe the motion of the joints on a fixed base, if no servo holds one."""
+        if not self.is_free and not self.is_held and self.swing > SWING:
+            at = f"at {self.timestep * 1000:g} ms"
+            yield f"joints move by up to {self.swing:.2g} ({at}); not held: no servo"
 
     def list_instabilities(self) -> list[str]:
         """List warnings and divergence."""
@@ -145,6 +156,8 @@ def check_runs(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check
         # the export does not determine whether a free robot stands or sags
         for fault in trial.list_excesses():
             check.compare(math.inf, fault, known=known or is_other or trial.is_free)
+        for fault in trial.describe_swing():
+            check.compare(trial.swing, fault, known=True)
         for fault in trial.describe_motion():
             check.compare(max(trial.drift, 2 * DRIFT), fault, known=True)
     return check
@@ -178,8 +191,8 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
     bases = [int(body) for body in np.flatnonzero(_compute_free_bodies(mujoco, model))]
     trial.is_free = bool(bases)
     held = _list_held_joints(mujoco, model)
-    trial.is_held = bool(model.nu) or model.njnt == len(bases)
-    start = _Pose(model, data, bases)
+    trial.is_held = model.njnt == len(bases) or bool((model.actuator_biasprm[:, 1:3] != 0).any())
+    start, joints = _Pose(model, data, bases), np.array(data.qpos)
     while data.time < seconds:
         mujoco.mj_step(model, data)
         for text in warned:
@@ -194,6 +207,7 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
             if amount > BEYOND:
                 name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or str(joint)
                 trial.beyond[name] = max(amount, trial.beyond.get(name, 0.0))
+    trial.swing = float(abs(data.qpos - joints).max(initial=0.0))
     if bases:
         _measure_motion(trial, start, _Pose(model, data, bases))
     trial.speed = float(abs(data.qvel).max(initial=0.0))
