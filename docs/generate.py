@@ -35,7 +35,7 @@ def list_generated() -> Iterator[tuple[Path, str]]:
     for rule in get_all_rules():
         yield DOCS / "rules" / f"{rule.name}.md", rule_pages.write_page(rule)
     yield DOCS / "rules" / "index.md", rule_pages.write_index()
-    for path in sorted((DOCS / "commands").glob("*.md")):
+    for path in sorted([*DOCS.glob("commands/*.md"), *DOCS.glob("edit/*.md")]):
         yield path, insert_help(path)
     yield DOCS / "python.md", insert_names((DOCS / "python.md").read_text("utf-8"))
     yield from list_man_pages()

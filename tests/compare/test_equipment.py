@@ -67,3 +67,14 @@ def test_a_row_without_parts_is_not_equal(tmp_path, suffix):
 def test_rows_with_parts_are_equal(tmp_path):
     checks = compare(tmp_path, MJCF, MJCF, ".xml").make_checks()
     assert {check.name for check in checks if check.verdict == "equal"} >= CHANGES.keys()
+
+
+def test_the_range_of_a_command_interface_is_compared(tmp_path):
+    text = (
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'
+        '<parent link="a"/><child link="b"/></joint><ros2_control name="c" type="system">'
+        '<joint name="j"><command_interface name="position"><param name="min">-1</param>'
+        "</command_interface></joint></ros2_control></robot>"
+    )
+    found = compare(tmp_path, text, text.replace(">-1<", ">-2<"), ".urdf")
+    assert [(d.row, d.values) for d in found.differences] == [("simulator data", ("-1", "-2"))]

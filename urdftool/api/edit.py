@@ -179,35 +179,45 @@ def mirror(
     plane: str = "xz",
     *,
     exchange: tuple[str, str] = ("", ""),
+    sides: str = "exchange",
     meshes: str = "files",
     mesh_dir: str = "meshes",
     files: Paths = (),
     output: str | Path | None = None,
 ) -> Edited:
-    """Make the mirror image of a robot.
+    """Make the mirror image of a robot, or add that of one side of it.
 
     Args:
         robot: The robot.
         plane: ``xy``, ``xz`` or ``yz``, through the frame of the root.
         exchange: Parts of names to exchange, such as ``("l_", "r_")``.
+        sides: ``"exchange"`` mirrors the robot; ``"add"`` keeps it, and adds the mirror image of
+            the branches with the first part of a name; ``"replace"`` removes the other side before.
         meshes: ``"files"`` writes meshes with reversed faces, ``"scale"`` a negative scale.
         mesh_dir: Folder of the new meshes, relative to the output.
         files: As for :func:`prefix`.
         output: As for :func:`attach`.
 
     Raises:
-        ConfigError: ``meshes`` is another word.
+        ConfigError: ``meshes`` or ``sides`` is another word.
         MeshError: A mesh cannot be mirrored.
         ModelError: Names clash, or a joint has several positions.
     """
     from ..edit.mirror import mirror_robot
+    from ..edit.mirror_side import add_side, remove_side
 
     require_word("meshes", meshes, ("files", "scale"))
+    require_word("sides", sides, ("exchange", "add", "replace"))
 
-    def change(draft: Draft) -> None:
-        mirror_robot(draft, plane, exchange, meshes=meshes, mesh_dir=mesh_dir)
+    def change(draft: Draft) -> Draft:
+        if sides == "replace":
+            draft = remove_side(draft, exchange)
+        operation = mirror_robot if sides == "exchange" else add_side
+        operation(draft, plane, exchange, meshes=meshes, mesh_dir=mesh_dir)
+        return draft
 
-    return _run(robot, change, files, output)
+    draft = change(_open(robot, files))
+    return finish(draft, [(robot, _get_path(robot), draft.lines)], output)
 
 
 def change_zero(

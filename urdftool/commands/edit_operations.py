@@ -179,7 +179,9 @@ def root(console: Console, /, words: tuple[str, ...], move_frames: bool, **optio
 
 
 @click.command(
-    "mirror", cls=GroupedCommand, groups={"Mirror": "plane one other meshes mesh_dir", **GROUPS}
+    "mirror",
+    cls=GroupedCommand,
+    groups={"Mirror": "plane one other sides meshes mesh_dir", **GROUPS},
 )
 @click.argument("words", nargs=-1, metavar="ROBOT [name:=value ...]")
 @click.option(
@@ -191,6 +193,14 @@ def root(console: Console, /, words: tuple[str, ...], move_frames: bool, **optio
 )
 @click.option("--from", "one", default="", help="Part of names to exchange, such as l_.")
 @click.option("--to", "other", default="", help="Part of names in its place, such as r_.")
+@click.option(
+    "--sides",
+    type=click.Choice(("exchange", "add", "replace")),
+    default="exchange",
+    show_default=True,
+    help="Mirror all of ROBOT; or keep it, and add the mirror image of the branches with --from in "
+    "their names; or remove those with --to before.",
+)
 @click.option(
     "--mesh",
     "meshes",
@@ -209,6 +219,7 @@ def mirror(
     plane: str,
     one: str,
     other: str,
+    sides: str,
     meshes: str,
     mesh_dir: str,
     **options: Any,
@@ -220,6 +231,7 @@ def mirror(
 
     \b
         urdftool edit mirror left_arm.urdf --from l_ --to r_ -o right_arm.urdf
+        urdftool edit mirror left_arm.urdf --from l_ --to r_ --sides add -o two_arms.urdf
 
     Exit code 1: the result differs, and is not written.
     """  # noqa: D301 -- click reads the escape
@@ -227,10 +239,12 @@ def mirror(
 
     if bool(one) != bool(other):
         raise click.UsageError("--from and --to are given together")
+    if sides != "exchange" and not one:
+        raise click.UsageError(f"--sides {sides} requires --from and --to")
 
     def run(robot: Robot, rest: dict[str, Any]) -> Edited:
-        names = one, other
-        return edit.mirror(robot, plane, exchange=names, meshes=meshes, mesh_dir=mesh_dir, **rest)
+        how = {"sides": sides, "meshes": meshes, "mesh_dir": mesh_dir}
+        return edit.mirror(robot, plane, exchange=(one, other), **how, **rest)
 
     return _run(console, Words(words, 0, "ROBOT"), options, run)
 

@@ -72,7 +72,7 @@ def _find_link(robot: Robot, name: str) -> Link:
     return robot.link[name]
 
 
-def _make_origin(pose: Array, part: Origin | None) -> Origin:
+def make_origin(pose: Array, part: Origin | None) -> Origin:
     """Return a pose as an origin with a quaternion, at the place of the given one."""
     r = pose[:3, :3]
     four = np.array(  # 4 q qᵀ of the quaternion q = x, y, z, w
@@ -184,7 +184,7 @@ def _turn_round(joint: Joint) -> tuple[list[Joint], list[Link]]:
     if joint.type != "fixed" and joint.type not in _ONE_POSITION:
         raise ConfigError(f"{joint.type} joint '{joint.name}' is on the way to the declared root")
     pose = invert(get_origin_matrix(joint.origin))
-    at = _make_origin(pose, joint.origin)
+    at = make_origin(pose, joint.origin)
     if joint.is_fixed:
         return [replace(joint, parent=joint.child, child=joint.parent, origin=at)], []
     middle = f"{joint.parent} at {joint.name}"
@@ -209,8 +209,8 @@ def mirror_robot(robot: Robot, plane: str) -> Robot:
     flip = np.eye(4)
     index = PLANES[plane]
     flip[index, index] = -1.0
-    links = [_mirror_link(link, flip, index) for link in robot.links]
-    joints = [_mirror_joint(joint, flip) for joint in robot.joints]
+    links = [mirror_link(link, flip, index) for link in robot.links]
+    joints = [mirror_joint(joint, flip) for joint in robot.joints]
     return replace(robot, links=links, joints=joints)
 
 
@@ -220,10 +220,17 @@ T = TypeVar("T")
 def _mirror_origin(origin: Origin | None, flip: Array) -> Origin | None:
     if origin is None:
         return None
-    return _make_origin(flip @ get_origin_matrix(origin) @ flip, origin)
+    return make_origin(flip @ get_origin_matrix(origin) @ flip, origin)
 
 
-def _mirror_link(link: Link, flip: Array, index: int) -> Link:
+def mirror_link(link: Link, flip: Array, index: int) -> Link:
+    """Return the mirror image of a link, whose frame R becomes S R S.
+
+    Args:
+        link: The link.
+        flip: S, 4 × 4.
+        index: Coordinate that S negates.
+    """
     visuals = [
         replace(v, origin=_mirror_origin(v.origin, flip), geometry=_mirror_mesh(v.geometry, index))
         for v in link.visuals
@@ -254,7 +261,8 @@ def _mirror_tensor(tensor: Inertia, index: int) -> Inertia:
     return replace(tensor, ixy=ixy, ixz=ixz, iyz=iyz)
 
 
-def _mirror_joint(joint: Joint, flip: Array) -> Joint:
+def mirror_joint(joint: Joint, flip: Array) -> Joint:
+    """Return the mirror image of a joint, with the same positions; see :func:`mirror_link`."""
     sign = 1.0 if joint.type == "prismatic" else -1.0
     x, y, z = (float(v) for v in sign * flip[:3, :3] @ np.array(_scale_axis(joint, 1.0).xyz))
     axis = replace(_scale_axis(joint, 1.0), xyz=(x, y, z)) if joint.has_axis else joint.axis
@@ -280,7 +288,7 @@ def move_frame(robot: Robot, move: FrameMove) -> Robot:
 
 
 def _move_origin(origin: Origin | None, before: Array, after: Array) -> Origin:
-    return _make_origin(before @ get_origin_matrix(origin) @ after, origin)
+    return make_origin(before @ get_origin_matrix(origin) @ after, origin)
 
 
 def _move_link(link: Link, back: Array) -> Link:
@@ -330,7 +338,7 @@ def _shift_joint(joint: Joint, known: dict[str, JointValue]) -> Joint:
         motion[:3, :3] = turn(compute_axis(joint), -sign * zero)
     else:
         motion[:3, 3] = -sign * zero * compute_axis(joint)
-    moved = _make_origin(get_origin_matrix(joint.origin) @ motion, joint.origin)
+    moved = make_origin(get_origin_matrix(joint.origin) @ motion, joint.origin)
     return replace(
         joint,
         origin=joint.origin if not zero else moved,

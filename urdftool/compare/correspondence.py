@@ -14,6 +14,7 @@ second robot was made of the first::
     branch  base  g_base                       # A, from link base, is the branch of B from g_base
     tolerance 1e-7                             # numbers of B are rounded
     part    arm_system  l_arm_system           # a transmission, hardware component or the like
+    image   xz link l_hand r_hand              # B also has a mirror image of a link, joint, part
 """
 
 from __future__ import annotations
@@ -57,6 +58,15 @@ class Mount(NamedTuple):
     rpy: tuple[float, float, float]
 
 
+class Image(NamedTuple):
+    """Mirror image that B has in addition: plane, kind, name of the original and of the image."""
+
+    plane: str
+    kind: str
+    name: str
+    image: str
+
+
 class Correspondence(NamedTuple):
     """What a file for ``verify --map`` holds.
 
@@ -71,6 +81,7 @@ class Correspondence(NamedTuple):
         added: Links of B whose branches A does not have.
         branch: Links of A and B from which the robots are compared; empty for the roots.
         mounts: Links of B that fixed joints carry, which A does not have.
+        images: Mirror images of parts of A that B has in addition.
         tolerance: Tolerance of numbers that were rounded; 0 for that of the rows.
         is_declared: Whether anything but names is declared.
     """
@@ -85,6 +96,7 @@ class Correspondence(NamedTuple):
     added: Sequence[str] = ()
     branch: tuple[str, str] = ("", "")
     mounts: Sequence[Mount] = ()
+    images: Sequence[Image] = ()
     tolerance: float = 0.0
     is_declared: bool = False
 
@@ -191,6 +203,14 @@ def _read_mount(found: Correspondence, words: Words) -> Correspondence:
     return found._replace(mounts=[*found.mounts, mount])
 
 
+def _read_image(found: Correspondence, words: Words) -> Correspondence:
+    if len(words) != 4 or words[0] not in PLANES or words[1] not in ("link", "joint", "part"):
+        raise _MalformedError
+    if found.images and found.images[0].plane != words[0]:
+        raise _MalformedError
+    return found._replace(images=[*found.images, Image(*words)])
+
+
 def _read_merged(found: Correspondence, words: Words) -> Correspondence:
     if len(words) < 2:
         raise _MalformedError
@@ -242,6 +262,7 @@ _READERS: dict[str, Callable[[Correspondence, Words], Correspondence]] = {
     "branch": _read_branch,
     "tolerance": _read_tolerance,
     "mount": _read_mount,
+    "image": _read_image,
 }
 
 _FORMS = {
@@ -255,4 +276,5 @@ _FORMS = {
     "branch": "branch LINK_OF_A LINK_OF_B",
     "tolerance": "tolerance T",
     "mount": "mount LINK PARENT xyz X Y Z rpy R P Y",
+    "image": "image PLANE link|joint|part NAME IMAGE",
 }

@@ -27,6 +27,7 @@ from .conventions import express_pair
 from .correspondence import Correspondence
 from .difference import Comparison, Difference
 from .frames import describe_motion, describe_pose, format_vector, invert, measure_largest
+from .images import add_images
 from .mesh_measure import MeshMeasures
 from .names import NameMap, get_pair
 from .pair import locate
@@ -66,6 +67,7 @@ def compare_declared(
     """
     before = a, b
     a, b = express_pair(a, b, declared)
+    a = add_images(a, declared.images)
     _check_merged(a, declared)
     names = get_pair(declared.names, 0, 1)
     comparison = compare_robots(a, b, rows=rows, names=names, meshes=meshes)

@@ -31,8 +31,11 @@ _TOLERANCE = 1e-6
 
 _WHY = {"simulator data": "only URDF has such blocks"}
 
-_READ = LINK_TAGS | JOINT_TAGS | {"sensor", "joint"}
-"""Elements in ``<gazebo>`` whose values are compared in rows of their own."""
+_READ = LINK_TAGS | JOINT_TAGS | {"sensor"}
+"""Elements in blocks whose values are compared in rows of their own."""
+
+_READ_IN_GAZEBO = _READ | {"joint"}
+"""Those in ``<gazebo>``, where a ``<joint>`` closes a loop."""
 
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
@@ -70,12 +73,13 @@ def _list_changes(pair: Pair) -> Iterator[Change]:
     renamed = {**pair.parts, **pair.joints, **pair.links}
     yield from compare_mechanisms(a, b, _TOLERANCE, renamed)
     for change in compare_extensions(a, b, _TOLERANCE, renamed):
+        read = _READ_IN_GAZEBO if change.kind == "gazebo" else _READ
         if change.what in ("added", "removed"):
             one = change.what == "removed"
             tags = collect_tags(a if one else b, change, renamed if one else {})
-            if not tags or tags - _READ:
+            if not tags or tags - read:
                 yield change
-        elif re.split(r"[/ \[(]", change.what)[0] not in _READ:
+        elif re.split(r"[/ \[(]", change.what)[0] not in read:
             yield change
 
 

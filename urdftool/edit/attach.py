@@ -12,10 +12,12 @@ from ..model.part import Part
 from ..model.world import WORLD
 from ..source.document import Element
 from .around import YamlDraft, apply_changes
-from .cut import BEGIN, END
+from .cut import MARKS
 from .draft import Draft, TextDraft, make_relative
 from .numbers import format_number, format_vector
 from .references import list_gazebo_blocks, list_others
+
+BEGIN, END = MARKS["attach"]
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,10 @@ from .around import YamlDraft
 from .draft import Draft, TextDraft
 from .references import list_names_in_text
 
-BEGIN, END = " urdftool attach, begin ", " urdftool attach, end "
-"""Text of the comments around what ``attach`` inserts, before the name of its first link."""
+MARKS = {
+    name: (f" urdftool {name}, begin ", f" urdftool {name}, end ") for name in ("attach", "mirror")
+}
+"""Texts of the comments around what an operation inserts, before the name of its first link."""
 
 
 def cut_branch(draft: Draft, name: str, *, force: bool = False) -> None:
@@ -125,13 +127,14 @@ def _report_yaml(draft: Draft, names: set[str]) -> None:
 
 
 def _find_marks(draft: Draft, name: str) -> tuple[Comment, Comment] | None:
-    """Return the comments around what ``attach`` inserted with a first link."""
+    """Return the comments around what was inserted with a first link."""
     comments = draft.source.document.comments
-    first = [c for c in comments if c.text == f"{BEGIN}{name} "]
-    last = [c for c in comments if c.text == f"{END}{name} "]
-    if len(first) != 1 or len(last) != 1 or first[0].start > last[0].start:
-        return None
-    return first[0], last[0]
+    for begin, end in MARKS.values():
+        first = [c for c in comments if c.text == f"{begin}{name} "]
+        last = [c for c in comments if c.text == f"{end}{name} "]
+        if len(first) == len(last) == 1 and first[0].start < last[0].start:
+            return first[0], last[0]
+    return None
 
 
 def _remove_marked(draft: Draft, marks: tuple[Comment, Comment], names: set[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import PurePosixPath
 
@@ -50,22 +51,19 @@ def mirror_robot(
         raise ModelError(f"plane '{plane}' is not one of {', '.join(PLANES)}")
     index = PLANES[plane]
     for joint in draft.robot.joints:
-        _mirror_joint(draft, joint, index)
+        mirror_joint(draft, joint, index)
     written: dict[str, str] = {}
     for link in draft.robot.links:
-        _mirror_link(draft, link, index)
-        for shape in _list_shapes(link):
-            if isinstance(shape.geometry, Mesh):
-                _mirror_mesh(draft, shape.geometry, index, meshes, mesh_dir, written)
+        mirror_link(draft, link, index)
+        mirror_meshes(draft, link, index, (meshes, mesh_dir), written)
     _report_blocks(draft)
     draft.declare("mirror", plane)
     if any(exchange):
         _exchange_names(draft, *exchange)
 
 
-def _mirror_pose(origin: Origin | None, index: int) -> Pose:
+def compute_reflected(pose: Pose, index: int) -> Pose:
     """Return S R S of a pose."""
-    pose = make_pose(origin)
     signs = [-1.0 if row == index else 1.0 for row in range(3)]
     rows = [tuple(signs[i] * signs[j] * pose.rotation[i][j] for j in range(3)) for i in range(3)]
     x, y, z = (sign * value for sign, value in zip(signs, pose.translation, strict=True))
@@ -82,7 +80,7 @@ def _set_reflected(draft: Draft, owner: Element, origin: Origin | None, index: i
     if origin is None or origin.xml is None:
         return
     if origin.quaternion is not None:
-        draft.set_pose(owner, origin, _mirror_pose(origin, index))
+        draft.set_pose(owner, origin, compute_reflected(make_pose(origin), index))
         return
     for name, kept in (("xyz", False), ("rpy", True)):
         if origin.xml.get(name) is not None:
@@ -117,7 +115,12 @@ def _negate_words(text: str, index: int, *, others: bool) -> str:
     return text if chosen == words else " ".join(chosen)
 
 
-def _mirror_joint(draft: Draft, joint: Joint, index: int) -> None:
+def mirror_joint(draft: Draft, joint: Joint, index: int) -> None:
+    """Write the mirror image of origin and axis of a joint.
+
+    Raises:
+        ModelError: The joint has several positions.
+    """
     if joint.type not in (*MOVABLE, "fixed"):
         raise ModelError(
             f"{joint.type} joint '{joint.name}' has several positions, which have other signs in "
@@ -144,7 +147,8 @@ def _list_shapes(link: Link) -> list[Visual | Collision]:
 _PRODUCTS = {"ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
 
 
-def _mirror_link(draft: Draft, link: Link, index: int) -> None:
+def mirror_link(draft: Draft, link: Link, index: int) -> None:
+    """Write the mirror image of the mass properties of a link, and of the poses of its shapes."""
     inertial = link.inertial
     if inertial is not None:
         _set_reflected(draft, inertial.element, inertial.origin, index)
@@ -155,6 +159,23 @@ def _mirror_link(draft: Draft, link: Link, index: int) -> None:
                 draft.set(tensor, name, negate_text(text))
     for shape in _list_shapes(link):
         _set_reflected(draft, shape.element, shape.origin, index)
+
+
+def mirror_meshes(
+    draft: Draft, link: Link, index: int, how: tuple[str, str], written: dict[str, str]
+) -> None:
+    """Mirror the meshes of a link.
+
+    Args:
+        draft: The robot.
+        link: The link.
+        index: Coordinate that the reflection negates.
+        how: ``files`` or ``scale``, and the folder of new meshes.
+        written: Names of new meshes by the old ones; new ones are added.
+    """
+    for shape in _list_shapes(link):
+        if isinstance(shape.geometry, Mesh):
+            _mirror_mesh(draft, shape.geometry, index, *how, written)
 
 
 def _mirror_mesh(
@@ -231,7 +252,8 @@ def _exchange_names(draft: Draft, one: str, other: str) -> None:
         {name: _exchange(name, one, other) for name in draft.robot.joint},
     )
     for kind, known in (("link", names.links), ("joint", names.joints)):
-        doubled = {new for new in known.values() if list(known.values()).count(new) > 1}
+        counts = Counter(known.values())
+        doubled = [name for name, count in counts.items() if count > 1]
         if doubled:
             raise ModelError(
                 f"two {kind}s would have the name '{min(doubled)}'", path=draft.file.path
@@ -246,14 +268,26 @@ def _exchange_names(draft: Draft, one: str, other: str) -> None:
 
 
 def _exchange(name: str, one: str, other: str) -> str:
-    """Exchange a prefix, a suffix, or else the first occurrence."""
-    for old, new in ((one, other), (other, one)):
-        if not old:
-            continue
-        if name.startswith(old):
-            return new + name[len(old) :]
-        if name.endswith(old):
-            return name[: -len(old)] + new
-        if old in name and len(old) > 1:
-            return name.replace(old, new, 1)
+    """Exchange two parts of a name; see :func:`exchange_part`."""
+    new = exchange_part(name, one, other)
+    return exchange_part(name, other, one) if new == name else new
+
+
+def exchange_part(name: str, old: str, new: str) -> str:
+    """Return a name with a part at its start, else at its end, or else at the start of a word.
+
+    A word begins after a letter that is not alphanumeric, or with a capital or another letter that
+    is not: ``l_`` is a part of ``arm_l_1``, and not of ``tool_base``.
+    """
+    if not old:
+        return name
+    if name.startswith(old):
+        return new + name[len(old) :]
+    if name.endswith(old) and (len(old) > 1 or not name[: -len(old)][-1:].isalnum()):
+        return name[: -len(old)] + new
+    at = name.find(old)
+    while at > 0:
+        if not old[0].islower() or not name[at - 1].isalnum():
+            return name[:at] + new + name[at + len(old) :]
+        at = name.find(old, at + 1)
     return name

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ..rules.renaming import list_joint_references, list_link_references
@@ -133,14 +133,23 @@ def _find_word(draft: Draft, element: Element, word: re.Pattern[str]) -> Iterato
         yield element.place
 
 
-def list_names_in_text(draft: Draft, names: Iterable[str], why: str) -> None:
-    """List the texts of plugins with one of many names, as :func:`report_text`."""
+def list_names_in_text(
+    draft: Draft, names: Iterable[str], why: str, *, skipped: Sequence[Element] = ()
+) -> None:
+    """List the texts of plugins with one of many names, as :func:`report_text`.
+
+    Args:
+        draft: The robot.
+        names: The names.
+        why: End of the message.
+        skipped: Blocks that are not searched.
+    """
     known = sorted(filter(None, names), key=len, reverse=True)
     if not known:
         return
     word = re.compile(rf"(?<![\w-])({'|'.join(map(re.escape, known))})(?![\w-])")
     for block in draft.root.children:
-        if block.tag not in _BLOCKS:
+        if block.tag not in _BLOCKS or block in skipped:
             continue
         for element in block.walk():
             for place in _find_word(draft, element, word):
