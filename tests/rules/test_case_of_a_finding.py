@@ -160,14 +160,14 @@ def test_a_link_without_friction_matters_more_than_one_without_a_color(write):
     foot = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
     text = robot(
         LINK.format("base"),
-        f'<link name="left_foot">{foot}</link>',
+        f'<link name="left_caster">{foot}</link>',
         f'<link name="arm">{BLUE}</link>',
-        JOINT.format("j", "revolute", "base", "left_foot", LIMIT.format(-1, 1)),
+        JOINT.format("j", "revolute", "base", "left_caster", LIMIT.format(-1, 1)),
         JOINT.format("k", "fixed", "base", "arm", ""),
     )
     found = check(write("r.urdf", text), select=["missing-gazebo-tags"], targets=["gazebo-classic"])
     assert [(f.name, f.severity.label, list(f.effects)) for f in found] == [
-        ("left_foot", "warning", ["gz, gazebo-classic"]),
+        ("left_caster", "warning", ["gz, gazebo-classic"]),
         ("arm", "info", ["gz"]),
     ]
 

@@ -32,12 +32,12 @@ def test_robot_for_another_simulator_gets_none(tmp_path):
 def test_classic_wants_colours_and_friction():
     assert _found(CART, targets=["gazebo-classic"]) == [
         ("link", "chassis", "info"),
-        ("link", "wheel", "warning"),
+        ("link", "caster", "warning"),
     ]
 
 
 def test_new_gazebo_takes_the_colours_of_urdf():
-    assert _found(CART, targets=["gz"]) == [("link", "wheel", "warning")]
+    assert _found(CART, targets=["gz"]) == [("link", "caster", "warning")]
 
 
 def test_dependency_of_the_package_is_a_sign(tmp_path):
@@ -47,7 +47,7 @@ def test_dependency_of_the_package_is_a_sign(tmp_path):
     file = tmp_path / "urdf" / "cart.urdf"
     file.parent.mkdir()
     file.write_text(PLAIN)
-    assert _found(file) == [("link", "wheel", "warning")]
+    assert _found(file) == [("link", "caster", "warning")]
 
 
 def test_arm_that_rolls_on_nothing_needs_none():

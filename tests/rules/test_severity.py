@@ -186,16 +186,16 @@ def test_only_robots_for_gazebo_are_asked_for_its_tags(write):
         '<visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.05"/>'
         "</geometry></visual>" + INERTIAL.format("", "1", "0.01")
     )
-    axle = JOINT.format("axle", "continuous", "base", "left_wheel", "")
+    axle = JOINT.format("axle", "continuous", "base", "left_caster", "")
     text = robot(
         LINK.format("base", BOX.format("collision", "0.2")),
         LINK.format(
-            "left_wheel", wheel + wheel.partition("<inertial>")[0].replace("visual", "collision")
+            "left_caster", wheel + wheel.partition("<inertial>")[0].replace("visual", "collision")
         ),
         axle.replace("0 0 1", "0 1 0"),
     )
     path = write("r.urdf", text)
-    assert levels(path, "missing-gazebo-tags", targets=("gz",)) == [("left_wheel", "warning")]
+    assert levels(path, "missing-gazebo-tags", targets=("gz",)) == [("left_caster", "warning")]
     assert "missing-gazebo-tags" not in {f.code for f in check(path)}
     assert levels(path, "missing-gazebo-tags", targets=("mujoco",)) == []
 

@@ -2,7 +2,8 @@
 
 Below a folder, robots are
 
-- ``.urdf`` and ``.urdf.xacro`` files,
+- ``.urdf`` and ``.urdf.xacro`` files, except for xacro files that another file includes and whose
+  ``<robot>`` has no name,
 - other ``.xacro`` files whose ``<robot>`` has a name, that have links or call macros, and that no
   other file includes,
 - files that the configuration names (``lint.robots``, ``lint.variants``),
@@ -137,6 +138,7 @@ class _Search:
         package_paths: Folders that contain ROS packages.
         workspace: Access to files.
         candidates: Why a ``.xacro`` file may be a robot by its content, by resolved path.
+        nameless: Resolved paths of xacro files whose ``<robot>`` has no name.
     """
 
     found: Repository
@@ -145,6 +147,7 @@ class _Search:
     package_paths: tuple[str | Path, ...]
     workspace: Workspace
     candidates: dict[str, str] = field(default_factory=dict)
+    nameless: set[str] = field(default_factory=set)
 
     def make_packages(self, path: str) -> Packages:
         """Return a finder of packages for a file."""
@@ -173,6 +176,8 @@ class _Search:
             self.candidates[real] = "it is not well-formed, and no file includes it"
             return
         self.found.includes[real] = list(self._resolve_includes(path, real, root))
+        if not root.get("name"):
+            self.nameless.add(real)
         if not path.endswith(ENDINGS) and root.get("name") and _has_content(root):
             self.candidates[real] = "its <robot> has a name and links, and no file includes it"
 
@@ -200,6 +205,8 @@ class _Search:
         included = {
             path for real, paths in self.found.includes.items() for path in paths if path != real
         }
+        for real in self.nameless & included:
+            self.found.robots.pop(real, None)
         for real, why in self.candidates.items():
             if real not in included:
                 self.found.robots[real] = RobotFile(self.found.paths[real], why)

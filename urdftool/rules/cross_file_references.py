@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator
 from itertools import islice
 from pathlib import Path
 
+from ..source.description import Description
 from ..source.packages import shorten_path
 from ..workspace import Workspace, memoize_by_workspace
 from .fix import FixContext, RefusedError
@@ -90,30 +91,38 @@ _INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^<>]*?filename\s*=\s*[\"']([^\"']*)
 def check_not_included(context: FixContext) -> None:
     """Make sure that no other robot includes the description, and so would get an added element.
 
-    It searches the packages of the workspace: a gripper that is a robot by itself for tests is
-    often part of an arm in another package.
-
     Args:
         context: The robot and its description.
 
     Raises:
         RefusedError: Another robot includes it.
     """
-    file = context.description.packages.file
-    own = context.description.packages.own
-    for folder in context.description.packages.list_neighbors():
-        for user, reference in _find_includes(context.workspace, str(folder)).get(file.name, ()):
+    user = find_including_file(context.description)
+    if user:
+        name = context.description.packages.file.name
+        raise RefusedError(f"{user} includes {name}, and would get the element too")
+
+
+def find_including_file(description: Description) -> str:
+    """Find a xacro file that includes a description; empty if none does.
+
+    It searches the packages of the workspace: a gripper that is a robot by itself for tests is
+    often part of an arm in another package.
+    """
+    packages, workspace = description.packages, description.workspace
+    file, own = packages.file, packages.own
+    for folder in packages.list_neighbors():
+        for user, reference in _find_includes(workspace, str(folder)).get(file.name, ()):
             found = _FIND.match(reference)
             if found is not None:
                 is_this = own is not None and found[1] == own[0]
             else:
                 there = os.path.join(os.path.dirname(user), reference)
-                real_path = context.workspace.resolve_links
+                real_path = workspace.resolve_links
                 is_this = "$" in reference or real_path(there) == real_path(file)
             if is_this:
-                raise RefusedError(
-                    f"{shorten_path(user)} includes {file.name}, and would get the element too"
-                )
+                return shorten_path(user)
+    return ""
 
 
 _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")

@@ -6,6 +6,7 @@ import os
 import re
 import sys
 from collections.abc import Callable
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ _MAX_FOLDERS = 6
 """Maximum number of folders after a wildcard; chosen, each may list the folders of all before."""
 
 _MAX_MESSAGES = 10_000  # characters; chosen
+_MAX_SEARCHED = 1000  # folders of a package that are searched for a missing file; chosen
 
 
 class ExpansionFiles:
@@ -131,8 +133,9 @@ class ExpansionFiles:
         """Return what helps to correct the path of a file that cannot be read.
 
         Returns:
-            The first missing folder of the path, and the nearest existing name in its folder, if
-            the description may read it; empty if there is none.
+            The first missing folder of the path, and what is meant, if the description may read
+            it: the only file of that name in the package, relative to the folder, or the nearest
+            name in the folder; empty if there is none.
         """
         folder, name = os.path.split(path)
         workspace = self._packages.workspace
@@ -144,7 +147,23 @@ class ExpansionFiles:
         except OSError:
             above = reversed(Path(path).parents)
             return str(next((p for p in above if not workspace.exists(p)), "")), ""
+        same = self._list_same_names(path)
+        if same:  # these are more likely than a file of another name
+            return "", os.path.relpath(same[0], folder) if len(same) == 1 else ""
         return "", find_nearest(name, there, 0.75) or ""
+
+    def _list_same_names(self, path: str) -> list[str]:
+        """Return the files of a package that have the name of a missing file."""
+        own = self._packages.find_owner(Path(path))
+        if own is None:
+            return []
+        found, name = [], os.path.basename(path)
+        folders = self._packages.workspace.walk(str(own[1]))
+        for where, below, names in islice(folders, _MAX_SEARCHED):
+            below[:] = sorted(one for one in below if not one.startswith("."))
+            if name in names:
+                found.append(os.path.join(where, name))
+        return [one for one in found if not self._packages.access.explain_refusal(Path(one))]
 
     def add_message(self, text: str) -> None:
         """Store a message of the description.

@@ -79,11 +79,27 @@ def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> li
         verb = command[1].lower()
         if verb == "project" and words:
             variables["PROJECT_NAME"] = variables["CMAKE_PROJECT_NAME"] = words[0]
+            variables["CATKIN_PACKAGE_SHARE_DESTINATION"] = f"share/{words[0]}"
         elif verb == "set" and len(words) >= 2:
             variables[words[0]] = " ".join(words[1:])[:_MAX_VALUE]
         elif verb == "install" and words:
             rules.extend(_install(package_dir, share, words))
     return rules
+
+
+def is_installed_as(package_dir: Path, name: str, workspace: Workspace) -> bool:
+    """Tell whether the CMakeLists.txt of a package with another name installs files as ``name``.
+
+    ``${PROJECT_NAME}`` of CMake may differ from the name in package.xml; the folder ``share/NAME``,
+    in which readers look, has that of CMake.
+    """
+    try:
+        text = workspace.read_text(package_dir / "CMakeLists.txt")[:_MAX_TEXT]
+    except OSError:
+        return False
+    code = blank_cmake_comments(text.encode()).decode()
+    project = re.search(rf"\bproject\s*\(\s*\"?{re.escape(name)}[\"\s)]", code, re.IGNORECASE)
+    return project is not None and bool(read_install_rules(package_dir, name, workspace))
 
 
 def _install(package_dir: Path, share: str, words: list[str]) -> list[InstallRule]:

@@ -20,9 +20,10 @@ from pathlib import Path
 
 from ..errors import AccessError, PackageNotFound
 from ..projects import find_project, find_repository, is_shared, is_trusted, is_within
+from ..suggestions import find_nearest
 from ..workspace import Workspace, memoize_by_workspace
 from .access import FileAccess
-from .install_rules import InstallRule, find_installed, read_install_rules
+from .install_rules import InstallRule, find_installed, is_installed_as, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
 _MAX_MANIFEST = 1 << 20  # bytes of a package.xml that are searched; chosen, real ones have 2 kB
@@ -247,12 +248,22 @@ class Packages:
                 self.used[name] = folder
                 return folder
             searched.append(where)
+        near = self.suggest_package(name)
+        meant = f"did you mean '{near}'? Otherwise " if near else ""
         raise PackageNotFound(
-            f"package '{name}' is not found; set its folder with --package {name}=DIR "
+            f"package '{name}' is not found; {meant}set its folder with --package {name}=DIR "
             "or --package-path DIR",
             notes=[f"searched {where}" for where in searched],
             rule="package-not-found",
         )
+
+    def suggest_package(self, name: str) -> str:
+        """Return the package of the workspace whose name is nearest; empty if none is near."""
+        own = self.own
+        known = [own[0]] if own else []
+        for root in (*self.paths, *self._list_workspace_roots(own[1] if own else None)):
+            known += self._find_packages(root)
+        return find_nearest(name, (*known, *self.named, *self.configured), 0.8)
 
     def list_neighbors(self) -> list[Path]:
         """Return the folders of the packages around the file, its own first.
@@ -323,8 +334,7 @@ class Packages:
         if name in self.named:
             yield f"--package {name}={self.named[name]} (does not exist)", self.named[name]
         for path in self.paths:
-            below = self._find_packages(path)
-            yield f"--package-path {path}", below.get(name) or self._find_child(path, name)
+            yield f"--package-path {path}", self._find_packages(path).get(name)
         own = self.own
         if own:
             yield (
@@ -335,6 +345,8 @@ class Packages:
             yield f"for a package.xml above {self.file}", None
         for root in self._list_workspace_roots(own[1] if own else None):
             yield f"packages below {root}", self._find_packages(root).get(name)
+        if own and is_installed_as(own[1], name, self.files):
+            yield f"the file's own package, which CMake installs as {name}", own[1]
         if name in self.configured:
             entry = self.configured[name]
             if isinstance(entry, ConfiguredFolder) and self._is_foreign(entry):
@@ -357,6 +369,8 @@ class Packages:
                     share = Path(entry) / "share" / name
                     folder_or_none = share if self.files.is_folder(share) else None
                 yield f"{variable}: {entry}", folder_or_none
+        for path in self.paths:  # a package of that name wins over a folder of that name
+            yield f"a folder '{name}' in --package-path {path}", self._find_child(path, name)
 
     def _find_packages(self, folder: Path) -> dict[str, Path]:
         return find_packages(folder, self.files)

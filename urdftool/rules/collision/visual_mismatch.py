@@ -371,6 +371,7 @@ def collision_off_visual(
                 "odd": found.odd,
                 "same": found.same,
                 "write": found.xyz_text,
+                "is_rotated": is_rotated,
             },
         )
 
@@ -379,8 +380,8 @@ def collision_off_visual(
 def move_odd_shape(problem: Problem, context: FixContext) -> Proposal | None:
     """Move the misplaced geometry to the other, if it is known which one is misplaced."""
     link, odd, xyz = context.get_link(problem), problem.data["odd"], problem.data["write"]
-    if not odd or not (xyz or problem.data["same"]):
-        return None
+    if not odd or not (xyz or problem.data["same"]) or problem.data["is_rotated"]:
+        return None  # the up axis of the glTF file may be the cause
     if len(link.visuals) != 1 or len(link.collisions) != 1:
         return None
     if depends_on_arguments(link.element, "visual", "collision", "inertial"):
@@ -389,6 +390,8 @@ def move_odd_shape(problem: Problem, context: FixContext) -> Proposal | None:
     right: Visual | Collision = link.collisions[0]
     if odd == "collision":
         wrong, right = right, wrong
+    if xyz and wrong.origin is None and not any(map(float, xyz.split())):
+        return None  # it is the default
     if xyz:
         return unsafe(f'write xyz="{xyz}" for its {odd}', set_in_origin(wrong, "xyz", xyz))
     what = f"copy the <origin> of the {right.element.tag} to the {odd}"

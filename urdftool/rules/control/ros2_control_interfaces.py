@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.read import number
+from ...source.description import Description
 from ...source.document import Element
 from ..fix import (
     Change,
@@ -22,6 +24,7 @@ from ..fix import (
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, quote, suggest_name
+from ..xacro.definitions import get_definitions
 
 APPLIES_TO = ("ros2_control",)
 
@@ -183,16 +186,20 @@ def add_state(problem: Problem, context: FixContext) -> Proposal | None:
         "ros2_control": "has no interface for the joint, so no broadcaster reports its motion",
     },
 )
-def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
+def joint_outside_ros2_control(robot: Robot, description: Description) -> Iterator[Problem]:
     """A moving joint is not in any ``<ros2_control>`` block, but other joints are.
 
     No broadcaster publishes its state, so RViz has no transform to the links below it. A joint that
-    is only measured needs a state interface and no command interface.
+    is only measured needs a state interface and no command interface. A joint that a condition of
+    xacro leaves out, for example for one hardware plugin, is not reported.
     """
     known = {joint.name for control in robot.ros2_controls for joint in control.joints}
     if not known or not known.intersection(robot.joint) or _has_other_publisher(robot):
         return
+    optional = _list_optional_names(description)
     for joint in robot.moving_joints:
+        if any(pattern.fullmatch(joint.name) for pattern in optional):
+            continue
         if joint.mimic is None and joint.has_axis and joint.name not in known:
             yield Problem(
                 joint,
@@ -216,6 +223,29 @@ def add_joint(problem: Problem, context: FixContext) -> Proposal | None:
         "</joint>",
     )
     return unsafe("report its position and velocity", append_child(block, *lines))
+
+
+def _list_optional_names(description: Description) -> list[re.Pattern[str]]:
+    """List patterns of names in the conditions of ``<ros2_control>`` blocks, as written."""
+    if description.expansion is None:
+        return []
+    names = {
+        name
+        for document in get_definitions(description).documents
+        for block in document.root.walk()
+        if block.tag == "ros2_control"
+        for condition in block.walk()
+        if condition.tag in ("xacro:if", "xacro:unless")
+        for part in condition.walk()
+        if part.tag == "joint" or part.tag.startswith("xacro:")
+        for key, name in part.attributes.items()
+        if key != "value"
+    }
+    return [re.compile(_EXPRESSION.sub(r".*", re.escape(name))) for name in names if name]
+
+
+_EXPRESSION = re.compile(r"\\\$\\\{.*?\\\}|\\\$\\\(.*?\\\)")
+"""An expression of xacro in a pattern of ``re.escape``."""
 
 
 def _has_other_publisher(robot: Robot) -> bool:

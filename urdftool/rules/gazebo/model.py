@@ -9,6 +9,7 @@ from ...model.elements import Joint, Link, Robot
 from ...model.settings import is_set
 from ...source.description import Description
 from ...source.document import parse
+from ...source.nearby_files import read_optional_document
 from ..cross_file_references import check_not_included
 from ..fix import (
     Change,
@@ -188,14 +189,15 @@ def missing_control_plugin(
 def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None:
     """Add a joint state publisher for new Gazebo, or gazebo_ros_control for Gazebo Classic.
 
-    A pair of wheels on one axle gets a differential drive in new Gazebo. A robot that other robots
-    include is not changed, because they have the plugin.
+    A pair of wheels on one axle gets a differential drive in new Gazebo. gazebo_ros_control is
+    added only if the package depends on it. A robot that other robots include is not changed,
+    because they have the plugin.
     """
     if {"gz", "gazebo-classic"} <= context.targets:
         return None
     check_not_included(context)
     if "gz" not in context.targets:
-        if not context.robot.transmissions:
+        if not context.robot.transmissions or not _depends_on_control(context.description):
             return None
         control = '\t<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>'
         lines = ("<gazebo>", control, "</gazebo>")
@@ -220,6 +222,18 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
         what = " and ".join(filter(None, ("a differential drive", what)))
     return unsafe(
         f"add {what}", append_child(context.robot.element, "<gazebo>", *systems, "</gazebo>")
+    )
+
+
+def _depends_on_control(description: Description) -> bool:
+    """Tell whether the package of a description depends on gazebo_ros_control."""
+    own = description.packages.own
+    if own is None:
+        return False
+    manifest = read_optional_document(description.workspace, own[1] / "package.xml")
+    return manifest is not None and any(
+        one.tag.endswith("depend") and one.text.strip() == "gazebo_ros_control"
+        for one in manifest.root.children
     )
 
 

@@ -25,12 +25,10 @@ from .contact import get_contact_role, has_friction
 from .lumping import get_lumped_body
 
 _FRICTION = {
-    "wheel": "<mu1> and <mu2> for its friction",
     "caster": "<mu1> and <mu2> near 0, so that it slides",
-    "foot": "<mu1> and <mu2> for its friction",
     "finger": "<mu1> and <mu2> for its friction",
 }
-_PLURAL = {"wheel": "wheels", "caster": "casters", "foot": "feet", "finger": "fingers"}
+_PLURAL = {"caster": "casters", "finger": "fingers"}
 _MARKER = 0.01
 """Largest size [m] of a visual that only marks the position of a link. Chosen, no source."""
 _GRAY = 0.06
@@ -53,10 +51,11 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     """A link has no ``<gazebo>`` block although it needs one.
 
     URDF has no friction, and Gazebo Classic ignores URDF colors: ``<gazebo reference="the link">``
-    sets both. A link needs the block for friction if it rolls, stands or grips (a wheel, caster,
-    foot or finger). In Gazebo Classic a link with a colored visual needs it too; this case is an
-    info, and markers of at most 1 cm are ignored. ``missing-friction`` and
-    ``missing-gazebo-material`` report incomplete blocks. Robots for other targets are not reported.
+    sets both. A link needs the block for friction if it slides or grips (a caster or finger); the
+    default of 1 is right for wheels and feet of rubber. In Gazebo Classic a link with a colored
+    visual needs it too; this case is an info, and markers of at most 1 cm are ignored.
+    ``missing-friction`` and ``missing-gazebo-material`` report incomplete blocks. Robots for other
+    targets are not reported.
     """
     if targets.isdisjoint(GAZEBO) or _is_unclear(robot):
         return
@@ -66,7 +65,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = None if _has_from_body(robot, link, _has_friction) else get_contact_role(robot, link)
+        role = None if _has_from_body(robot, link, _has_friction) else _get_role(robot, link)
         needs = [_FRICTION[role]] if role else []
         cases = ["without friction"] if role else []
         if "gazebo-classic" in targets and _is_shown_gray(robot, link, colors):
@@ -94,10 +93,8 @@ def add_block(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     link, robot = problem.subject, context.robot
     inside: list[str] = []
-    role = get_contact_role(robot, link)
-    if role:
-        mu = _get_coefficient(role)
-        inside += [f"<mu1>{mu}</mu1>", f"<mu2>{mu}</mu2>"]
+    if _get_role(robot, link) == "caster":
+        inside += ["<mu1>0.0</mu1>", "<mu2>0.0</mu2>"]
     if "gazebo-classic" in context.targets and _is_shown_gray(
         robot, link, _collect_materials(robot)
     ):
@@ -209,12 +206,12 @@ def _has_from_body(robot: Robot, link: Link, is_there: Callable[[Robot, Link], b
     formats=URDF_AND_SDF,
 )
 def missing_friction(robot: Robot) -> Iterator[Problem]:
-    """A wheel, caster, foot or finger has a ``<gazebo>`` block without friction.
+    """A caster or finger has a ``<gazebo>`` block without friction.
 
-    Without ``mu1`` and ``mu2`` both coefficients are 1: enough for a rubber wheel, too much for a
-    caster that should slide, too little for a finger that should grip. Fingers of a gripper without
-    moving joints are not reported. ``missing-gazebo-tags`` reports links without a block. In SDF
-    the friction is in ``<surface>`` of the collision.
+    Without ``mu1`` and ``mu2`` both coefficients are 1: enough for a wheel or foot of rubber, too
+    much for a caster that should slide, too little for a finger that should grip. Fingers of a
+    gripper without moving joints are not reported. ``missing-gazebo-tags`` reports links without a
+    block. In SDF the friction is in ``<surface>`` of the collision.
     """
     if _is_unclear(robot):
         return
@@ -222,7 +219,7 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
         holders = robot.extensions.get(link.name) or (link.collisions if robot.xml is None else [])
         if not holders or has_friction(link) or _has_from_body(robot, link, _has_friction):
             continue
-        role = get_contact_role(robot, link)
+        role = _get_role(robot, link)
         if not role:
             continue
         friction = _FRICTION[role]
@@ -243,22 +240,19 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
 
 @missing_friction.fix(UNSAFE)
 def write_friction(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the friction of rubber, or 0 for a caster."""
+    """Write 0 for a caster; which friction a finger needs is in no file."""
     link = context.get_link(problem)
-    role = get_contact_role(context.robot, link)
     blocks = context.robot.extensions.get(link.name)
-    if not role or not blocks:
+    if problem.data["role"] != "caster" or not blocks:
         return None
-    mu = _get_coefficient(role)
-    change = Change(
-        "insert", blocks[0].element, blocks=((f"<mu1>{mu}</mu1>",), (f"<mu2>{mu}</mu2>",))
-    )
-    return unsafe(f"write mu1 and mu2 of {mu}", change)
+    lines = (("<mu1>0.0</mu1>",), ("<mu2>0.0</mu2>",))
+    return unsafe("write mu1 and mu2 of 0.0", Change("insert", blocks[0].element, blocks=lines))
 
 
-def _get_coefficient(role: str) -> str:
-    """Get the friction coefficient of a link by its role."""
-    return "0.0" if role == "caster" else "1.0"
+def _get_role(robot: Robot, link: Link) -> str | None:
+    """Get the role of a link for whose contact the default friction of 1 is wrong."""
+    role = get_contact_role(robot, link)
+    return role if role in _FRICTION else None
 
 
 def _collect_materials(robot: Robot) -> dict[str, Material]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from ...mechanics.tensor import COMPONENTS, SymmetricTensor, rotate_tensor
 from ...mechanics.typo_detection import is_consistent
@@ -197,3 +198,24 @@ def _move_center(link: Link, inertial: Inertial, center: Vector) -> list[Change]
     if is_computed(inertial.origin.element, "xyz"):
         return None
     return [set_attribute(inertial.origin.element, "xyz", text)]
+
+
+_COMMENT = re.compile(rb"<!--((?:(?!-->).)*)-->", re.DOTALL)
+_REASON = re.compile(rb"stab|dummy|simulat|gazebo|fake|arbitrar", re.IGNORECASE)
+
+
+def has_comment(link: Link) -> bool:
+    """Tell whether a comment in or before the ``<inertial>`` of a link says why it is so."""
+    inertial = link.inertial
+    if inertial is None:
+        return False
+    element = inertial.element
+    data, before = element.file.data, link.element.start if link.element is not None else 0
+    for child in link.element.children:
+        if child.start < element.start:
+            before = child.start
+    end = data.find(b"</inertial", element.start)
+    return any(
+        _REASON.search(comment[1]) is not None
+        for comment in _COMMENT.finditer(data, before, end if end > 0 else element.start)
+    )

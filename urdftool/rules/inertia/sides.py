@@ -6,7 +6,12 @@ import math
 from collections.abc import Iterator
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine_links
-from ...mechanics.tensor import compute_principal_moments
+from ...mechanics.tensor import (
+    COMPONENTS,
+    SymmetricTensor,
+    compute_principal_moments,
+    rotate_tensor,
+)
 from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot, Vector
 from ...model.pose import compute_norm, rotate, transpose
@@ -183,8 +188,8 @@ def com_not_mirrored(
     It is reported only if the robot shows which sign is right: the geometry of the two links lies
     on mirrored sides of their frames, or the joints of their children do, or the same links at the
     other end of the robot mirror each other. Identical parts, of which one is rotated, are not
-    reported. The message names the coordinate along the axes of the root, in which left and right
-    mirror each other; the ``xyz`` to write is in the link frame.
+    reported. Both ``xyz`` of the message are in the link frame, as the file has them. The fix
+    writes the signs of the products of inertia too.
 
     ``least`` [m] is the smallest coordinate that is compared, ``similar`` the relative difference
     of two equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
@@ -226,17 +231,27 @@ def com_not_mirrored(
         side, why = shown
         odd_left = (left[axis] > 0) != (side > 0)
         link, twin = (pair.left, pair.right) if odd_left else (pair.right, pair.left)
-        right_one, wrong_one = (right, left) if odd_left else (left, right)
+        right_one = right if odd_left else left
         image = mirror_image(found, link, right_one)
         where = "on the same side as" if sign < 0 else "on the other side than"
         assert link.inertial is not None
+        assert link.inertial.origin is not None
+        products = _find_copied_products(found, link, twin)
         remedy = f'write xyz="{image}"' if link.xml is not None else "check its sign"
+        if products and link.xml is not None:
+            remedy += f" and the opposite sign of {', '.join(products)}"
+        xyz = " ".join(f"{value:.6g}" for value in link.inertial.origin.xyz)
         yield Problem(
             link,
-            f"center of mass of link '{link.name}' is at {'xyz'[axis]} = {wrong_one[axis]:.3g} m, "
-            f"{where} that of '{twin.name}', but {why}; {remedy}",
+            f"center of mass xyz=\"{xyz}\" of link '{link.name}' is {where} that of "
+            f"'{twin.name}', but {why}; {remedy}",
             at=link.inertial.origin or link.inertial,
-            data={"twin": twin.name, "axis": "xyz"[axis], "write": image},
+            data={
+                "twin": twin.name,
+                "axis": "xyz"[axis],
+                "write": image,
+                "products": products,
+            },
         )
 
 
@@ -247,14 +262,56 @@ def mirror_image(found: Sides, link: Link, com: Vector) -> str:
     return " ".join(f"{round(value, 9) + 0.0:.6g}" for value in rotate(back, (x, y, z)))
 
 
+def _find_copied_products(found: Sides, link: Link, twin: Link) -> list[str]:
+    """Name the products of inertia of a link that have the sign of those of its mirror image.
+
+    They are compared with the tensor of the other side, mirrored in the root frame and rotated into
+    the frame of the link. Empty if the tensors do not agree but for these signs.
+    """
+    own, other = _get_tensor(link), _get_tensor(twin)
+    if own is None or other is None:
+        return []
+    image = list(rotate_tensor(other, found.poses[twin.name].rotation))
+    for index, (i, j) in enumerate(((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))):
+        if (i == found.normal) != (j == found.normal):
+            image[index] = -image[index]
+    xx, xy, xz, yy, yz, zz = image
+    right = rotate_tensor((xx, xy, xz, yy, yz, zz), transpose(found.poses[link.name].rotation))
+    small = 1e-3 * max(map(abs, own))
+    both = list(zip(COMPONENTS, own, right, strict=True))
+    if any(abs(abs(a) - abs(b)) > max(small, 0.1 * abs(b)) for _, a, b in both):
+        return []
+    return [name for name, a, b in both if a * b < 0 and abs(a) > small]
+
+
+def _get_tensor(link: Link) -> SymmetricTensor | None:
+    """Get the tensor of a link along the axes of its frame; None if it is missing or rotated."""
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    if inertial.origin is not None and any(inertial.origin.rpy):
+        return None
+    return inertial.inertia.six
+
+
 @com_not_mirrored.fix(UNSAFE)
 def write_mirror_image(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the mirror image of the center of mass of the other side."""
     inertial = context.get_link(problem).inertial
     if inertial is None or inertial.origin is None:
         return None
-    image = problem.data["write"]
-    return unsafe(f'write xyz="{image}"', set_attribute(inertial.origin.element, "xyz", image))
+    image, products = problem.data["write"], problem.data["products"]
+    changes = [set_attribute(inertial.origin.element, "xyz", image)]
+    what = f'write xyz="{image}"'
+    if inertial.inertia is None:
+        return unsafe(what, *changes)
+    element = inertial.inertia.element
+    for name in products:
+        written = (element.get(name) or "").strip()
+        value = written[1:] if written.startswith("-") else f"-{written.removeprefix('+')}"
+        changes.append(set_attribute(element, name, value))
+        what += f' {name}="{value}"'
+    return unsafe(what, *changes)
 
 
 def _compute_com_vectors(found: Sides, pair: Pair) -> tuple[Vector, Vector] | None:

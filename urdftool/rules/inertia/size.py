@@ -24,6 +24,7 @@ from .bodies import find_rigid_bodies, find_slight_parts
 from .corrections import (
     MASS_IN_DOUBT,
     correct_slip,
+    has_comment,
     write_inertia_of_shapes,
     write_meant_inertia,
     write_tensor,
@@ -123,10 +124,15 @@ def is_placeholder(link: Link, six: SymmetricTensor) -> bool:
 
 @placeholder_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
 def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the inertia of the geometry, except for dummies, whose inertia is negligible."""
-    return (
-        None if is_dummy(context.get_link(problem)) else write_inertia_of_shapes(problem, context)
-    )
+    """Write the inertia of the geometry.
+
+    Excepted are dummies, whose inertia is negligible, and values with a comment that says why they
+    were chosen.
+    """
+    link = context.get_link(problem)
+    if is_dummy(link) or has_comment(link):
+        return None
+    return write_inertia_of_shapes(problem, context)
 
 
 @rule(

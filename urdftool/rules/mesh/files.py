@@ -260,7 +260,7 @@ def _split_difference(old: str, new: str) -> tuple[str, str]:
         ),
         "pybullet": "loads the link without the shape, with a warning",
         "pinocchio": "rejects the geometry of the robot",
-        "drake": "rejects the robot for a collision",
+        "drake": "rejects the robot",
     },
     formats=URDF_AND_SDF,
 )
@@ -273,7 +273,8 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     again.
     """
     seen: set[Path] = set()
-    for use in get_mesh_uses(robot, description):
+    uses = get_mesh_uses(robot, description)
+    for use in uses:
         if use.path is None or not use.exists or use.path in seen:
             continue
         seen.add(use.path)
@@ -284,6 +285,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 f"mesh '{use.uri}' {wrong}",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
+                effects=_select_readers(robot, use, uses),
             )
 
 
@@ -294,7 +296,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
         "mujoco": "rejects the robot: a wrong header or number of faces",
         "pybullet": "loads the link without the shape, with a warning",
         "pinocchio": "rejects the geometry of the robot",
-        "drake": "rejects the robot for a collision",
+        "drake": "rejects the robot",
     },
     group="repository",
     formats=URDF_AND_SDF,
@@ -307,7 +309,8 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
     fetches all files, so all pointers of a repository are one finding.
     """
     reported: set[Path] = set()
-    for use in get_mesh_uses(robot, description):
+    uses = get_mesh_uses(robot, description)
+    for use in uses:
         if use.path is None or not use.exists or use.path in reported:
             continue
         reported.add(use.path)
@@ -317,9 +320,24 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
                 f"mesh '{use.uri}' {_LFS}",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
+                effects=_select_readers(robot, use, uses),
                 group="{count} mesh files are git-lfs pointers instead of meshes, in the links "
                 "{names}; run 'git lfs pull'",
             )
+
+
+def _select_readers(robot: Robot, use: MeshUse, uses: list[MeshUse]) -> list[str]:
+    """Select the readers that open a file: for a visual, not those that ignore visuals.
+
+    PyBullet draws a visual without the shape; MuJoCo discards visuals unless the robot keeps them.
+    """
+    collides = any(other.collides for other in uses if other.path == use.path)
+    opened = collides or keeps_visuals(robot)
+    return [
+        *("rviz", "pinocchio"),
+        *["mujoco"] * opened,
+        *["pybullet", "drake"] * collides,
+    ]
 
 
 def describe_defect(use: MeshUse) -> str:

@@ -13,7 +13,7 @@ from ...source.description import Description
 from ...source.document import Element
 from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..xml.vocabulary_table import find_misspelled_attributes
 from .changes import change_uses
 from .mesh_uses import MeshUse, get_mesh_uses
@@ -167,17 +167,20 @@ _MISNAMED = ("uri", "file", "url")
     ERROR,
     effects={
         "pybullet, drake": "reject the robot: the file is not found",
-        "mujoco": "rejects the robot for a collision: the file is not found",
+        "mujoco": "rejects the robot: the file is not found",
     },
 )
 def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
     r"""The URI of a mesh file is malformed.
 
     Backslashes, ``package:/`` with one slash, or an empty name: some readers correct it and others
-    do not. Spaces, ``%20`` and double slashes work if a reader uses the URI as a path, and fail if
-    it parses the URI. They are a warning if the file is found here.
+    do not. Spaces and ``%20`` work if a reader uses the URI as a path, and fail if it parses the
+    URI; they are a warning if the file is found here. A double slash in the path is an info,
+    because readers that use it as a path open the file. If the file of such a URI does not exist,
+    ``mesh-not-found`` reports it instead.
     """
     seen: set[str] = set()
+    keeps = keeps_visuals(robot)
     for use in get_mesh_uses(robot, description):
         if use.uri in seen:
             continue
@@ -186,12 +189,15 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
         if wrong:
             element = use.mesh.element
             passes = use.exists and "\\" not in use.uri
+            slashes = wrong.defect == "double slash"
+            opened = keeps or use.collides
             yield Problem(
                 use.link,
                 wrong.text,
                 at=element.locate_attribute("filename"),
-                severity=WARNING if passes else ERROR,
+                severity=INFO if slashes else WARNING if passes else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
+                effects=[] if passes else ["pybullet, drake", *["mujoco"] * opened],
             )
 
 
@@ -218,6 +224,7 @@ def find_malformation(use: MeshUse) -> Malformation | None:
         or "$(" in uri
     ):
         return None
+    absent = use.path is not None and not use.exists
     defect, what = "", ""
     if not uri.strip():
         what = f"a mesh of link '{use.link.name}' has an empty filename; add the file name"
@@ -231,10 +238,10 @@ def find_malformation(use: MeshUse) -> Malformation | None:
         defect, what = "backslash", f"has backslashes; write '{uri.replace(chr(92), '/')}'"
     elif uri != uri.strip():
         defect, what = "outer blank", "begins or ends with a space; remove it"
-    elif separator and scheme in ("package", "model") and "//" in rest:
+    elif separator and scheme in ("package", "model") and "//" in rest and not absent:
         right = re.sub("/{2,}", "/", rest)
         defect, what = "double slash", f"has a double slash; write '{scheme}://{right}'"
-    elif separator and (" " in uri or "%20" in uri):
+    elif separator and ("%20" in uri or (" " in uri and not absent)):
         defect, what = "blank", "contains a space, which URIs do not allow; rename the file"
     return Malformation(defect, f"mesh '{uri}' {what}") if defect else None
 

@@ -29,12 +29,16 @@ from ..fix import (
 )
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import quote
+from ..words import fold, quote
 from .dependencies import find_dependency_chain
 from .resolution import is_in_own_package
 
 _DEPEND = re.compile(r"<(?:\w+_)?depend\b[^<>]*>\s*([\w-]+)\s*</")
 _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
+
+
+_PACKAGE = re.compile(r"[a-z][a-z0-9_-]*")
+"""Names of ROS packages: https://www.ros.org/reps/rep-0144.html; hyphens are used as well."""
 
 
 def _read_manifest(workspace: Workspace, folder: Path) -> str:
@@ -70,6 +74,8 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
         return
     declared = _get_dependencies(description.workspace, own[1])
     for name, subject, at in _find_used_packages(robot, description, own):
+        if _is_misnamed(name, description):
+            continue  # package-not-found reports it
         if name not in declared and not find_dependency_chain(name, own[0], description.packages):
             yield Problem(
                 subject,
@@ -78,6 +84,16 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
                 at=at,
                 data={"package": name},
             )
+
+
+def _is_misnamed(name: str, description: Description) -> bool:
+    """Tell whether a package is not found under a name, which is a typo or not one of ROS."""
+    try:
+        description.packages.find(name)
+    except PackageNotFound:
+        near = description.packages.suggest_package(name)
+        return not _PACKAGE.fullmatch(name) or (near != "" and fold(near) == fold(name))
+    return False
 
 
 @undeclared_mesh_dependency.fix(SAFE)

@@ -43,11 +43,15 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
         count = len({use.uri for use in uses})
         meshes = f"{count} of its meshes were" if count > 1 else "its mesh was"
         near = description.packages.find_folder_with(name, _get_inner_path(uses[0].uri))
+        meant = description.packages.suggest_package(name)
         remedy = f"pass --package {name}=DIR or --package-path DIR"
+        if near is not None:
+            remedy = suggest_folder(name, near)
+        if meant:
+            remedy = f"did you mean '{meant}'? Otherwise {remedy}"
         yield Problem(
             uses[0].link,
-            f"package '{name}' is not found, so {meshes} not checked; "
-            + (suggest_folder(name, near) if near is not None else remedy),
+            f"package '{name}' is not found, so {meshes} not checked; {remedy}",
             at=uses[0].mesh.locate_attribute("filename"),
             hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import Element
-from ..cross_file_references import check_not_included
+from ..cross_file_references import check_not_included, find_including_file
 from ..fix import (
     FixContext,
     Proposal,
@@ -37,7 +37,7 @@ from ..rule import (
     select_holding,
 )
 from ..unexpanded import is_unexpanded
-from ..words import find_nearest, suggest_name
+from ..words import find_nearest, quote, suggest_name
 from ..xml.vocabulary_table import find_misspelled_children, is_for_another_reader
 
 
@@ -250,15 +250,46 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
     """A joint's parent is not a link of the robot.
 
     Readers reject the robot. ``world`` must be declared like any other link; only Drake has a world
-    of its own, so it is an info in files with Drake's elements.
+    of its own, so it is an info in files with Drake's elements. All such joints of a file that
+    another file includes are one info, because the parents may come from there.
     """
     stripped = {name.strip() for name in robot.link}
+    found = []
     for joint in robot.joints:
         name = joint.parent
         if name in robot.link or name.strip() in stripped or is_unexpanded(name):
             continue
         if name.strip() and joint.parent_element is not None:
-            yield _report_unknown_parent(robot, joint, joint.parent_element)
+            found.append((joint, joint.parent_element))
+    user = _find_including_file(robot) if found else ""
+    if user:
+        yield _report_part(found, user)
+        return
+    for joint, parent in found:
+        yield _report_unknown_parent(robot, joint, parent)
+
+
+def _find_including_file(robot: Robot) -> str:
+    """Find a file that includes an expanded one; empty if none does."""
+    source = robot.source
+    return find_including_file(source) if source is not None and source.expansion else ""
+
+
+def _report_part(found: list[tuple[Joint, Element]], user: str) -> Problem:
+    """Report the joints of a file that is a part of another robot."""
+    (joint, parent), others = found[0], len(found) - 1
+    names = list(dict.fromkeys(one.parent for one, _ in found))
+    more = f" and of {others} more joint{'s' if others > 1 else ''}" if others else ""
+    are = f"parents {quote(names, 3)}" if len(names) > 1 else f"parent '{names[0]}'"
+    verb = "are not links" if len(names) > 1 else "is not a link"
+    return Problem(
+        joint,
+        f"{are} of joint '{joint.name}'{more} {verb} of this file; {user} includes it: check that",
+        at=parent.locate_attribute("link"),
+        severity=INFO,
+        effects=[],
+        data={"parents": names, "included_by": user},
+    )
 
 
 @unknown_parent_link.full
@@ -295,6 +326,8 @@ def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     that another robot includes gets ``world`` from there.
     """
     joint = context.get_joint(problem)
+    if "included_by" in problem.data:
+        return None
     if joint.parent != "world":
         return _write_suggestion(problem)
     check_not_included(context)

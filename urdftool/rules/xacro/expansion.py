@@ -128,10 +128,30 @@ def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
     at = file.find_tag_end(root.start())
     if root.start() <= place.start < at:  # xacro expands the attributes before the children
         return None
+    if any(_needs_value(name, one) for one in context.description.files):
+        return None
     following = re.match(rb"\s*?(\r?\n[ \t]*)(?=\S)", file.data[at:])
     indent = following[1] if following else b""
     line = indent + f'<xacro:arg name="{name}" default=""/>'.encode()
     return unsafe("declare it with an empty default", Span(file, at, at, line))
+
+
+def _needs_value(name: str, file: SourceFile) -> bool:
+    """Tell whether a file uses an argument where xacro does not accept an empty text.
+
+    These are conditions, which must be boolean, names of files, and expressions.
+    """
+    text = blank_comments(file.data).decode(file.encoding, "replace")
+    word = rf"\$\(arg\s+{re.escape(name)}\s*\)"
+    return any(
+        re.search(pattern, text) is not None
+        for pattern in (
+            rf"<xacro:(?:if|unless|include)\b[^<>]*{word}",
+            rf"\$\{{[^}}]*{word}",
+            rf"\$\(eval[^)]*\b{re.escape(name)}\b",
+            rf"<xacro:property\b[^<>]*{word}",
+        )
+    )
 
 
 @rule(

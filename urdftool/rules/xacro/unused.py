@@ -11,7 +11,7 @@ from ...source.document import Element
 from ..fix import FixContext, Proposal, remove_element, set_attribute, set_text, unsafe
 from ..renaming import find_joint_references, find_link_references
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
-from .definitions import get_definitions, get_names
+from .definitions import Definitions, get_definitions, get_names
 
 _CONDITIONS = ("xacro:if", "xacro:unless")
 
@@ -161,7 +161,9 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
 
     The second definition replaces the first for all calls that follow. If two packages define
     ``cylinder_inertia`` with different parameters or formulas, the robot depends on the order of
-    includes. Definitions in a condition, or in a file included with ``ns``, are not reported.
+    includes. Definitions in a condition, or in a file included with ``ns``, are not reported,
+    neither are files of which an include chooses one, by a condition or by an expression in its
+    ``filename``: their macros have one name on purpose.
     """
     names = [
         name
@@ -179,7 +181,11 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
     ):
         return
     for name, elements in found.macros.items():
-        certain = [element for element in elements if not _is_conditional(element)]
+        certain = [
+            element
+            for element in elements
+            if not _is_conditional(element) and not _is_chosen(element.file.path, found)
+        ]
         for element in certain[1:]:
             if _is_equal(element, certain[0]):
                 continue
@@ -193,6 +199,26 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
                 "rename one of them",
                 at=element.locate_attribute("name"),
             )
+
+
+def _is_chosen(path: str, found: Definitions) -> bool:
+    """Tell whether an include with a condition or a computed name may bring a file."""
+    includes = (
+        element
+        for document in found.documents
+        for element in document.root.walk()
+        if element.tag == "xacro:include"
+    )
+    return any(_may_choose(element, path) for element in includes)
+
+
+def _may_choose(include: Element, path: str) -> bool:
+    """Tell whether an include is not always made, or not always of this file, but may be of it."""
+    inside = re.sub(r"\$\(find\s[^)]*\)", "", include.get("filename") or "")
+    if "$" not in inside and not _is_conditional(include):
+        return False
+    parts = re.split(r"\$\{[^}]*\}|\$\([^)]*\)", inside.lstrip("./"))
+    return re.search(".*".join(map(re.escape, parts)) + "$", path) is not None
 
 
 def _is_equal(a: Element, b: Element) -> bool:

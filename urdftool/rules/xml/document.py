@@ -11,6 +11,7 @@ from ...model.load import OLD_SDF, is_old_sdf
 from ...source.comments import list_comments
 from ...source.description import Description
 from ...source.document import Element
+from ..cross_file_references import find_including_file
 from ..fix import FixContext, Proposal, Span, safe, set_attribute, unsafe
 from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule, select_holding
 
@@ -151,13 +152,13 @@ def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
 
     Other elements refer to links and joints by name. urdfdom rejects the robot; other readers use
-    the empty name, which two links may share. A ``<robot>`` without elements, for a file that
-    others include, needs no name.
+    the empty name, which two links may share. A ``<robot>`` without elements needs no name, and
+    neither does one that another file includes.
     """
     root = description.document.root
     named = ("link", "joint", "transmission")
     elements = [child for child in root.children if child.tag in named]
-    if root.children:
+    if root.children and not _is_part(description):
         elements.insert(0, root)
     for element in elements:
         if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
@@ -171,6 +172,13 @@ def missing_name(description: Description) -> Iterator[Problem]:
                 severity=severity,
                 effects=select_holding(_NAME_EFFECTS, *case),
             )
+
+
+def _is_part(description: Description) -> bool:
+    """Tell whether a xacro file without the name of a robot is a part of another."""
+    if description.expansion is None or description.document.root.get("name"):
+        return False
+    return bool(find_including_file(description))
 
 
 @missing_name.full

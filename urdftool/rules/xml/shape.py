@@ -18,6 +18,7 @@ from ..fix import (
     safe,
     unsafe,
 )
+from ..mujoco import keeps_visuals
 from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule
 from .owner import describe_owner
 from .vocabulary_table import VOCABULARY, find_misspelled_children, get_census
@@ -137,22 +138,27 @@ def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe(f"write a separate <{part.tag}> for each shape", *changes)
 
 
+_SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
+_DROPPING = "urdfdom, gz, gazebo-classic, pinocchio"
+
+
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "load the link without its visuals and collisions, with an error in the log"
-        ),
+        _DROPPING: ("load the link without its visuals and collisions, with an error in the log"),
         "check_urdf": "reports success anyway",
-        "mujoco, pybullet, drake": "reject the file",
+        "pybullet, drake": "reject the file",
+        "mujoco": "rejects the file",
     },
 )
 def empty_geometry(robot: Robot) -> Iterator[Problem]:
     """A visual or collision has no shape.
 
     urdfdom loads the link without visual and collision geometry, and reports the robot as loaded;
-    the link falls through the ground. MuJoCo, PyBullet and Drake reject the file.
+    the link falls through the ground. PyBullet and Drake reject the file, and so does MuJoCo for a
+    collision; it discards visuals unless ``discardvisual`` is ``false``.
     """
+    keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
         if shape.geometry is not None:
             continue
@@ -160,7 +166,9 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
         if element is None and "geometry" in find_misspelled_children(shape.element).values():
             continue
         at = element if element is not None else shape
-        yield Problem(link, _describe_missing_shape(link, shape), at=at)
+        read = ["mujoco"] if keeps or isinstance(shape, Collision) else []
+        effects = [_DROPPING, "check_urdf", "pybullet, drake", *read]
+        yield Problem(link, _describe_missing_shape(link, shape), at=at, effects=effects)
 
 
 @empty_geometry.full
@@ -189,12 +197,10 @@ def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
     if geometry is not None and geometry.children:
         return None
     link = element.parent
+    if link is None or _has_misplaced_shape(link):
+        return None
     other = "collision" if element.tag == "visual" else "visual"
-    shapes = (
-        [g for c in link.list_children(other) for g in c.list_children("geometry")]
-        if link is not None
-        else []
-    )
+    shapes = [g for c in link.list_children(other) for g in c.list_children("geometry")]
     if len(shapes) == 1 and len(shapes[0].children) == 1:
         lines = tuple(get_written_lines(shapes[0]))
         origin = element.find_child("origin")
@@ -206,3 +212,15 @@ def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
             change = Change("first", element, blocks=(lines,))
         return unsafe(f"write the shape of the {other}", change)
     return unsafe(f"remove the empty <{element.tag}>", remove_element(element))
+
+
+def _has_misplaced_shape(link: Element) -> bool:
+    """Tell whether a shape or ``<geometry>`` of a link is in the wrong element.
+
+    Moving it is the fix then, and not another shape or none.
+    """
+    places = {"geometry": ("visual", "collision"), **dict.fromkeys(_SHAPES, ("geometry",))}
+    return any(
+        one.parent is not None and one.parent.tag not in places.get(one.tag, (one.parent.tag,))
+        for one in link.walk()
+    )

@@ -1,0 +1,344 @@
+"""Findings and fixes that were wrong on real robots, by their causes."""
+
+import re
+
+import pytest
+
+from tests.conftest import FIXTURES
+from urdftool.lint.fix_run import fix_description
+from urdftool.lint.options import Options
+from urdftool.lint.run import check_file
+from urdftool.lint.settings import Settings
+
+BOX = "<geometry><box size='.1 .1 .1'/></geometry>"
+MASS = (
+    '<inertial><mass value="1"/><inertia ixx="0.0017" ixy="0" ixz="0" iyy="0.0017" iyz="0" '
+    'izz="0.0017"/></inertial>'
+)
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+MANIFEST = "<package format='3'><name>{}</name>{}</package>"
+STL = (
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+    "endfacet\nendsolid a\n"
+)
+
+
+def write(folder, files):
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+
+
+def check(path, *rules, targets=None, packages=None, paths=()):
+    settings = Settings(select=rules, targets=targets and frozenset(targets))
+    options = Options(settings, fixes=True, packages=packages or {}, package_paths=paths)
+    return check_file(path, options), options
+
+
+def find(path, *rules, **others):
+    report, _ = check(path, *rules, **others)
+    return [(f.code, f.severity.name, f.message) for f in report.findings]
+
+
+def fix(path, *rules, **others):
+    """Return the file after all fixes, and the findings before."""
+    report, options = check(path, *rules, **others)
+    done = fix_description(report, options, unsafe=True)
+    return done.after.get(str(path), path.read_bytes()).decode(), report.findings
+
+
+def mesh(uri, part="visual"):
+    geometry = f'<geometry><mesh filename="{uri}"/></geometry>'
+    return f'<robot name="r"><link name="a"><{part}>{geometry}</{part}></link></robot>'
+
+
+@pytest.mark.parametrize(
+    ("uri", "expected"),
+    [
+        ("package://p//meshes/a.stl", [("malformed-uri", "INFO")]),
+        ("package://p//meshes/gone.stl", [("mesh-not-found", "ERROR")]),
+        ("package://p/meshes/go ne.stl", [("mesh-not-found", "ERROR")]),
+        ("package:/p/meshes/a.stl", [("malformed-uri", "ERROR")]),
+    ],
+)
+def test_a_missing_file_is_the_cause_and_not_its_slashes(tmp_path, uri, expected):
+    write(tmp_path, {"package.xml": MANIFEST.format("p", ""), "meshes/a.stl": STL})
+    write(tmp_path, {"r.urdf": mesh(uri)})
+    found = find(tmp_path / "r.urdf", "malformed-uri", "mesh-not-found")
+    assert [one[:2] for one in found] == expected
+
+
+def test_an_existing_file_behind_two_slashes_is_not_said_to_be_rejected(tmp_path):
+    write(tmp_path, {"package.xml": MANIFEST.format("p", ""), "meshes/a.stl": STL})
+    write(tmp_path, {"r.urdf": mesh("package://p//meshes/a.stl", "collision")})
+    report, _ = check(tmp_path / "r.urdf", "malformed-uri")
+    assert [f.effects for f in report.findings] == [{}]
+
+
+def test_a_package_wins_over_a_folder_of_its_name(tmp_path):
+    call = f'<robot name="r" {XACRO}><xacro:include filename="$(find arm)/a.xacro"/></robot>'
+    write(
+        tmp_path,
+        {
+            "models/arm/model.sdf": "",
+            "src/arm_v2/package.xml": MANIFEST.format("arm", ""),
+            "src/arm_v2/a.xacro": f'<robot {XACRO}><link name="a"/></robot>',
+            "robot/r.xacro": call,
+        },
+    )
+    paths = [str(tmp_path / "models"), str(tmp_path / "src")]
+    report, _ = check(tmp_path / "robot/r.xacro", paths=paths)
+    assert report.error is None
+    assert not [f for f in report.findings if f.severity.name == "ERROR"]
+
+
+@pytest.mark.parametrize("share", ["share/${PROJECT_NAME}", "${CATKIN_PACKAGE_SHARE_DESTINATION}"])
+@pytest.mark.parametrize(("project", "found"), [("arm", []), ("other", ["wrong-package-in-uri"])])
+def test_a_uri_that_resolves_where_cmake_installs_is_right(tmp_path, share, project, found):
+    cmake = f"project({project})\ninstall(DIRECTORY meshes DESTINATION {share})\n"
+    write(
+        tmp_path,
+        {
+            "p/package.xml": MANIFEST.format("arm_description", ""),
+            "p/CMakeLists.txt": cmake,
+            "p/meshes/a.stl": STL,
+            "p/r.urdf": mesh("package://arm/meshes/a.stl"),
+        },
+    )
+    rules = ("wrong-package-in-uri", "package-not-found", "mesh-not-found")
+    assert [one[0] for one in find(tmp_path / "p/r.urdf", *rules)] == found
+
+
+TIP = '<robot {}><xacro:macro name="tip" params="n"><link name="${{n}}_{}"/></xacro:macro></robot>'
+
+
+@pytest.mark.parametrize(
+    ("includes", "count"),
+    [
+        ('<xacro:include filename="tip_a.xacro"/><xacro:include filename="tip_b.xacro"/>', 1),
+        (
+            '<xacro:macro name="use" params="kind"><xacro:include filename="tip_${kind}.xacro"/>'
+            '<xacro:tip n="${kind}"/></xacro:macro><xacro:use kind="a"/><xacro:use kind="b"/>',
+            0,
+        ),
+        (
+            '<xacro:if value="true"><xacro:include filename="tip_a.xacro"/></xacro:if>'
+            '<xacro:unless value="false"><xacro:include filename="tip_b.xacro"/></xacro:unless>',
+            0,
+        ),
+    ],
+)
+def test_files_of_which_an_include_chooses_one_share_their_macros(tmp_path, includes, count):
+    files = {f"tip_{kind}.xacro": TIP.format(XACRO, kind) for kind in "ab"}
+    write(
+        tmp_path,
+        {**files, "r.xacro": f'<robot name="r" {XACRO}><link name="a"/>{includes}</robot>'},
+    )
+    assert len(find(tmp_path / "r.xacro", "macro-redefined")) == count
+
+
+CONTROL = """<robot name="r" {}><link name="a"/><link name="b"/><link name="c"/>
+<xacro:arg name="gz" default="true"/>
+<joint name="one" type="continuous"><parent link="a"/><child link="b"/></joint>
+<joint name="two" type="continuous"><parent link="b"/><child link="c"/></joint>
+<ros2_control name="s" type="system"><hardware><plugin>mock_components/GenericSystem</plugin>
+</hardware><joint name="one"><state_interface name="position"/></joint>{}</ros2_control></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("inside", "count"),
+    [
+        ("", 1),
+        ('<xacro:unless value="$(arg gz)"><joint name="two"/></xacro:unless>', 0),
+        ('<xacro:unless value="$(arg gz)"><joint name="${\'tw\'}o"/></xacro:unless>', 0),
+        ('<xacro:unless value="$(arg gz)"><joint name="three"/></xacro:unless>', 1),
+    ],
+)
+def test_a_joint_that_a_condition_leaves_out_is_meant(tmp_path, inside, count):
+    write(tmp_path, {"r.urdf.xacro": CONTROL.format(XACRO, inside)})
+    found = find(tmp_path / "r.urdf.xacro", "joint-outside-ros2-control", targets=("ros2",))
+    assert len(found) == count
+
+
+@pytest.mark.parametrize(
+    ("part", "keeps", "rejects"),
+    [("visual", "", False), ("collision", "", True), ("visual", "false", True)],
+)
+def test_mujoco_ignores_a_visual_without_a_shape(tmp_path, part, keeps, rejects):
+    kept = f'<mujoco><compiler discardvisual="{keeps}"/></mujoco>' if keeps else ""
+    text = f'<robot name="r">{kept}<link name="a"><{part}><geometry/></{part}></link></robot>'
+    write(tmp_path, {"r.urdf": text})
+    report, _ = check(tmp_path / "r.urdf", "empty-geometry", targets=("mujoco",))
+    (finding,) = report.findings
+    assert ("mujoco" in finding.effects) is rejects
+
+
+@pytest.mark.parametrize(
+    ("uri", "part", "rejects"),
+    [("a.stl", "visual", False), ("a.stl", "collision", True)],
+)
+def test_mujoco_and_drake_do_not_open_the_file_of_a_visual(tmp_path, uri, part, rejects):
+    write(tmp_path, {"a.stl": "not a mesh", "r.urdf": mesh(uri, part)})
+    report, _ = check(tmp_path / "r.urdf", "corrupt-mesh")
+    (finding,) = report.findings
+    assert ("mujoco" in finding.effects, "drake" in finding.effects) == (rejects, rejects)
+
+
+@pytest.mark.parametrize(
+    ("inside", "removed"),
+    [
+        ("<visual><material name='m'/></visual>", True),
+        (f"<visual><material name='m'/></visual>{BOX}", False),
+        (f"<visual><origin xyz='0 0 0'>{BOX}</origin></visual>", False),
+    ],
+)
+def test_a_visual_whose_shape_is_elsewhere_is_not_removed(tmp_path, inside, removed):
+    write(tmp_path, {"r.urdf": f'<robot name="r"><link name="a">{inside}</link></robot>'})
+    text, _ = fix(tmp_path / "r.urdf", "empty-geometry")
+    assert ("<visual>" not in text) is removed
+
+
+@pytest.mark.parametrize(
+    ("files", "suggested"),
+    [
+        (("urdf/gripper_140.xacro",), "gripper_140.xacro"),
+        (("urdf/gripper_140.xacro", "v2/gripper_85.xacro"), "../v2/gripper_85.xacro"),
+        (("urdf/gripper_140.xacro", "v2/gripper_85.xacro", "v3/gripper_85.xacro"), None),
+    ],
+)
+def test_a_file_of_that_name_is_suggested_before_one_of_another(tmp_path, files, suggested):
+    text = f'<robot name="r" {XACRO}><xacro:include filename="gripper_85.xacro"/></robot>'
+    write(tmp_path, {"package.xml": MANIFEST.format("p", ""), "urdf/r.xacro": text})
+    write(tmp_path, dict.fromkeys(files, f"<robot {XACRO}/>"))
+    if len(files) == 1:  # numbers are not typos
+        text = text.replace("gripper_85", "griper_140")
+        write(tmp_path, {"urdf/r.xacro": text})
+    report, _ = check(tmp_path / "urdf/r.xacro", "include-not-found")
+    assert [f.data["suggestion"] for f in report.findings] == [suggested]
+
+
+PART = f"""<robot {XACRO}><link name="imu"/><link name="lidar"/>
+<joint name="j" type="fixed"><parent link="base"/><child link="imu"/></joint>
+<joint name="k" type="fixed"><parent link="top"/><child link="lidar"/></joint></robot>"""
+WHOLE = f"""<robot name="r" {XACRO}><link name="base"/><link name="top"/>
+<joint name="t" type="fixed"><parent link="base"/><child link="top"/></joint>
+<xacro:include filename="sensors.urdf.xacro"/></robot>"""
+
+
+@pytest.mark.parametrize("included", [False, True])
+def test_a_part_says_once_who_includes_it(tmp_path, included):
+    write(tmp_path, {"package.xml": MANIFEST.format("p", ""), "sensors.urdf.xacro": PART})
+    if included:
+        write(tmp_path, {"r.urdf.xacro": WHOLE})
+    found = find(tmp_path / "sensors.urdf.xacro", "unknown-parent-link", "missing-name")
+    if not included:
+        assert [one[1] for one in found] == ["ERROR"] * 3
+        return
+    ((_, severity, message),) = found
+    assert severity == "INFO"
+    assert "r.urdf.xacro includes it" in message
+    assert "'base' and 'top'" in message
+    assert "1 more joint" in message
+
+
+def test_a_part_is_not_a_robot_of_its_folder(tmp_path, urdftool, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, {"package.xml": MANIFEST.format("p", ""), "sensors.urdf.xacro": PART})
+    write(tmp_path, {"r.urdf.xacro": WHOLE})
+    assert "checked 1 robot (1 variant), 1 file belongs to it" in urdftool("lint", ".").err
+
+
+def test_a_package_is_suggested_for_a_typo(tmp_path):
+    text = f'<robot name="r" {XACRO}><xacro:include filename="$(find studentbot)/a.xacro"/></robot>'
+    write(tmp_path, {"package.xml": MANIFEST.format("student_bot", ""), "r.xacro": text})
+    write(tmp_path, {"r.urdf": mesh("package://studentbot/meshes/a.stl")})
+    for name in ("r.xacro", "r.urdf"):
+        ((_, _, message),) = find(tmp_path / name, "package-not-found")
+        assert "did you mean 'student_bot'?" in message
+    assert not find(tmp_path / "r.urdf", "undeclared-mesh-dependency", targets=("ros2",))
+
+
+@pytest.mark.parametrize(("name", "count"), [("EXPORT-NAME-V2", 0), ("realsense2_description", 1)])
+def test_no_dependency_is_advised_that_cannot_be_a_package(tmp_path, name, count):
+    write(tmp_path, {"package.xml": MANIFEST.format("arm", "")})
+    write(tmp_path, {"r.urdf": mesh(f"package://{name}/meshes/a.stl")})
+    found = find(tmp_path / "r.urdf", "undeclared-mesh-dependency", targets=("ros2",))
+    assert len(found) == count
+
+
+@pytest.mark.parametrize(
+    ("use", "declared"),
+    [
+        ('<link name="$(arg n)"/>', True),
+        ('<xacro:if value="$(arg n)"><link name="a"/></xacro:if>', False),
+        ('<link name="${$(arg n) + 1}"/>', False),
+        ('<xacro:property name="p" value="$(arg n)"/><link name="a${p}"/>', False),
+    ],
+)
+def test_an_argument_that_cannot_be_empty_is_not_declared_empty(tmp_path, use, declared):
+    write(tmp_path, {"r.xacro": f'<robot name="r" {XACRO}>{use}</robot>'})
+    text, findings = fix(tmp_path / "r.xacro", "undeclared-arg")
+    assert [f.code for f in findings] == ["undeclared-arg"]
+    assert ("<xacro:arg" in text) is declared
+
+
+ARM = """<robot name="r"><link name="a"/><link name="b"/>
+<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+<joint name="j"><hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+</joint><actuator name="m"/></transmission></robot>"""
+
+
+@pytest.mark.parametrize("depends", [False, True])
+def test_a_control_plugin_is_added_if_the_package_depends_on_it(tmp_path, depends):
+    needed = "<exec_depend>gazebo_ros_control</exec_depend>" if depends else ""
+    write(tmp_path, {"package.xml": MANIFEST.format("p", needed), "r.urdf": ARM})
+    text, findings = fix(tmp_path / "r.urdf", "missing-control-plugin", targets=("gazebo-classic",))
+    assert len(findings) == 1
+    assert ("libgazebo_ros_control.so" in text) is depends
+
+
+@pytest.mark.parametrize("comment", ["", "<!-- To stabilize simulation -->"])
+def test_a_placeholder_with_a_reason_stays(tmp_path, comment):
+    inertial = MASS.replace("0.0017", "1").replace("<inertia ", f"{comment}<inertia ")
+    link = f"<link name='b'>{inertial}<visual>{BOX}</visual><collision>{BOX}</collision></link>"
+    joint = "<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>"
+    write(tmp_path, {"r.urdf": f"<robot name='r'><link name='a'/>{link}{joint}</robot>"})
+    text, findings = fix(tmp_path / "r.urdf", "placeholder-inertia")
+    assert len(findings) == 1
+    assert ('ixx="1"' in text) is bool(comment)
+
+
+@pytest.mark.parametrize(("name", "reported"), [("wheel", False), ("caster", True)])
+def test_the_friction_that_gazebo_takes_anyway_is_not_missed(tmp_path, name, reported):
+    part = f"<link name='{name}'>{MASS}<collision><geometry><sphere radius='.1'/></geometry>"
+    text = f"""<robot name="r"><link name="a"/>{part}</collision></link>
+    <joint name="j" type="continuous"><parent link="a"/><child link="{name}"/>
+    <axis xyz="0 1 0"/></joint><gazebo reference="{name}"><maxContacts>4</maxContacts></gazebo>
+    </robot>"""
+    write(tmp_path, {"r.urdf": text})
+    fixed, findings = fix(tmp_path / "r.urdf", "missing-friction", targets=("gz",))
+    assert bool(findings) is reported
+    assert "<mu1>1" not in fixed
+
+
+@pytest.mark.parametrize(("product", "negated"), [("0.00001", 1), ("0", 0)])
+def test_the_fix_of_a_mirrored_center_of_mass_mirrors_the_products(tmp_path, product, negated):
+    text = (FIXTURES / "rules/com-not-mirrored/bad.urdf").read_text("utf-8")
+    text = text.replace('ixx="0.0003867" ixy="0"', f'ixx="0.0003867" ixy="{product}"')
+    write(tmp_path, {"r.urdf": text})
+    fixed, (finding,) = fix(tmp_path / "r.urdf", "com-not-mirrored")
+    assert fixed.count('ixy="-0.00001"') == negated
+    assert ("opposite sign of ixy" in finding.message) is bool(negated)
+
+
+def test_a_mirrored_center_of_mass_has_the_numbers_of_its_file(tmp_path):
+    text = (FIXTURES / "rules/com-not-mirrored/bad.urdf").read_text("utf-8")
+    write(tmp_path, {"r.urdf": text})
+    _, (finding,) = fix(tmp_path / "r.urdf", "com-not-mirrored")
+    wrong, right = re.findall(r'xyz="([^"]*)"', finding.message)
+    assert f'xyz="{wrong}"' in text
+    assert sorted(map(abs, map(float, wrong.split()))) == sorted(
+        map(abs, map(float, right.split()))
+    )
