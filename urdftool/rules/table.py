@@ -61,6 +61,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "duplicate-link-name",
             "duplicate-joint-name",
             "link-joint-name-clash",
+        ),
+        "ends": (
             "unknown-parent-link",
             "unknown-child-link",
             "missing-parent-or-child",

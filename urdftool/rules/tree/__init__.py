@@ -1,4 +1,4 @@
 """Links and joints as one tree."""
 
-FILES = ("links", "roots")
+FILES = ("links", "ends", "roots")
 """Files with rules, in reading order."""
