@@ -9,6 +9,7 @@ from urdftool.drawing.shapes import read_robot_shapes
 from urdftool.errors import ModelError
 from urdftool.model.kinematics import add_mimic_positions, link_poses
 from urdftool.model.load import load
+from urdftool.model.pair_pose import PairPose
 from urdftool.model.pose import Pose, rotation_from_quaternion
 from urdftool.viewer import server
 
@@ -318,3 +319,30 @@ def test_what_fails_is_said_and_the_page_goes_on(show):
     assert "Bug in urdftool" in page._banner.content
     page.joints.put("upper")
     assert page.joints.positions["shoulder"] == 1.25
+
+
+def test_a_chosen_pair_moves_the_robot_to_its_contact(show):
+    pair = PairPose("base", "lower", {"shoulder": 0.7, "elbow": -2.0}, "Never")
+    page, path = show(ARM, compare=lambda robot: [pair])
+    page.joints.move({"grip": 0.03})
+    tend(page)
+    (label,) = page._pairs.labels
+    assert page._chooser.value == "none"
+    page._pairs.choose(label)
+    assert page.joints.positions["shoulder"] == pytest.approx(0.7)
+    assert page.joints.positions["elbow"] == pytest.approx(-2.0)
+    assert page.joints.positions["grip"] == 0  # joints that do not move the pair are at zero
+    rewrite(path, ARM.replace("thumb", "second"))
+    page._compare = lambda robot: []
+    tend(page)
+    tend(page)
+    assert page._pairs.labels == ()
+
+
+def test_an_srdf_that_cannot_be_read_is_reported_on_the_page(show):
+    def compare(robot):
+        raise ModelError("the SRDF is of another robot")
+
+    page, _ = show(ARM, compare=compare)
+    tend(page)
+    assert "of another robot" in page._pairs._text.content

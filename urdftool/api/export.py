@@ -163,6 +163,7 @@ def export_mjcf(
     from ..formats.export import finish_export
     from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
+    from .pair_proofs import prove_srdf_pairs
 
     mjcf, robot = format_named("mjcf"), weld_base(robot)
     name = Path(output).name if output is not None else ""
@@ -184,6 +185,7 @@ def export_mjcf(
         "mesh_dir": mesh_dir,
         "force": force,
     }
+    proofs = prove_srdf_pairs(robot, srdf)
     options = make_options(
         Options,
         choices,
@@ -191,8 +193,10 @@ def export_mjcf(
         cutter=make_cutter(robot),
         state=state,
         overlap=measure_overlap,
+        proofs=proofs.texts,
     )
     written = mjcf.write(robot, options)
+    written.losses += proofs.findings
     written.checks = finish_export(
         mjcf, robot, options, written, output, verify=verify, overwrite=overwrite
     )

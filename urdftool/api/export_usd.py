@@ -61,6 +61,7 @@ def export_usd(
     from ..formats.registry import format_named
     from ..formats.usd.options import Options
     from .export import make_cutter
+    from .pair_proofs import prove_srdf_pairs
 
     choices = {
         "target": target,
@@ -76,13 +77,17 @@ def export_usd(
     }
     usd = format_named("usd")
     file = Path(output).name if output is not None and usd.has_suffix(output) else ""
-    options = make_options(Options, choices, file=file, cutter=make_cutter(robot))
     require("export_usd", "pxr")
+    proofs = prove_srdf_pairs(robot, srdf)
+    options = make_options(
+        Options, choices, file=file, cutter=make_cutter(robot), proofs=proofs.texts
+    )
     if output is not None and options.file and not overwrite:
         from ..formats.usd.files import check_replaced
 
         check_replaced(Path(output))
     written = usd.write(robot, options)
+    written.losses += proofs.findings
     written.checks = finish_export(
         usd, robot, options, written, output, verify=verify, overwrite=overwrite
     )

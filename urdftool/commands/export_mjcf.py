@@ -11,6 +11,7 @@ from ..console import Console
 from ..formats.common.option import make_options
 from ..formats.mjcf.options import Options
 from .export_options import add_declared_options, add_output_option, make_export_options
+from .export_pairs import prove_pairs
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument, parse_name_numbers
@@ -76,6 +77,7 @@ def command(
     model = weld_base(read_any(console, robot, package, package_path, quiet=True))
     report_gltf_axes(console, model)
     state, choices["pose"] = choices["pose"]
+    proofs = prove_pairs(console, model, choices["srdf"])
     options = make_options(
         Options,
         choices,
@@ -83,6 +85,7 @@ def command(
         cutter=make_cutter(model),
         state=state,
         overlap=measure_overlap,
+        proofs=proofs.texts,
     )
     return run_export(
         console,
@@ -91,4 +94,5 @@ def command(
         options,
         place,
         choices,
+        more_checks=lambda _: proofs.findings,
     )

@@ -11,6 +11,7 @@ from ..console import Console
 from ..formats.common.option import make_options
 from ..formats.usd.options import Options
 from .export_options import add_declared_options, add_output_option, make_export_options
+from .export_pairs import prove_pairs
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
 from .options import add_gltf_option, add_package_options, add_robot_argument
@@ -77,7 +78,10 @@ def command(
     model = read_any(console, robot, package, package_path, quiet=True)
     report_gltf_axes(console, model)
     file = Path(place).name if usd.has_suffix(place) else ""
-    options = make_options(Options, choices, file=file, cutter=make_cutter(model))
+    proofs = prove_pairs(console, model, choices["srdf"])
+    options = make_options(
+        Options, choices, file=file, cutter=make_cutter(model), proofs=proofs.texts
+    )
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
     if options.file and not choices["overwrite"]:
@@ -91,6 +95,7 @@ def command(
         options,
         place,
         choices,
+        more_checks=lambda _: proofs.findings,
     )
     if isaaclab is not None and code < 2:
         from ..formats.usd.isaaclab import write_config

@@ -20,6 +20,7 @@ from .progress import Progress
 from .srdf_existing import add_existing_options, check, read_existing, update
 from .srdf_groups import add_group_option, report_groups
 from .srdf_moveit import add_moveit_options, write_package
+from .srdf_picture import add_picture_option, check_picture_target, write_contacts
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -32,7 +33,7 @@ _GROUPS = {
     "Pairs": "visual default",
     "Content": "given_groups",
     "MoveIt": "moveit distribution",
-    "Output": "style output",
+    "Output": "style output picture",
     "Performance": "boxes time_limit jobs",
 }
 
@@ -59,6 +60,7 @@ _STYLES = ("srdf", "mjcf", "curobo", "pyroki", "usd", "table", "json")
     "pairs with their verdicts.",
 )
 @make_output_option("Output file.  [default: standard output]")
+@add_picture_option
 @add_group_option
 @add_moveit_options
 @add_existing_options
@@ -96,11 +98,12 @@ def command(
     \b
         urdftool srdf arm.urdf.xacro -o arm.srdf
         urdftool srdf arm.urdf.xacro --group manipulator=base_link:flange
-        urdftool srdf arm.urdf.xacro --check arm.srdf
+        urdftool srdf arm.urdf.xacro --check arm.srdf --picture contacts.png
         urdftool srdf arm.urdf --format table
         urdftool srdf arm.urdf.xacro --moveit arm_moveit_config
     """  # noqa: D301 -- click reads the escape
     from ..output import check_targets, write_result
+    from ..srdf.contact_poses import list_contact_poses
     from ..srdf.groups import find_groups
     from .load_tolerant import load_tolerant
 
@@ -108,7 +111,8 @@ def command(
     model = load_tolerant(console, path, arguments, package, package_path)
     inputs = [file.path for file in model.source.files] if model.source else []
     existing = read_existing(console, model, arguments, values)
-    check_targets([values["output"]], inputs=inputs)
+    check_targets([values["output"], values["picture"]], inputs=inputs)
+    check_picture_target(model, values)
     find_groups(model, values["given_groups"])  # an error of a group comes before the proof
     if values["moveit"] is not None:
         return write_moveit(console, model, values, package, package_path)
@@ -118,6 +122,7 @@ def command(
         return run(console, model, existing, verdicts, values)
     text = format_result(console, model, verdicts, values)
     write_result(text, values["output"], inputs=inputs)
+    write_contacts(console, model, list_contact_poses(verdicts), values)
     return 0
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
+from .srdf_picture import write_contacts
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -52,6 +53,7 @@ def read_existing(
 
     if values["check"] and values["update"]:
         raise click.UsageError("--check and --update exclude each other")
+    _check_style(values)
     path = values["check"] or values["update"]
     if not path:
         return None
@@ -64,6 +66,15 @@ def read_existing(
             f"robot is '{robot.name}'"
         )
     return content
+
+
+def _check_style(values: dict[str, Any]) -> None:
+    """Refuse a format that the report on an existing SRDF does not have."""
+    option = "--check" if values["check"] else "--update"
+    if (values["check"] or values["update"]) and values["style"] not in ("srdf", "table", "json"):
+        raise click.UsageError(f"{option} has no --format {values['style']}; json is possible")
+    if values["update"] and values["style"] == "json" and values["output"] == "-":
+        raise click.UsageError("--format json and -o - exclude each other")
 
 
 def _select_arguments(path: str, arguments: dict[str, str]) -> dict[str, str]:
@@ -89,9 +100,11 @@ def check(
     """
     from ..output import write_result
     from ..report import srdf_existing as report
+    from ..srdf.contact_poses import list_disabled_contacts
     from ..srdf.existing import judge
 
     found = list(judge(content, robot, verdicts))
+    write_contacts(console, robot, list_disabled_contacts(found), values)
     text = report.to_json(found) if values["style"] == "json" else report.format_check(found)
     write_result(text, values["output"])
     console.print_note(f"{values['check']}: {report.format_summary(found)}")
@@ -117,20 +130,24 @@ def update(
     Returns:
         1 if a pair that can touch stays, or a proved pair could not be added.
     """
-    from ..output import write_file
+    from ..output import write_file, write_result
     from ..report import srdf_existing as report
+    from ..srdf.contact_poses import list_disabled_contacts
     from ..srdf.existing import judge
     from ..srdf.update import update as update_pairs
 
-    changes = update_pairs(content, judge(content, robot, verdicts))
-    for line in report.list_changes(changes):
-        console.print_message(line)
+    found = list(judge(content, robot, verdicts))
+    changes = update_pairs(content, found)
+    if values["style"] == "json":
+        write_result(report.changes_to_json(changes), None)
+    else:
+        for line in report.list_changes(changes):
+            console.print_message(line)
     target = values["output"] or values["update"]
     if target == "-":
-        from ..output import write_result
-
         write_result(changes.data.decode("utf-8"), "-")
     elif changes.data != content.element.file.data or not Path(target).exists():
         write_file(target, changes.data)
     console.print_note(f"{target}: {report.format_update(changes)}")
+    write_contacts(console, robot, list_disabled_contacts(found), values)
     return int(bool(changes.refused or changes.kept))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 _GROUPS = {
-    "Page": "opened port host unlinted",
+    "Page": "opened port host srdf unlinted",
     "Picture": "picture findings contact_sheet size camera",
     "Robot": "pose show",
 }
@@ -38,6 +38,11 @@ _GROUPS = {
     "[default: 127.0.0.1]",
 )
 @click.option("--open", "opened", is_flag=True, help="Open the page in the browser.")
+@click.option(
+    "--srdf",
+    metavar="FILE",
+    help="SRDF: the page shows the joint positions at which pairs that it disables touch.",
+)
 @click.option("--no-lint", "unlinted", is_flag=True, help="Show no lint findings on the page.")
 @add_picture_options
 @add_gltf_option
@@ -49,6 +54,7 @@ def command(
     port: int | None,
     host: str | None,
     opened: bool,
+    srdf: str | None,
     unlinted: bool,
     picture: str | None,
     contact_sheet: str | None,
@@ -69,6 +75,7 @@ def command(
     \b
         urdftool view arm.urdf.xacro prefix:=left_ --open
         urdftool view arm.urdf --pose elbow=1.2 --show both
+        urdftool view arm.urdf --srdf arm.srdf
         urdftool view arm.urdf --picture arm.png --camera 30,15
         urdftool view gripper.stl
     """  # noqa: D301 -- click reads the escape
@@ -88,6 +95,10 @@ def command(
         if port is not None or host is not None or opened:
             raise click.UsageError(
                 "--picture and --contact-sheet exclude --port, --host and --open"
+            )
+        if srdf is not None:
+            raise click.UsageError(
+                "--srdf is for the page; 'srdf --check FILE --picture FILE.png' draws the pairs"
             )
         if findings and (picture is None or is_mesh(path)):
             raise click.UsageError("--findings requires --picture FILE.png of a robot")
@@ -118,5 +129,7 @@ def command(
         linted=not unlinted and not is_mesh(path),
         pose=pose,
         show=show,
+        srdf=srdf,
+        arguments=arguments,
     )
     return 0

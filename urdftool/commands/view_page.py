@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
     from ..finding import Finding
     from ..model.elements import Robot
+    from ..model.pair_pose import PairPose
 
 
 def serve_page(
@@ -27,6 +28,8 @@ def serve_page(
     linted: bool,
     pose: Mapping[str, float],
     show: str,
+    srdf: str | None = None,
+    arguments: Mapping[str, str] | None = None,
 ) -> None:
     """Serve the page until Ctrl-C.
 
@@ -39,6 +42,8 @@ def serve_page(
         linted: Show lint findings.
         pose: Initial joint positions by name [rad or m].
         show: Geometry to show: ``visual``, ``collision`` or ``both``.
+        srdf: SRDF whose disabled pairs are compared; None for no tab of pairs.
+        arguments: xacro arguments, for an SRDF in xacro.
 
     Raises:
         UrdftoolError: The robot has no links, a joint of the pose does not exist, the address
@@ -50,6 +55,8 @@ def serve_page(
 
     robot = require_viewable(read())
     check_positions(robot, pose)
+    if srdf is not None:
+        _check_srdf(robot, srdf, dict(arguments or {}))
     host = host or LOOPBACK
     port = choose_port(host, port)
     if not is_loopback(host):
@@ -69,6 +76,8 @@ def serve_page(
             partial(_check, console) if linted else None,
             start=pose,
             shown=("errors", *(("visual", "collision") if show == "both" else (show,))),
+            compare=partial(_compare, srdf, dict(arguments or {})) if srdf is not None else None,
+            more=() if srdf is None else (srdf,),
         )
         pages.append(page)
         where = make_url(host, port, token)
@@ -92,3 +101,20 @@ def _check(console: Console, robot: Robot) -> list[Finding]:
     from ..api.lint import check
 
     return check(robot, config=console.config)
+
+
+def _check_srdf(robot: Robot, srdf: str, arguments: dict[str, str]) -> None:
+    """Check that an SRDF can be read, and that its pairs can be compared."""
+    from ..extras import require
+    from ..srdf.contact_poses import read_srdf_of
+
+    require("--srdf", "fcl", "manifold3d")
+    read_srdf_of(robot, srdf, arguments)
+
+
+def _compare(srdf: str, arguments: dict[str, str], robot: Robot) -> list[PairPose]:
+    """Find the disabled pairs that can touch, in this process, which has threads."""
+    from ..srdf.contact_poses import find_disabled_contacts
+    from ..srdf.verdicts import Options
+
+    return find_disabled_contacts(robot, srdf, arguments, Options(jobs=1))

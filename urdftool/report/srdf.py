@@ -85,6 +85,7 @@ def _as_dict(verdict: Verdict) -> dict[str, Any]:
         "verdict": verdict.kind,
         "positions": {name: round(value, 6) for name, value in verdict.positions.items()},
         "distance": None if verdict.distance is None else round(verdict.distance, 6),
+        "boxes": verdict.boxes,
         "reason": verdict.reason,
     }
 

@@ -99,8 +99,27 @@ def _as_dict(judgement: Judgement) -> dict[str, Any]:
         "code": judgement.code,
         "verdict": None if verdict is None else verdict.kind,
         "positions": {name: round(value, 6) for name, value in positions.items()},
+        "distance": None if verdict is None else _round(verdict.distance),
+        "path": None if place is None else str(place.path),
         "line": None if place is None else place.line,
+        "column": None if place is None else place.column,
     }
+
+
+def _round(distance: float | None) -> float | None:
+    return None if distance is None else round(distance, 6)
+
+
+def changes_to_json(changes: Update) -> str:
+    """Return the changes of an SRDF as JSON."""
+    data = {
+        "version": 1,
+        "added": [_as_dict(judgement) for judgement in changes.added],
+        "removed": [_as_dict(judgement) for judgement in changes.removed],
+        "kept": [{**_as_dict(judgement), "why": why} for judgement, why in changes.kept],
+        "not_added": [{**_as_dict(judgement), "why": why} for judgement, why in changes.refused],
+    }
+    return json.dumps(data, indent=2) + "\n"
 
 
 def list_changes(changes: Update) -> Iterator[str]:

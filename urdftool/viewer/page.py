@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,10 +15,12 @@ from ..model.elements import Robot
 from ..model.files import list_sources
 from ..model.gltf_axes import describe_gltf_axes
 from ..model.kinematics import NOWHERE, link_poses
+from ..model.pair_pose import PairPose
 from . import panels
 from .environment import SHEET, VIEW, add_lights, compute_viewpoint, lay_ground
 from .joints import Joints
 from .marks import group_by_link
+from .pairs import Pairs
 from .properties import link_rows, shorten_name
 from .robot_scene import KINDS, RobotScene
 from .sliders import explain_unmovable
@@ -53,6 +55,7 @@ NO_LINK = "none"
 Read = Callable[[], Robot]
 Load = Callable[[Robot, str], "Shapes"]
 Check = Callable[[Robot], list[Finding]]
+Compare = Callable[[Robot], list[PairPose]]
 
 
 class Page:
@@ -71,6 +74,8 @@ class Page:
         *,
         start: Mapping[str, float] = NOWHERE,
         shown: tuple[str, ...] = SHOWN,
+        compare: Compare | None = None,
+        more: Iterable[str] = (),
     ) -> None:
         """Put a robot on the page.
 
@@ -82,6 +87,8 @@ class Page:
             check: Lints a robot; None to skip lint.
             start: Initial positions of joints [rad or m].
             shown: Those of ``KINDS`` that are visible initially.
+            compare: Finds poses at which pairs of links touch; None for no tab of pairs.
+            more: Files to watch, in addition to those of the robot.
         """
         self.server, self.robot = server, robot
         self._read, self._load, self._check = read, load, check
@@ -90,14 +97,19 @@ class Page:
         self._found: dict[str, list[Finding]] = {}
         self._selected: str | None = None
         self._linted = check is None
+        self._compare, self._more = compare, tuple(more)
+        self._compared = compare is None
         self._error: UrdftoolError | None = None
         self._tried = 0.0
         self._generation = 0
         self.moves = 0
         self.body = self._make_scene(robot)
         self._create_controls(shown, start)
-        self._watch = Watch(list_sources(robot))
+        self._watch = Watch(self._list_files())
         self._fill()
+
+    def _list_files(self) -> list[str]:
+        return [*map(str, list_sources(self.robot)), *self._more]
 
     # Display
 
@@ -136,6 +148,9 @@ class Page:
             self._all = gui.add_html("")
         with tabs.add_tab("Findings"):
             self._list = gui.add_html("")
+        self._pairs = None
+        if self._compare is not None:
+            self._pairs = Pairs(gui, tabs.add_tab("Pairs"), self._show_pair, self._run_safely)
         self.server.on_client_connect(self._adjust_camera)
 
     def _make_scene(self, robot: Robot) -> RobotScene:
@@ -253,7 +268,7 @@ class Page:
     def select(self, link: str | None) -> None:
         """Highlight a link and show its properties; None for none."""
         self._selected = link
-        self.body.select(link)
+        self.body.select(*(() if link is None else (link,)))
         label = next((label for label, name in self._links.items() if name == link), NO_LINK)
         if self._chooser.value != label:
             self._chooser.value = label
@@ -270,6 +285,18 @@ class Page:
         link = self.robot.link[self._selected]
         rows = link_rows(self.robot, link, pose)
         self._set(self._one, panels.format_link(self.robot, self._selected, rows))
+
+    def _show_pair(self, pair: PairPose | None) -> None:
+        """Move the robot to a pose at which two links touch, and highlight both."""
+        self.select(None)
+        if pair is None:
+            return
+        with self.server.atomic():
+            self.joints.put("zero")
+            self.joints.move(pair.positions)
+            self._boxes["collision"].value = True
+            self.refresh("collision")
+            self.body.select(pair.link1, pair.link2)
 
     def refresh(self, kind: str) -> None:
         """Show or hide one of ``KINDS`` according to its checkbox."""
@@ -296,6 +323,14 @@ class Page:
                     self._set(self._list, panels.format_error(error))
                 return
             self._run_safely(self._set_findings, findings)
+        elif not self._compared and self._compare is not None and self._pairs is not None:
+            self._compared = True
+            try:
+                pairs = self._compare(self.robot)
+            except UrdftoolError as error:
+                self._run_safely(self._pairs.report, error)
+                return
+            self._run_safely(self._pairs.take, pairs)
 
     def run(self) -> None:
         """Poll until the process is interrupted."""
@@ -306,7 +341,7 @@ class Page:
     def reload(self) -> None:
         """Read the description again; keep the last robot if it is broken."""
         self._tried = time.monotonic()
-        self._watch.take({*self._watch.paths, *list_sources(self.robot)})
+        self._watch.take({*self._watch.paths, *self._list_files()})
         try:
             robot = require_viewable(self._read())
             kinds = [kind for kind in ("visual", "collision") if self._boxes[kind].value]
@@ -324,9 +359,10 @@ class Page:
             self.robot, self.body = robot, self._make_scene(robot)
             self.body.shapes.update(shapes)
             self._findings, self._found, self._linted = None, {}, self._check is None
+            self._compared = self._compare is None
             self._fill()
             self._set(self._banner, "")
-        self._watch.take(list_sources(robot))
+        self._watch.take(self._list_files())
 
     def _set_findings(self, findings: list[Finding]) -> None:
         self._findings, self._found = findings, group_by_link(self.robot, findings)

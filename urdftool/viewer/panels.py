@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from ..diagnostic import Severity
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
+from ..model.pair_pose import PairPose
 from .marks import find_highest_severity, format_counts
 from .properties import escape_html, format_table, link_rows, list_joint_rows, shorten_name
 
@@ -117,6 +118,23 @@ def _format_details(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> st
         f"<details><summary>{shown} "
         f"<span class='u-more'>{hint}</span></summary>{format_table(rows)}</details>"
     )
+
+
+def format_pairs(pairs: Sequence[PairPose]) -> str:
+    """Format the pairs that an SRDF disables although they can touch."""
+    if not pairs:
+        return wrap_html("No disabled pair was found in contact; pairs with the reason User, "
+                         "Default or Always are not compared.")  # fmt: skip
+    items = "".join(
+        _format_details(
+            f"{shorten_name(pair.link1, 30)}, {shorten_name(pair.link2, 30)}",
+            escape_html(pair.reason),
+            [(name, f"{value:.4f}") for name, value in pair.positions.items()],
+        )
+        for pair in pairs
+    )
+    counted = _count(len(pairs), "disabled pair")
+    return wrap_html(f"<b>{counted} can touch</b>, at positions [rad, m]:{items}")
 
 
 def format_findings(findings: list[Finding] | None, found: Mapping[str, list[Finding]]) -> str:

@@ -68,7 +68,6 @@ class RobotScene:
         self.shapes: dict[str, Shapes] = {}
         self._load, self._clicked = load, clicked
         self._nodes: dict[str, list[tuple[str, Any]]] = {}
-        self._selected: str | None = None
         self._tinted: list[tuple[Any, tuple[int, int, int]]] = []
         self._outline: list[Any] = []
         self._opacity: dict[str, float | None] = {}
@@ -177,33 +176,32 @@ class RobotScene:
                 node.remove()
             self.show(kind, kind in shown)
 
-    def select(self, link: str | None) -> None:
-        """Highlight a link; None to highlight none."""
+    def select(self, *links: str) -> None:
+        """Highlight links, and no others."""
         for node, color in self._tinted:
             node.color = color
         for node in self._outline:
             node.remove()
         self._tinted, self._outline = [], []
-        self._selected = link if link in self._paths else None
-        if self._selected is None:
-            return
-        path = self._paths[self._selected]
+        for link in links:
+            if link in self._paths:
+                self._highlight(link)
+
+    def _highlight(self, link: str) -> None:
+        path = self._paths[link]
         for kind in ("visual", "collision"):
             for name, node in self._nodes.get(kind, []):
-                if name == self._selected and hasattr(node, "color"):
+                if name == link and hasattr(node, "color"):
                     self._tinted.append((node, tuple(node.color)))
                     node.color = SELECTED
         for kind, shapes in self.shapes.items():
-            box = compute_link_boxes(shapes).get(self._selected)
+            box = compute_link_boxes(shapes).get(link)
             if box is not None and kind in self._nodes:
                 self._outline.append(self._make_edges(f"{path}/outline", *box))
                 break
         self._outline.append(self._make_frame(f"{path}/selected"))
-        self._outline.append(
-            self.scene.add_label(
-                f"{path}/called", shorten_name(self._selected), anchor="bottom-center"
-            )
-        )
+        name = shorten_name(link)
+        self._outline.append(self.scene.add_label(f"{path}/called", name, anchor="bottom-center"))
 
     def _make_visual(self) -> Iterable[tuple[str, Any]]:
         return self._make_surfaces("visual")

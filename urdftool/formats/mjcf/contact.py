@@ -7,7 +7,7 @@ excluded, in addition to the pairs that a loop-closing joint connects or an SRDF
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from lxml import etree
 
@@ -40,14 +40,23 @@ def plan_exclusions(
     return [ContactExclusion(None, one, other) for one, other in given]
 
 
-def build_contact_section(structure: Structure) -> etree._Element | None:
-    """Build ``<contact>`` with the exclusions of a robot; None if it has none."""
+def build_contact_section(
+    structure: Structure, proofs: Mapping[frozenset[str], str]
+) -> etree._Element | None:
+    """Build ``<contact>`` with the exclusions of a robot; None if it has none.
+
+    Args:
+        structure: The kinematic tree.
+        proofs: Texts for comments, by the names of both links.
+    """
     if not structure.robot.exclusions:
         return None
     section = etree.Element("contact")
     for pair in structure.robot.exclusions:
         names = (structure.get_body_name(link) for link in (pair.link, pair.other))
         body1, body2 = names
+        if proof := proofs.get(frozenset((pair.link, pair.other))):
+            section.append(etree.Comment(f" {proof} "))
         etree.SubElement(section, "exclude", body1=body1, body2=body2)
     return section
 

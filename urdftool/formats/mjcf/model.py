@@ -59,7 +59,7 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     _summarize(structure, options, len(robot.joint_actuators), written)
     _put(
         sections,
-        build_contact_section(structure),
+        build_contact_section(structure, options.proofs),
         build_equality_section(structure, written),
         actuators,
         build_sensor_section(robot),

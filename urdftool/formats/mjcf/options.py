@@ -43,6 +43,7 @@ class Options:
         state: SRDF group state for the home configuration; empty for the likeliest.
         overlap: Measures authored geometry, to distinguish overlaps of convex hulls; None skips the
             search for overlaps unless ``exclude`` requires it.
+        proofs: What is known of pairs of the SRDF, by the names of both links, as comments.
     """
 
     actuators: Actuators = field(default="auto", metadata=ACTUATORS)
@@ -124,6 +125,7 @@ class Options:
         ),
     )
     overlap: Overlap | None = None
+    proofs: Mapping[frozenset[str], str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Raise ConfigError if a value is not allowed."""

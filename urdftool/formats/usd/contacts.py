@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from pxr import UsdPhysics
 
@@ -50,18 +50,31 @@ def is_self_colliding(robot: Robot, options: Options) -> bool:
     return options.srdf is not None or bool(robot.exclusions) or wanted
 
 
-def write_pairs(links: LinkWriter, pairs: Iterable[tuple[str, str]]) -> int:
-    """Write pairs of links that never collide, by their bodies; return their number."""
+def write_pairs(
+    links: LinkWriter, pairs: Iterable[tuple[str, str]], proofs: Mapping[frozenset[str], str]
+) -> int:
+    """Write pairs of links that never collide, by their bodies; return their number.
+
+    Args:
+        links: Writer of the links.
+        pairs: Names of the links of each pair.
+        proofs: Texts for custom data, by the names of both links.
+    """
     carrier = links.bodies.carrier
     found: dict[str, set[str]] = {}
+    texts: dict[str, list[str]] = {}
     for one, other in pairs:
         first, second = sorted((carrier[one], carrier[other]))
         if first and second and first != second:
             found.setdefault(first, set()).add(second)
+            if proof := proofs.get(frozenset((one, other))):
+                texts.setdefault(first, []).append(f"{one}, {other}: {proof}")
     with links.builder.edit_layer(PHYSICS):
         for first, others in found.items():
             prim = links.builder.stage.GetPrimAtPath(links.get_path(first))
             filtered = UsdPhysics.FilteredPairsAPI.Apply(prim)
             paths = [links.get_path(name) for name in sorted(others)]
             filtered.CreateFilteredPairsRel().SetTargets(paths)
+            if first in texts:
+                prim.SetCustomDataByKey("urdf:filteredPairs", "; ".join(texts[first]))
     return sum(map(len, found.values()))

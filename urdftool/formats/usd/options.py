@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, get_args
@@ -32,6 +33,7 @@ class Options:
     Attributes:
         cutter: Decomposes collision meshes into convex pieces, for ``decompose``.
         file: Name of the stage; empty for the robot's name with ``.usda``.
+        proofs: What is known of pairs of the SRDF, by the names of both links, as custom data.
     """
 
     target: Target = field(
@@ -83,6 +85,8 @@ class Options:
     fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
     force: bool = field(default=False, metadata=FORCE)
     file: str = ""
+
+    proofs: Mapping[frozenset[str], str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Raise ConfigError if a value is not allowed."""

@@ -107,7 +107,7 @@ def _write_joints(
     write_frames(links, robot)
     write_self_collision(links, options, written)
     pairs = [(pair.link, pair.other) for pair in robot.exclusions]
-    count = write_pairs(links, [*pairs, *(srdf.disabled if srdf else ())])
+    count = write_pairs(links, [*pairs, *(srdf.disabled if srdf else ())], options.proofs)
     if count:
         written.summary.append(f"{count} pairs without contact")
     for joint in robot.joints:

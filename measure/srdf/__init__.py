@@ -1,0 +1,1 @@
+"""Measurements of ``urdftool srdf``: proofs against samples, searches and other libraries."""
