@@ -71,7 +71,7 @@ def prove_srdf_pairs(
     options = Options(boxes=BOXES, jobs=1, only=pairs, search=False)
     found = list(judge(content, robot, decide(robot, options, progress)))
     texts = {j.pair.links: _describe(j) for j in found if j.pair.provenance is not None}
-    return PairProofs(texts, [*_warn(found), *_note_open(found)])
+    return PairProofs(texts, [*_warn(found), *_report_open(found)])
 
 
 def _describe(judgement: Judgement) -> str:
@@ -113,7 +113,7 @@ def _warn(found: Sequence[Judgement]) -> list[Finding]:
     ]
 
 
-def _note_open(found: Sequence[Judgement]) -> list[Finding]:
+def _report_open(found: Sequence[Judgement]) -> list[Finding]:
     from ..srdf.existing import BARE, UNPROVED
     from ..srdf.verdicts import OPEN
 

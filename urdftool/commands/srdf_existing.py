@@ -139,7 +139,7 @@ def update(
     found = list(judge(content, robot, verdicts))
     changes = update_pairs(content, found)
     if values["style"] == "json":
-        write_result(report.changes_to_json(changes), None)
+        write_result(report.format_changes_as_json(changes), None)
     else:
         for line in report.list_changes(changes):
             console.print_message(line)

@@ -25,10 +25,12 @@ CELL = (560, 460)
 """Width and height of a picture [pixels]. Chosen, no source."""
 
 _PAPER, _SOFT = (250, 250, 251), (105, 110, 120)
+"""Colors of the page and of positions, 0 … 255. Chosen, no source."""
+
 _GRAY, _FADED = np.array([0.80, 0.81, 0.82]), 0.82
 _ONE, _OTHER = np.array([0.85, 0.30, 0.10]), np.array([0.12, 0.40, 0.72])
 _MARGIN, _LETTER, _LINES = 16, 16, 3
-"""Colors 0 … 1 or 0 … 255, margin and letters [pixels], lines of positions. Chosen, no source."""
+"""Margin and letters [pixels], and most lines of positions. Chosen, no source."""
 
 _PER_LINE = 3  # joint positions in a line of a caption; chosen, no source
 

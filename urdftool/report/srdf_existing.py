@@ -110,7 +110,7 @@ def _round(distance: float | None) -> float | None:
     return None if distance is None else round(distance, 6)
 
 
-def changes_to_json(changes: Update) -> str:
+def format_changes_as_json(changes: Update) -> str:
     """Return the changes of an SRDF as JSON."""
     data = {
         "version": 1,

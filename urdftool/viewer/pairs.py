@@ -29,7 +29,7 @@ class Pairs:
         chosen: Callable[[PairPose | None], None],
         safely: Callable[..., None],
     ) -> None:
-        """Create the tab, which says that the pairs are compared.
+        """Create the tab, which reports that the pairs are compared.
 
         Args:
             gui: GUI of the page.
