@@ -81,3 +81,39 @@ def test_an_srdf_of_another_robot_is_named(urdftool, tmp_path):
     assert "no SRDF of robot 'arm' is next to it" in result.err
     assert "moveit.srdf has another robot name" in result.err
     assert '<group name="arm">' not in out.with_suffix(".srdf").read_text()
+
+
+FLAG = "<gazebo><self_collide>{}</self_collide></gazebo></robot>"
+
+
+@pytest.mark.parametrize("of_arm", [True, False])
+def test_a_setting_of_the_whole_robot_is_declared(urdftool, write, tmp_path, of_arm):
+    texts = [path.read_text() for path in (ARM, HAND)]
+    index = 0 if of_arm else 1
+    texts[index] = texts[index].replace("</robot>", FLAG.format(1))
+    paths = [write(f"{number}/robot.urdf", text) for number, text in enumerate(texts)]
+    out = tmp_path / "out" / "robot.urdf"
+    result = urdftool("edit", "attach", *paths, *MOUNT, "-o", out)
+    assert result.code == 0, result.err
+    line = texts[index].count("\n", 0, texts[index].index("self_collide")) + 1
+    note = "warning: setting self_collide of this robot is now one of the other, too"
+    assert f"{paths[index]}:{line}:" in result.err
+    assert note in result.err
+    maps = [out.with_suffix(".map"), out.with_suffix(".2.map")]
+    assert "setting self_collide true\n" in maps[1 - index].read_text()
+    for path, name in zip(paths, maps, strict=True):
+        assert urdftool("verify", path, out, "--map", name).code == 0
+    out.write_text(out.read_text().replace("<self_collide>1", "<self_collide>0"))
+    assert urdftool("verify", paths[1 - index], out, "--map", maps[1 - index]).code == 1
+
+
+def test_settings_that_differ_are_an_error(urdftool, write, tmp_path):
+    pairs = zip("10", (ARM, HAND), strict=True)
+    paths = [
+        write(f"{flag}/robot.urdf", path.read_text().replace("</robot>", FLAG.format(flag)))
+        for flag, path in pairs
+    ]
+    result = urdftool("edit", "attach", *paths, *MOUNT, "-o", tmp_path / "no.urdf")
+    assert result.code == 2
+    assert "setting self_collide of the whole robot has another value" in result.err
+    assert not (tmp_path / "no.urdf").exists()

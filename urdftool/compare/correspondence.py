@@ -14,6 +14,7 @@ second robot was made of the first::
     branch  base  g_base                       # A, from link base, is the branch of B from g_base
     tolerance 1e-7                             # numbers of B are rounded
     part    arm_system  l_arm_system           # a transmission, hardware component or the like
+    setting self_collide true                  # a <gazebo> setting of the whole robot in B
     image   xz link l_hand r_hand              # B also has a mirror image of a link, joint, part
 """
 
@@ -25,12 +26,15 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import ConfigError
+from ..model.settings import OF_ROBOT
 from .names import Line, read_lines
 
 Words = Sequence[str]
 
 PLANES = {"yz": 0, "xz": 1, "xy": 2}
 """Coordinate that the reflection at each plane negates."""
+
+_FLAGS = tuple(row.name for row in OF_ROBOT if row.kind == "flag")
 
 
 class JointValue(NamedTuple):
@@ -82,6 +86,7 @@ class Correspondence(NamedTuple):
         branch: Links of A and B from which the robots are compared; empty for the roots.
         mounts: Links of B that fixed joints carry, which A does not have.
         images: Mirror images of parts of A that B has in addition.
+        settings: Settings of the whole robot in B, by the names of ``settings.OF_ROBOT``.
         tolerance: Tolerance of numbers that were rounded; 0 for that of the rows.
         is_declared: Whether anything but names is declared.
     """
@@ -97,6 +102,7 @@ class Correspondence(NamedTuple):
     branch: tuple[str, str] = ("", "")
     mounts: Sequence[Mount] = ()
     images: Sequence[Image] = ()
+    settings: Sequence[tuple[str, bool]] = ()
     tolerance: float = 0.0
     is_declared: bool = False
 
@@ -211,6 +217,12 @@ def _read_image(found: Correspondence, words: Words) -> Correspondence:
     return found._replace(images=[*found.images, Image(*words)])
 
 
+def _read_setting(found: Correspondence, words: Words) -> Correspondence:
+    if len(words) != 2 or words[0] not in _FLAGS or words[1] not in ("true", "false"):
+        raise _MalformedError
+    return found._replace(settings=[*found.settings, (words[0], words[1] == "true")])
+
+
 def _read_merged(found: Correspondence, words: Words) -> Correspondence:
     if len(words) < 2:
         raise _MalformedError
@@ -263,6 +275,7 @@ _READERS: dict[str, Callable[[Correspondence, Words], Correspondence]] = {
     "tolerance": _read_tolerance,
     "mount": _read_mount,
     "image": _read_image,
+    "setting": _read_setting,
 }
 
 _FORMS = {
@@ -277,4 +290,5 @@ _FORMS = {
     "tolerance": "tolerance T",
     "mount": "mount LINK PARENT xyz X Y Z rpy R P Y",
     "image": "image PLANE link|joint|part NAME IMAGE",
+    "setting": "setting NAME true|false",
 }

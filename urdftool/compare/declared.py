@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from ..mechanics.reference import (
 from ..model.elements import Joint, Link, Origin, Robot
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE
+from ..model.settings import Value
 from ..source.location import Place
 from .compare import compare_robots
 from .conventions import express_pair
@@ -68,6 +70,8 @@ def compare_declared(
     before = a, b
     a, b = express_pair(a, b, declared)
     a = add_images(a, declared.images)
+    flags = {name: Value(None, content) for name, content in declared.settings}
+    a = replace(a, settings={**a.settings, **flags})
     _check_merged(a, declared)
     names = get_pair(declared.names, 0, 1)
     comparison = compare_robots(a, b, rows=rows, names=names, meshes=meshes)

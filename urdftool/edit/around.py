@@ -6,25 +6,21 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..diagnostic import Severity
 from ..errors import ConfigError, ModelError, UrdftoolError
-from ..finding import Finding
 from ..model.numbers import number
 from ..rules.control.controller_files import get_package
-from ..rules.moveit.semantic import find_references, get_srdf_documents
-from ..source.document import Document, parse, read_file
+from ..rules.moveit.semantic import find_references
+from ..source.document import parse, read_file
 from ..source.edit import Edit, apply
 from ..source.location import SourceFile
 from ..source.packages import shorten_path
 from ..source.yaml_tree import Node, list_scalars, parse_yaml
 from .change import Change
 from .draft import Draft, TextDraft, open_file
+from .semantic_files import SEMANTIC, find_semantics, open_semantics, report_xacro
 
 _MOST_FILES = 60
 """Number of YAML files of a folder that are read. Chosen, no source."""
-_SRDF_FOLDERS = ("config", "srdf", "moveit", "urdf", "")
-"""Folders of a package in which an SRDF may be; MoveIt's Setup Assistant writes ``config``."""
-_FOLDER_WORDS = "config, srdf, moveit or urdf"
 _SUFFIXES = (".yaml", ".yml")
 
 
@@ -47,8 +43,8 @@ class YamlDraft(TextDraft):
 def add_files_around(draft: Draft, given: Iterable[str | Path] = ()) -> None:
     """Add the files around a description, and those that are given, to its draft.
 
-    These are the SRDF next to it, the files of its controllers, and the YAML files in the folders
-    of both and in ``config`` of its package that name one of its joints or links.
+    These are its SRDF, the files of its controllers, and the YAML files in the folders of both and
+    in ``config`` of its package that name one of its joints or links.
 
     Raises:
         UrdftoolError: A given file cannot be read.
@@ -56,16 +52,14 @@ def add_files_around(draft: Draft, given: Iterable[str | Path] = ()) -> None:
     known: dict[str, TextDraft] = {}
     for path in given:
         file = read_file(str(path))
-        known[_resolve(file.path)] = _open_file(file)
+        known[_resolve(file.path)] = _open_file(draft, file)
     description = draft.description
     if description.path == "-":
         draft.around += known.values()
         return
-    found = get_srdf_documents(draft.robot, description) or list(_find_in_package(draft))
-    for document in found:
-        known.setdefault(_resolve(document.file.path), TextDraft(document.file))
-    if not found and not any(path.endswith(".srdf") for path in known):
-        _report_no_srdf(draft)
+    has_semantics = any(not isinstance(file, YamlDraft) for file in known.values())
+    for one in () if has_semantics else find_semantics(draft):
+        known[_resolve(one.file.path)] = one
     for path in _list_yaml(draft, [Path(one.file.path).parent for one in known.values()]):
         if _resolve(path) in known:
             continue
@@ -76,35 +70,8 @@ def add_files_around(draft: Draft, given: Iterable[str | Path] = ()) -> None:
         except UrdftoolError:
             continue  # such as a file with $(var): it is not one of parameters
     draft.around += known.values()
-
-
-def _find_in_package(draft: Draft) -> Iterator[Document]:
-    """Yield the SRDF files of the robot's name in the folders of its package."""
-    for path in _list_srdf(draft):
-        try:
-            document = parse(read_file(shorten_path(path), draft.description.workspace))
-        except UrdftoolError:
-            continue  # it is read, with its error, where it is given by --with
-        if document.root.tag == "robot" and document.root.get("name") == draft.robot.name:
-            yield document
-
-
-def _list_srdf(draft: Draft) -> list[Path]:
-    description = draft.description
-    owner = description.packages.find_owner(Path(description.path).absolute())
-    folders = [] if owner is None else [owner[1] / name for name in _SRDF_FOLDERS]
-    return [p for f in folders for p in description.workspace.list_matches(f, "*.srdf")]
-
-
-def _report_no_srdf(draft: Draft) -> None:
-    """Record that no SRDF is edited, and the robots of those that the package has."""
-    others = [path.name for path in _list_srdf(draft)][:3]
-    rest = f"; {', '.join(others)} has another robot name" if others else ""
-    message = (
-        f"no SRDF of robot '{draft.robot.name}' is next to it or in {_FOLDER_WORDS} of its "
-        f"package{rest}; pass one with --with"
-    )
-    draft.notes.append(Finding("edit-semantics", Severity.INFO, message, draft.robot.place))
+    for folder in dict.fromkeys(Path(one.file.path).parent for one in draft.around):
+        report_xacro(draft, folder)
 
 
 def apply_changes(draft: Draft) -> Draft:
@@ -121,13 +88,13 @@ def _resolve(path: str | Path) -> str:
     return str(Path(path).resolve())
 
 
-def _open_file(file: SourceFile) -> TextDraft:
+def _open_file(draft: Draft, file: SourceFile) -> TextDraft:
     if file.path.endswith(_SUFFIXES):
         list_scalars(file)
         return YamlDraft(file)
-    if parse(file).root.tag != "robot" or not file.path.endswith(".srdf"):
+    if not file.path.endswith(SEMANTIC) or parse(file).root.tag != "robot":
         raise ConfigError("is neither an SRDF nor a YAML file", path=file.path)
-    return TextDraft(file)
+    return open_semantics(draft, file)
 
 
 def _list_yaml(draft: Draft, folders: list[Path]) -> Iterator[Path]:

@@ -56,6 +56,7 @@ def attach_robot(arm: Draft, part: Draft, mount: Mount) -> str:
     for element in dropped:
         part.remove(element)
     _drop_doubles(arm, part)
+    _declare_settings(arm, part)
     _move_paths(arm, part)
     text = _take_content(arm, part, first, format_joint(mount, name, first))
     arm.append_bytes(text)
@@ -148,6 +149,30 @@ def _drop_doubles(arm: Draft, part: Draft) -> None:
             part.report(
                 "plugin", f"both robots have plugin '{min(both)}'; both are kept", block.place
             )
+
+
+def _declare_settings(arm: Draft, part: Draft) -> None:
+    """Declare the settings of the whole robot that only one of both has: they hold for the other.
+
+    Raises:
+        ModelError: Both have a setting, with different values.
+    """
+    one, two = arm.robot.settings, part.robot.settings
+    for name in dict.fromkeys((*one, *two)):
+        if name in one and name in two:
+            if one[name].content != two[name].content:
+                raise ModelError(
+                    f"setting {name} of the whole robot has another value in the first robot; "
+                    "remove one of them",
+                    at=two[name].place,
+                )
+            continue
+        value, other = (one[name], part) if name in one else (two[name], arm)
+        other.declare("setting", name, "true" if value.content else "false")
+        message = f"setting {name} of this robot is now one of the other, too"
+        part.report("setting", message, value.place)
+    for block in (*arm.root.list_children("mujoco"), *part.root.list_children("mujoco")):
+        part.report("setting", "<mujoco> of this robot is now one of the other, too", block.place)
 
 
 def _list_plugins(block: Element) -> list[str]:
