@@ -135,8 +135,9 @@ def export_mjcf(
         decompose: Whether to decompose non-convex collision meshes into convex pieces.
         keep_locked_joints: Whether to keep joints with equal limits, constrained by an equality,
             instead of welding their links.
-        pose: Joint positions by name [rad, m] in the home position.
-        state: Group state of the SRDF for the home position; empty chooses the likeliest.
+        pose: Joint positions by name or pattern [rad, m] in the home position.
+        state: Group state of the SRDF for the home position, or ``"stand"`` for bent legs on which
+            the robot stands; empty chooses the likeliest.
         base_sensors: Whether to add sensors of linear velocity, angular velocity, acceleration and
             orientation to a free base that has none.
         actuator_config: A TOML file with gains, armature, damping, friction and force range of

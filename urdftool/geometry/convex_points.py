@@ -88,6 +88,17 @@ class ConvexPoints:
         x, y, z = at
         return (a + x, b + y, c + z), (d + x, e + y, f + z)
 
+    def find_outermost(self, scale: Sequence[float], direction: Sequence[float]) -> Vector:
+        """Find the point that is farthest in a direction, scaled.
+
+        Args:
+            scale: Factors along the axes of the file, applied first.
+            direction: The direction, along the axes of the file.
+        """
+        factors = np.array(scale)
+        x, y, z = self._all[int((self._all @ (factors * np.array(direction))).argmax())] * factors
+        return float(x), float(y), float(z)
+
     def _transform_box(self, scale: Sequence[float], rotation: Rotation) -> tuple[Vector, Vector]:
         rows = [[r * factor for r, factor in zip(row, scale, strict=True)] for row in rotation]
         if any(sum(abs(entry) > _ALIGNED for entry in row) > 1 for row in rotation):

@@ -248,13 +248,13 @@ def test_contacts_of_a_free_base_have_elliptic_cones(write, base, cone):
 def test_real_robots(path, free):
     from tests.conftest import CORPUS
     from urdftool.formats.common.base import decide_base
+    from urdftool.formats.common.home_positions import choose_home_positions
     from urdftool.formats.common.shape_box import ShapeBoxes
-    from urdftool.formats.mjcf.home import choose_home_positions
     from urdftool.formats.mjcf.structure import create_structure
     from urdftool.formats.written import Written
     from urdftool.model.load import load
 
     made, written = load(CORPUS / path), Written("x")
     structure = create_structure(made)
-    home = choose_home_positions(structure, {}, "", None, written)
+    home = choose_home_positions(made, {}, "", None, written).values
     assert decide_base(structure, "auto", None, ShapeBoxes(made), home, written)[0] == free

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from math import hypot
 
@@ -20,7 +21,7 @@ from ...model.elements import (
     Vector,
     Visual,
 )
-from ...model.pose import Pose, make_pose
+from ...model.pose import Pose, make_pose, rotate, transpose
 from ...model.read import number
 
 Bounds = tuple[Vector, Vector]
@@ -60,6 +61,32 @@ class ShapeBoxes:
         x, y, z = pose.translation
         return (x - a, y - b, z - c), (x + a, y + b, z + c)
 
+    def find_outermost(
+        self, shape: Visual | Collision, frame: Pose, direction: Vector
+    ) -> Vector | None:
+        """Find the point of a shape that is farthest in a direction.
+
+        Args:
+            shape: A shape of a link.
+            frame: Pose of the link.
+            direction: A unit vector in the frame's parent.
+
+        Returns:
+            The point in the frame's parent [m], exact as in ``compute_box``; None without one.
+        """
+        geometry = shape.geometry
+        pose = frame @ make_pose(shape.origin)
+        way = rotate(transpose(pose.rotation), direction)
+        if isinstance(geometry, Mesh):
+            points = self._make_outline(geometry.filename)
+            if points is None:
+                return None
+            return pose.transform(points.find_outermost(geometry.scale, way))
+        size = None if geometry is None else get_shape_size(geometry)
+        if size is None or not min(size[1]) >= 0:
+            return None
+        return pose.transform(_find_corner(*size, way))
+
     def _make_outline(self, name: str) -> ConvexPoints | None:
         if name not in self._outlines:
             self._outlines[name] = self._read(name)
@@ -87,6 +114,25 @@ def _compute_reach(kind: str, size: tuple[float, ...], way: Vector) -> float:
     if kind == "capsule":
         return size[0] + size[1] * abs(z)
     return size[0]
+
+
+def _find_corner(kind: str, size: tuple[float, ...], way: Vector) -> Vector:
+    """Return the point [m] of a primitive that is farthest in a direction of its frame."""
+    x, y, z = way
+    if kind == "box":
+        a, b, c = (math.copysign(half, part) for half, part in zip(size, way, strict=True))
+        return a, b, c
+    if kind == "ellipsoid":
+        length = _compute_reach(kind, size, way) or 1.0
+        a, b, c = (half * half * part / length for half, part in zip(size, way, strict=True))
+        return a, b, c
+    radius, flat = size[0], hypot(x, y)
+    if kind == "cylinder":
+        part = radius / flat if flat else 0.0
+        return part * x, part * y, math.copysign(size[1], z)
+    length = hypot(x, y, z) or 1.0
+    end = math.copysign(size[1], z) if kind == "capsule" else 0.0
+    return radius * x / length, radius * y / length, radius * z / length + end
 
 
 def get_shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:

@@ -11,9 +11,10 @@ from pathlib import PurePath
 from ...model.drives import get_commanded_joints
 from ...model.elements import Joint
 from ...model.kinematics import link_poses
-from ...model.pose import Pose, make_pose, rotate
+from ...model.pose import Pose, rotate
 from .rigid_tree import RigidTree
 from .shape_box import Bounds, ShapeBoxes
+from .support import compute_center
 
 LEVEL = 0.05
 """Height above the lowest point, relative to the size, up to which a rigid body is a support."""
@@ -168,7 +169,7 @@ def _describe_feet(
     if tree.root.name in ground.get_near(CLEARANCE):
         return None
     stands = [body for body in stands if body != tree.root.name]
-    chains = {body: _get_chain(tree, body) for body in stands}
+    chains = {body: get_chain(tree, body) for body in stands}
     stands = [body for body in stands if not _is_hand(chains[body])]
     if len({chains[body][0] for body in stands}) < 2:
         return None
@@ -188,7 +189,7 @@ def _describe_legs(tree: RigidTree) -> str | None:
     for body, members in tree.members.items():
         words = {word for link in members for word in _split_words(link.name)}
         if body not in inner and words & FEET:
-            legs.setdefault(_get_chain(tree, body)[0], body)
+            legs.setdefault(get_chain(tree, body)[0], body)
     return f"it has legs: {_format_listed(list(legs.values()))}" if len(legs) > 1 else None
 
 
@@ -232,7 +233,29 @@ def _is_wheel(
     return centered and abs(z) <= UPRIGHT * length and (is_round or not is_aligned)
 
 
-def _get_chain(tree: RigidTree, body: str) -> list[str]:
+def list_leg_ends(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> list[str]:
+    """List the rigid bodies that end chains near the ground, or are named like feet; one a chain.
+
+    Args:
+        tree: The rigid bodies.
+        boxes: Boxes of its shapes.
+        positions: Joint positions [rad, m].
+    """
+    ground = measure_ground(tree, boxes, positions)
+    near = set() if ground is None else set(ground.get_near(LEVEL))
+    inner = {tree.group[joint.parent] for joint in tree.moving}
+    ends: dict[str, str] = {}
+    for body, members in tree.members.items():
+        words = {word for link in members for word in _split_words(link.name)}
+        if body in inner or body == tree.root.name or not (body in near or words & FEET):
+            continue
+        chain = get_chain(tree, body)
+        if not _is_hand(chain):
+            ends.setdefault(chain[0], body)
+    return list(ends.values())
+
+
+def get_chain(tree: RigidTree, body: str) -> list[str]:
     """Return the topmost links of the rigid bodies from the root (excluded) to a rigid body."""
     chain: list[str] = []
     while body != tree.root.name:
@@ -261,16 +284,10 @@ def _is_above(
 ) -> bool:
     """Tell whether the center of mass is above a box; true for a robot without mass."""
     poses = link_poses(tree.robot, positions)
-    masses = [
-        (link.mass, (poses[link.name] @ make_pose(link.inertial.origin)).translation)
-        for link in tree.robot.links
-        if link.inertial is not None and link.mass > 0
-    ]
-    total = sum(mass for mass, _ in masses)
-    if not total:
+    center = compute_center(tree.robot, poses)
+    if center is None:
         return True
-    (a, b, _), (c, d, _) = low, high
-    x, y = (sum(mass * center[axis] for mass, center in masses) / total for axis in (0, 1))
+    (a, b, _), (c, d, _), (x, y, _) = low, high, center
     return a <= x <= c and b <= y <= d
 
 

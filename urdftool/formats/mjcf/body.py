@@ -6,12 +6,13 @@ from lxml import etree
 
 from ...model.elements import Joint, Link
 from ...model.settings import LINKS_OF_MUJOCO
+from ..common.floor import get_robot_origin
 from ..common.naming import UniqueNames
 from ..written import Written
 from .frame import set_origin, set_pose
 from .gazebo import get_attributes
 from .geom import list_collision_geoms, list_visual_geoms
-from .home import Home, get_robot_origin
+from .home import Home
 from .joint import build_joint_elements, create_locked_site
 from .link_inertia import LinkInertia, build_inertial_element
 from .material import Materials

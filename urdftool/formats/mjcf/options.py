@@ -40,7 +40,7 @@ class Options:
     Attributes:
         file: Name of the model file; empty for the robot's name, with ``scene.xml`` next to it.
         cutter: Decomposes collision meshes that are not convex, for ``decompose``.
-        state: SRDF group state for the home configuration; empty for the likeliest.
+        state: SRDF group state for the home configuration, or ``stand``; empty for the likeliest.
         overlap: Measures authored geometry, to distinguish overlaps of convex hulls; None skips the
             search for overlaps unless ``exclude`` requires it.
         proofs: What is known of pairs of the SRDF, by the names of both links, as comments.
@@ -76,7 +76,8 @@ class Options:
     pose: Mapping[str, float] = field(
         default_factory=dict,
         metadata=declare(
-            "Home position of a joint [rad or m], or name of an SRDF group state. Repeatable.",
+            "Home position of joints [rad or m] by name or pattern; an SRDF group state; "
+            "or stand, with bent legs. Repeatable.",
             kind=dict,
             metavar="JOINT=VALUE|NAME",
         ),

@@ -17,14 +17,17 @@ from ...model.mechanism import Base, Configuration, Frame, JointActuator, Light
 from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
+from ..common.floor import get_robot_origin
+from ..common.home_positions import choose_home_positions
 from ..common.joint_loads import JointLoad, compute_joint_loads
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
 from ..common.standing import Ground, measure_ground
+from ..common.standing_pose import choose_standing_positions
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
-from .home import Home, choose_home_positions, get_robot_origin, place_home
+from .home import Home, place_home
 from .inertials import compute_inertials
 from .joint import PLANAR_SUFFIXES, get_axis, get_plane
 from .joint_settings import choose_joint_settings, set_joint_values
@@ -87,9 +90,13 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
     structure = create_structure(robot, keep_locked=options.keep_locked_joints)
     boxes = ShapeBoxes(robot)
-    positions = choose_home_positions(structure, options.pose, options.state, srdf, written)
+    chosen = choose_home_positions(robot, options.pose, options.state, srdf, written)
     virtual_joint = srdf.virtual_joint if srdf else None
-    free, reason = decide_base(structure, options.base, virtual_joint, boxes, positions, written)
+    base = options.base
+    free, reason = decide_base(structure, base, virtual_joint, boxes, chosen.values, written)
+    positions = chosen.values
+    if free or chosen.stands:
+        positions = choose_standing_positions(structure, boxes, chosen, written)
     structure = replace(structure, free=free, reason=reason)
     home = place_home(structure, boxes, positions)
     masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
