@@ -13,7 +13,7 @@ from ..model.world import WORLD
 from ..source.document import Element
 from .around import YamlDraft, apply_changes
 from .cut import MARKS
-from .draft import Draft, TextDraft, make_relative
+from .draft import Draft, TextDraft, flatten_element, make_relative
 from .numbers import format_number, format_vector
 from .references import list_gazebo_blocks, list_others
 
@@ -74,6 +74,13 @@ def _find_first_link(part: Draft) -> tuple[str, list[Element]]:
     root = robot.tree.roots[0]
     below = robot.tree.get_child_joints(root.name)
     is_world = root.name == WORLD or root.name.endswith(WORLD)
+    free = next((j for j in below if j.type in ("floating", "planar")), None)
+    if root.is_frame and free is not None:
+        raise ModelError(
+            f"{free.type} joint '{free.name}' would let the attached robot move freely; "
+            "make it fixed first",
+            at=free.place,
+        )
     if not (is_world and root.is_frame and len(below) == 1 and below[0].is_fixed):
         return root.name, []
     message = f"link '{root.name}' and joint '{below[0].name}' with its origin are not attached"
@@ -116,7 +123,7 @@ def _get_name(element: Element) -> str:
 
 
 def _check_encoding(arm: Draft, part: Draft) -> None:
-    for draft in (arm, part):
+    for draft in (arm, part, *arm.around, *part.around):
         if not draft.file.data.isascii():
             try:
                 draft.file.data.decode("utf-8")
@@ -133,17 +140,17 @@ def _drop_doubles(arm: Draft, part: Draft) -> None:
         same = known.get(_get_name(element))
         if same is None:
             continue
-        if _flatten(same) != _flatten(element):
+        if flatten_element(same) != flatten_element(element):
             raise ModelError(
                 f"both robots have a material '{_get_name(element)}', which differ; choose a "
                 "prefix with --prefix",
                 at=element.place,
             )
         part.remove(element)
-    plugins = {_flatten(block) for block in list_gazebo_blocks(arm, "")}
+    plugins = {flatten_element(block) for block in list_gazebo_blocks(arm, "")}
     names = {name for block in list_gazebo_blocks(arm, "") for name in _list_plugins(block)}
     for block in list_gazebo_blocks(part, ""):
-        if _flatten(block) in plugins:
+        if flatten_element(block) in plugins:
             part.remove(block)
         elif both := names & set(_list_plugins(block)):
             part.report(
@@ -177,11 +184,6 @@ def _declare_settings(arm: Draft, part: Draft) -> None:
 
 def _list_plugins(block: Element) -> list[str]:
     return [name for e in block.list_children("plugin") if (name := e.get("filename"))]
-
-
-def _flatten(element: Element) -> tuple[object, ...]:
-    inner = tuple(_flatten(child) for child in element.children)
-    return element.tag, tuple(sorted(element.attributes.items())), element.text.strip(), inner
 
 
 def _move_paths(arm: Draft, part: Draft) -> None:
@@ -253,7 +255,7 @@ def _join_semantics(arm: Draft, part: Draft, to: str, first: str) -> None:
         _join_semantic_file(part, mine, file)
     if mine is not None:
         reason = f'<disable_collisions link1="{to}" link2="{first}" reason="Adjacent"/>'
-        mine.append_bytes(mine.source.step + reason.encode() + mine.source.line_end)
+        mine.append_bytes(mine.source.step + mine.encode(reason) + mine.source.line_end)
 
 
 def _join_semantic_file(part: Draft, mine: TextDraft, other: TextDraft) -> None:

@@ -9,6 +9,7 @@ from ..rules.moveit.semantic import find_references
 from ..source.document import Comment, Element
 from ..source.edit import Edit
 from .around import YamlDraft
+from .closed_loops import cut_loops
 from .draft import Draft, TextDraft
 from .references import list_names_in_text
 
@@ -38,6 +39,7 @@ def cut_branch(draft: Draft, name: str, *, force: bool = False) -> None:
     joints = {joint.name for joint in robot.joints if joint.child in links}
     draft.declare("removed", name)
     _check_mimic(draft, joints)
+    cut_loops(draft, links)
     marks = _find_marks(draft, name)
     if marks is not None:
         _remove_marked(draft, marks, links | joints)

@@ -51,6 +51,10 @@ class TextDraft:
         """
         return parse_source(self.file)
 
+    def encode(self, text: str) -> bytes:
+        """Return text in the encoding of the file; other letters as character references."""
+        return text.encode(self.source.document.file.encoding, "xmlcharrefreplace")
+
     def set(self, element: Element, name: str, value: str) -> None:
         """Set an attribute, if it has another value."""
         if element.get(name) != value or (element.start, name) in self.values:
@@ -222,7 +226,9 @@ def _find(parts: Mapping[str, T], name: str, kind: str, path: str) -> T:
 
 
 def open_draft(robot: Robot) -> Draft:
-    """Return the draft of a robot: of its file if that is plain URDF, of the expansion of xacro.
+    """Return the draft of a robot: of its file, or of the expansion of xacro.
+
+    A file that the expansion does not change, such as one that xacro wrote, is plain URDF.
 
     Raises:
         ModelError: The robot is not a tree of URDF links.
@@ -237,10 +243,34 @@ def open_draft(robot: Robot) -> Draft:
         )
     file = description.files[0]
     if description.expansion is not None:
-        file = SourceFile(file.path, description.expansion.text.encode("utf-8"))
+        if not _is_unchanged(description):
+            file = SourceFile(file.path, description.expansion.text.encode("utf-8"))
     elif file is not description.document.file:
         file = description.document.file
     return open_file(description, file)
+
+
+def _is_unchanged(description: Description) -> bool:
+    """Tell whether the expansion of a xacro file is the file, such as one that xacro wrote."""
+    if len(description.files) != 1:
+        return False
+    one, two = parse(description.files[0]).root, description.document.root
+    return flatten_element(one, _XACRO) == flatten_element(two, _XACRO)
+
+
+_XACRO = ("xmlns:xacro",)
+
+
+def flatten_element(element: Element, ignored: Sequence[str] = ()) -> tuple[object, ...]:
+    """Return tag, attributes, text and children of an element, to compare it.
+
+    Args:
+        element: The element.
+        ignored: Names of attributes that are left out.
+    """
+    inner = tuple(flatten_element(child) for child in element.children)
+    values = sorted((k, v) for k, v in element.attributes.items() if k not in ignored)
+    return element.tag, tuple(values), element.text.strip(), inner
 
 
 def open_file(description: Description, file: SourceFile) -> Draft:

@@ -15,6 +15,7 @@ from ..source.document import Element
 from ..source.edit import Edit
 from ..source.yaml_tree import list_scalars
 from .around import YamlDraft
+from .closed_loops import list_ends
 from .draft import Draft, TextDraft
 from .numbers import format_relative, format_vector
 from .references import list_gazebo_blocks, list_names_in_text
@@ -72,6 +73,7 @@ def _find_kept(draft: Draft, keep: Sequence[str], *, frames: bool) -> set[str]:
     kept |= {link.name for link in robot.links if link.is_frame and not frames}
     kept |= {link.name for link in robot.links if _has_settings(link.element)}
     kept |= {e.get("reference") or "" for e in draft.root.list_children("gazebo")}
+    kept |= list_ends(draft)
     kept |= {joint.child for joint in robot.joints if _has_sensor(draft, joint.name)}
     for file in draft.around:
         if isinstance(file, YamlDraft):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
+from itertools import count
 from pathlib import PurePosixPath
 
 from ..errors import MeshError, ModelError, UrdftoolError
@@ -14,6 +16,7 @@ from ..model.numbers import parse_numbers
 from ..model.pose import Pose, make_pose
 from ..source.document import Element
 from .around import rename_in_files
+from .closed_loops import check_loops
 from .draft import Draft
 from .numbers import negate_text
 from .prefix import declare_names
@@ -50,6 +53,7 @@ def mirror_robot(
     if plane not in PLANES:
         raise ModelError(f"plane '{plane}' is not one of {', '.join(PLANES)}")
     index = PLANES[plane]
+    check_loops(draft, draft.robot.link, "whose mirror image is not known")
     for joint in draft.robot.joints:
         mirror_joint(draft, joint, index)
     written: dict[str, str] = {}
@@ -110,9 +114,12 @@ def _negate_words(text: str, index: int, *, others: bool) -> str:
     With the reflection S = diag(1, -1, 1), S Rx(a) S is Rx(-a), S Ry(a) S is Ry(a), and
     S Rz(a) S is Rz(-a); the rotation about the normal of the plane keeps its angle.
     """
-    words = text.split()
-    chosen = [negate_text(w) if (i == index) != others else w for i, w in enumerate(words)]
-    return text if chosen == words else " ".join(chosen)
+    numbers = count()
+
+    def negate(match: re.Match[str]) -> str:
+        return negate_text(match[0]) if (next(numbers) == index) != others else match[0]
+
+    return re.sub(r"\S+", negate, text)
 
 
 def mirror_joint(draft: Draft, joint: Joint, index: int) -> None:

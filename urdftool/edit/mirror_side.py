@@ -15,6 +15,7 @@ from ..source.edit import Edit
 from ..source.location import SourceFile
 from ..source.yaml_tree import list_scalars
 from .around import YamlDraft, apply_changes
+from .closed_loops import check_loops
 from .cut import MARKS, cut_branch
 from .draft import Draft, TextDraft, is_identity
 from .mirror import (
@@ -79,6 +80,7 @@ def add_side(
         raise ModelError(f"plane '{plane}' is not one of {', '.join(PLANES)}")
     names = find_side(draft, *exchange)
     _check_free(draft, names)
+    check_loops(draft, names.links, "whose mirror image is not known")
     image = Draft(draft.file, robot=draft.robot, meshes=draft.meshes, notes=draft.notes)
     _mirror(image, names, PLANES[plane], (meshes, mesh_dir))
     rename(image, names)
@@ -243,9 +245,9 @@ def _insert(draft: Draft, image: Draft, blocks: list[Element], names: Names) -> 
         blocks = [block for block in blocks if block not in inner]
         new = names.links[top]
         lines = [
-            f"<!--{BEGIN}{new} -->".encode(),
+            draft.encode(f"<!--{BEGIN}{new} -->"),
             *(copies[numbers[id(block)]].text for block in inner),
-            f"<!--{END}{new} -->".encode(),
+            draft.encode(f"<!--{END}{new} -->"),
         ]
         draft.append_bytes(b"".join(step + line + end for line in lines))
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ..model.elements import Joint, Link
 from ..model.pose import IDENTITY, Pose, make_pose
+from .closed_loops import check_loops
 from .draft import Draft, is_identity
 from .numbers import format_rotation, format_vector
 from .positions import negate_axis
@@ -40,6 +41,8 @@ def turn_with_frames(draft: Draft, path: Sequence[Joint]) -> None:
             negate_axis(draft, joint)
         set_links(draft, joint, joint.child, joint.parent)
         draft.set_pose(joint.element, joint.origin, before)
+    turned = {name: pose for name, pose in moved.items() if not is_identity(pose)}
+    check_loops(draft, turned, "whose frame would move")
     for name, pose in moved.items():
         if not is_identity(pose):
             _move_link(draft, draft.robot.link[name], pose, {joint.name for joint in path})

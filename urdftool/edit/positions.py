@@ -12,6 +12,7 @@ from ..model.pose import make_pose
 from ..source.document import Element
 from .around import shift_files
 from .change import SAME, Change
+from .closed_loops import check_zeros
 from .draft import Draft
 from .numbers import format_number, negate_text
 from .references import list_gazebo_blocks, report_text
@@ -27,6 +28,7 @@ def change_positions(draft: Draft, changes: Mapping[str, Change]) -> None:
     Raises:
         ModelError: A joint does not exist, or does not have one position.
     """
+    check_zeros(draft, (name for name, change in changes.items() if change.zero))
     for name, change in changes.items():
         joint = draft.find_joint(name)
         if joint.type not in MOVABLE:

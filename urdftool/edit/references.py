@@ -133,6 +133,14 @@ def _find_word(draft: Draft, element: Element, word: re.Pattern[str]) -> Iterato
         yield element.place
 
 
+def _list_kept(draft: Draft, element: Element) -> Iterator[Element]:
+    """Yield an element and its descendants, without those that are removed."""
+    if element.start not in draft.removed:
+        yield element
+        for child in element.children:
+            yield from _list_kept(draft, child)
+
+
 def list_names_in_text(
     draft: Draft, names: Iterable[str], why: str, *, skipped: Sequence[Element] = ()
 ) -> None:
@@ -151,7 +159,7 @@ def list_names_in_text(
     for block in draft.root.children:
         if block.tag not in _BLOCKS or block in skipped:
             continue
-        for element in block.walk():
+        for element in _list_kept(draft, block):
             for place in _find_word(draft, element, word):
                 found = word.search(" ".join([*element.attributes.values(), element.text]))
                 shown = found[1] if found else ""

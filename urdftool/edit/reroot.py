@@ -195,11 +195,16 @@ def _describe_written(draft: Draft, joint: Joint) -> str:
         if element is None:
             texts.append(f"no {tag}")
             continue
-        data = draft.file.data[element.start : element.end].decode("utf-8")
+        data = _decode(draft, element)
         if "--" in data:
             raise ModelError(f"<{tag}> has two signs in a row", at=element.place)
         texts.append(data)
     return " and ".join(texts)
+
+
+def _decode(draft: Draft, element: Element) -> str:
+    encoding = draft.source.document.file.encoding
+    return draft.file.data[element.start : element.end].decode(encoding)
 
 
 def _drop_element(draft: Draft, element: Element) -> None:
@@ -221,7 +226,7 @@ def _insert_after(draft: Draft, element: Element, lines: list[str]) -> None:
     start = b"" if own is None else source.line_end + own
     step = source.step
     shown = b"".join(
-        start + step * (len(line) - len(line.lstrip("\t"))) + line.lstrip("\t").encode("utf-8")
+        start + step * (len(line) - len(line.lstrip("\t"))) + draft.encode(line.lstrip("\t"))
         for line in lines
     )
     draft.edits.append(Edit(element.end, element.end, shown))
@@ -242,7 +247,7 @@ def _turn_back(draft: Draft, joint: Joint, entry: _Turned) -> None:
         if element is None or (tag == "axis" and joint.is_fixed):
             continue
         if written is not None:
-            draft.edits.append(Edit(element.start, element.end, written.encode("utf-8")))
+            draft.edits.append(Edit(element.start, element.end, draft.encode(written)))
         else:
             draft.remove(element)
     _remove_inserted(draft, inserted, entry.comment)
