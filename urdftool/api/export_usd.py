@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,7 @@ from ..formats.written import Written
 from ..model.elements import Robot
 
 if TYPE_CHECKING:
-    from ..formats.common.option import Base, FixInertia
+    from ..formats.common.option import Actuators, Base, FixInertia
     from ..formats.usd.options import Approximation, Layers, Target
 
 
@@ -21,6 +22,10 @@ def export_usd(
     layers: Layers = "single",
     base: Base = "auto",
     srdf: str | Path | None = None,
+    pose: Mapping[str, float] | None = None,
+    state: str = "",
+    actuators: Actuators = "auto",
+    timestep: float | None = None,
     self_collision: bool | None = None,
     actuator_config: str | Path | None = None,
     approximation: Approximation = "hull",
@@ -38,7 +43,13 @@ def export_usd(
         target: Simulator whose attributes are written.
         layers: One layer, or a payload with one layer for each kind of data.
         base: Whether the root is fixed to the world; ``"auto"`` uses the description.
-        srdf: A MoveIt SRDF, for pairs of links that never collide.
+        srdf: A MoveIt SRDF, for pairs of links that never collide, and group states.
+        pose: Joint positions by name or pattern [rad, m] in the home position.
+        state: Group state of the SRDF for the home position, or ``"stand"`` for bent legs on which
+            the robot stands; empty chooses the likeliest.
+        actuators: Which joints a drive holds; ``"auto"`` adds position servos to what the
+            description drives.
+        timestep: Physics time step [s] for which gains are chosen; None for 2 ms.
         self_collision: Whether links collide with each other; None with an SRDF.
         actuator_config: A TOML file with gains, armature, damping, friction and force range of
             joints.
@@ -68,6 +79,9 @@ def export_usd(
         "layers": layers,
         "base": base,
         "srdf": srdf,
+        "pose": pose,
+        "actuators": actuators,
+        "timestep": timestep,
         "self_collision": self_collision,
         "actuator_config": actuator_config,
         "approximation": approximation,
@@ -80,7 +94,7 @@ def export_usd(
     require("export_usd", "pxr")
     proofs = prove_srdf_pairs(robot, srdf)
     options = make_options(
-        Options, choices, file=file, cutter=make_cutter(robot), proofs=proofs.texts
+        Options, choices, file=file, cutter=make_cutter(robot), proofs=proofs.texts, state=state
     )
     if output is not None and options.file and not overwrite:
         from ..formats.usd.files import check_replaced

@@ -14,22 +14,8 @@ from .export_options import add_declared_options, add_output_option, make_export
 from .export_pairs import prove_pairs
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
-from .options import add_gltf_option, add_package_options, add_robot_argument, parse_name_numbers
+from .options import add_gltf_option, add_package_options, add_robot_argument, parse_pose
 from .read_other import read_any
-
-
-def _parse_pose(
-    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
-) -> tuple[str, dict[str, float]]:
-    """Parse the name of an SRDF group state, and joint positions by name."""
-    names = [value for value in values if "=" not in value]
-    if len(names) > 1:
-        raise click.BadParameter(
-            f"{' and '.join(names)}: only one group state is possible", ctx, parameter
-        )
-    positions = tuple(value for value in values if "=" in value)
-    return "".join(names), parse_name_numbers(ctx, parameter, positions)
-
 
 _GROUPS = {
     "Output": "output scene mesh_dir overwrite style",
@@ -42,7 +28,7 @@ _GROUPS = {
 @click.command("mjcf", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
 @add_output_option(".xml or .mjcf")
-@add_declared_options(Options, pose={"multiple": True, "callback": _parse_pose})
+@add_declared_options(Options, pose={"multiple": True, "callback": parse_pose})
 @make_export_options(
     "Compile the result in MuJoCo and compare it with IN: tree, masses, limits, base, "
     "contacts, friction, gravity, springs, actuators, sensors, visuals, home position."

@@ -14,12 +14,13 @@ from .export_options import add_declared_options, add_output_option, make_export
 from .export_pairs import prove_pairs
 from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
-from .options import add_gltf_option, add_package_options, add_robot_argument
+from .options import add_gltf_option, add_package_options, add_robot_argument, parse_pose
 from .read_other import read_any
 
 _GROUPS = {
     "Output": "output target layers isaaclab isaaclab_version overwrite style",
-    "Robot": "base srdf self_collision actuator_config approximation fix_inertia decompose",
+    "Robot": "base pose srdf self_collision approximation fix_inertia decompose",
+    "Actuators": "actuators timestep actuator_config",
     "Verification": "verified strict force",
 }
 
@@ -27,7 +28,7 @@ _GROUPS = {
 @click.command("usd", cls=GroupedCommand, groups=_GROUPS)
 @add_robot_argument
 @add_output_option(".usda (text), .usdc (binary) or .usdz (package)")
-@add_declared_options(Options)
+@add_declared_options(Options, pose={"multiple": True, "callback": parse_pose})
 @click.option(
     "--isaaclab",
     metavar="FILE",
@@ -79,8 +80,9 @@ def command(
     report_gltf_axes(console, model)
     file = Path(place).name if usd.has_suffix(place) else ""
     proofs = prove_pairs(console, model, choices["srdf"])
+    state, choices["pose"] = choices["pose"]
     options = make_options(
-        Options, choices, file=file, cutter=make_cutter(model), proofs=proofs.texts
+        Options, choices, file=file, cutter=make_cutter(model), proofs=proofs.texts, state=state
     )
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")

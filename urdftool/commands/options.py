@@ -246,3 +246,16 @@ def parse_name_numbers(
         if not name or not math.isfinite(numbers[name]):
             raise click.BadParameter(f"'{value}' is not NAME=NUMBER", ctx, parameter)
     return numbers
+
+
+def parse_pose(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> tuple[str, dict[str, float]]:
+    """Parse the name of an SRDF group state, and joint positions by name."""
+    names = [value for value in values if "=" not in value]
+    if len(names) > 1:
+        raise click.BadParameter(
+            f"{' and '.join(names)}: only one group state is possible", ctx, parameter
+        )
+    positions = tuple(value for value in values if "=" in value)
+    return "".join(names), parse_name_numbers(ctx, parameter, positions)

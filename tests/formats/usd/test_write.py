@@ -106,7 +106,8 @@ def test_a_moment_below_the_floor_of_newton_is_raised(stage):
 
 def test_joint_values_have_the_units_of_each_schema(stage):
     dynamics = '<dynamics damping="0.5" friction="0.2"/>'
-    result, _ = stage(link("a"), joint("j", "a", "b", "revolute", LIMIT + dynamics), link("b"))
+    parts = link("a"), joint("j", "a", "b", "revolute", LIMIT + dynamics), link("b")
+    result, _ = stage(*parts, actuators="described")
     prim = result.GetPrimAtPath("/r/joints/j")
     assert value(prim, "physics:lowerLimit") == pytest.approx(math.degrees(-1))
     assert value(prim, "drive:angular:physics:maxForce") == 33.5
@@ -332,7 +333,7 @@ force-range = 40
 
 def test_an_actuator_file_sets_the_gains_of_the_drives(stage, write):
     parts = (link("a"), joint("j", "a", "b", "revolute", LIMIT), link("b"))
-    plain, written = stage(*parts)
+    plain, written = stage(*parts, actuators="none")
     drive = plain.GetPrimAtPath("/r/joints/j")
     assert value(drive, "drive:angular:physics:stiffness") == 0
     assert ("lossy-gains", "") in codes(written)
@@ -353,7 +354,7 @@ def test_joints_with_a_position_interface_are_named(stage):
         '<command_interface name="position"/></joint></ros2_control>'
     )
     parts = (link("a"), joint("j", "a", "b", "revolute", LIMIT), link("b"), control)
-    _, written = stage(*parts)
+    _, written = stage(*parts, actuators="none")
     (gains,) = [loss for loss in written.losses if loss.code == "lossy-gains"]
     assert "'j' have a position" in gains.message
 

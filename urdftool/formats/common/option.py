@@ -161,6 +161,13 @@ ACTUATORS = declare(
     metavar="KIND",
 )
 
+POSE = declare(
+    "Home position of joints [rad or m] by name or pattern; an SRDF group state; or stand, with "
+    "bent legs. Repeatable.",
+    kind=dict,
+    metavar="JOINT=VALUE|NAME",
+)
+
 TIMESTEP = declare(
     "Physics time step [s], for which gains of servos are chosen.  [default: 0.002]",
     kind=float,

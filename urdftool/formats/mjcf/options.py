@@ -16,6 +16,7 @@ from ..common.option import (
     FIX_INERTIA,
     FORCE,
     MESH_FOLDER,
+    POSE,
     TIMESTEP,
     Actuators,
     Base,
@@ -75,12 +76,7 @@ class Options:
     )
     pose: Mapping[str, float] = field(
         default_factory=dict,
-        metadata=declare(
-            "Home position of joints [rad or m] by name or pattern; an SRDF group state; "
-            "or stand, with bent legs. Repeatable.",
-            kind=dict,
-            metavar="JOINT=VALUE|NAME",
-        ),
+        metadata=POSE,
     )
     state: str = ""
     base_sensors: bool = field(

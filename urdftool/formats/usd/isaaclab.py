@@ -8,18 +8,16 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-import numpy as np
-
-from ...geometry.link_extent import get_shape_points
 from ...model.elements import Joint, Robot
-from ...model.kinematics import link_poses
 from ...model.start import start_positions
 from ..common.directory import mark_usda, write_beside
 from ..common.srdf import read_srdf
 from ..written import Written
 from .bodies import Bodies, is_movable, make_bodies
 from .contacts import is_self_colliding
-from .joint_values import JointValues, choose_joint_values
+from .home import Home, plan_home, plan_servos
+from .inertials import make_inertias
+from .joint_values import JointValues, choose_joint_values, read_joint_settings
 from .names import Names, make_names
 from .options import Options
 
@@ -60,12 +58,14 @@ def write_config(
         OutputError: The file cannot be written.
     """
     names = make_names(robot, robot.name or "robot")
-    virtual_joint = None
-    if options.srdf is not None:
-        virtual_joint = read_srdf(options.srdf, robot, Written(""), None).virtual_joint
-    bodies = make_bodies(robot, options.base, virtual_joint, Written(""))
-    values = choose_joint_values(bodies, options.actuator_config, Written(""))
-    config = _Config(robot, bodies, names, values, version)
+    silent = Written("")
+    srdf = None if options.srdf is None else read_srdf(options.srdf, robot, silent, None)
+    bodies = make_bodies(robot, options.base, srdf.virtual_joint if srdf else None, silent)
+    home = plan_home(bodies, make_inertias(bodies, options, silent)[0], options, srdf, silent)
+    settings = read_joint_settings(bodies, options.actuator_config)
+    servos = plan_servos(bodies, home, options, settings, silent)
+    values = choose_joint_values(bodies, settings, servos, silent)
+    config = _Config(bodies, names, values, home, version)
     path = os.path.relpath(stage.resolve(), file.resolve().parent)
     text = config.format(Path(path).as_posix(), self_collision=is_self_colliding(robot, options))
     source = Path(robot.source.path).name if robot.source is not None else "a robot"
@@ -84,14 +84,14 @@ class _Config:
 
     def __init__(
         self,
-        robot: Robot,
         bodies: Bodies,
         names: Names,
         values: Mapping[str, JointValues],
+        home: Home,
         version: int,
     ) -> None:
-        self._robot, self._bodies, self._names, self._version = robot, bodies, names, version
-        self._values = values
+        self._robot, self._bodies, self._names = bodies.robot, bodies, names
+        self._values, self._home, self._version = values, home, version
         self.assumptions: list[str] = []
         movable = ("revolute", "continuous", "prismatic")
         joints = [j for j in bodies.joints if j.type in movable and is_movable(j)]
@@ -146,21 +146,13 @@ class _Config:
         """Return the height of a free base at which the lowest collision shape touches z = 0."""
         if not self._bodies.free:
             return 0.0
-        lowest = 0.0
-        poses = link_poses(self._robot, start_positions(self._robot)[0])
-        for link in self._robot.links:
-            pose = poses.get(link.name)
-            for shape in link.collisions:
-                points = get_shape_points(self._robot, shape)
-                if points is not None and pose is not None:
-                    heights = points @ np.array(pose.rotation[2]) + pose.translation[2]
-                    lowest = min(lowest, float(heights.min()))
         self.assumptions.append("the base is at the height at which the lowest shape touches z = 0")
-        return round(-lowest, 6) + 0.0
+        return self._home.pose.translation[2] + 0.0
 
     def _format_positions(self) -> Iterator[str]:
-        positions, moved = start_positions(self._robot)
-        clipped = [joint.name for joint in self._joints if joint.name in moved]
+        positions, moved = self._home.positions, start_positions(self._robot)[1]
+        clipped = [joint.name for joint in self._joints
+                   if moved.get(joint.name) == positions.get(joint.name, 0.0) != 0.0]  # fmt: skip
         for joint in (*self._joints, *self._followers):
             value = positions.get(joint.name, 0.0)
             yield f"            {json.dumps(self._names.joint[joint.name])}: {value!r},"

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ...diagnostic import Severity
 from ...model.drives import list_servo_joints
 from ...model.elements import Joint
+from ...model.mechanism import JointActuator
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..written import Written
 from .bodies import Bodies
@@ -37,32 +39,55 @@ class JointValues:
     kd: float = 0.0
 
 
+def list_single_joints(bodies: Bodies) -> list[Joint]:
+    """List the joints that move with one degree of freedom."""
+    kinds = ("revolute", "continuous", "prismatic")
+    return [j for j in bodies.joints if j.type in kinds and bodies.is_movable(j)]
+
+
+def read_joint_settings(bodies: Bodies, config: Path | None) -> dict[str, JointSettings]:
+    """Read the settings of each joint with one degree of freedom, by name.
+
+    Args:
+        bodies: Bodies of the robot.
+        config: An actuator file, or None.
+
+    Raises:
+        ConfigError: The file is not valid, or has settings for a joint that does not move.
+    """
+    names = [joint.name for joint in list_single_joints(bodies)]
+    if config is None:
+        return dict.fromkeys(names, JointSettings())
+    return read_actuator_config(config).match_joints(names)
+
+
 def choose_joint_values(
-    bodies: Bodies, config: Path | None, written: Written
+    bodies: Bodies,
+    settings: Mapping[str, JointSettings],
+    servos: Sequence[JointActuator],
+    written: Written,
 ) -> dict[str, JointValues]:
     """Choose the values of each joint with one degree of freedom, by name.
 
     Args:
         bodies: Bodies of the robot.
-        config: An actuator file, or None.
+        settings: Settings by joint name, from the user.
+        servos: The servos of the joints.
         written: Receives a note on missing gains, and changes of values of the description.
-
-    Raises:
-        ConfigError: The file is not valid, or has settings for a joint that does not move.
     """
-    kinds = ("revolute", "continuous", "prismatic")
-    joints = [j for j in bodies.joints if j.type in kinds and bodies.is_movable(j)]
-    names = [joint.name for joint in joints]
-    settings = dict.fromkeys(names, JointSettings())
-    if config is not None:
-        settings = read_actuator_config(config).match_joints(names)
-    found = {joint.name: _choose(bodies, joint, settings[joint.name], written) for joint in joints}
+    joints = list_single_joints(bodies)
+    found = {}
+    for joint in joints:
+        gains = _compute_gains(servos, joint)
+        found[joint.name] = _choose(joint, gains, settings[joint.name], written)
     _report_missing_gains(bodies, joints, found, written)
     return found
 
 
-def _choose(bodies: Bodies, joint: Joint, settings: JointSettings, written: Written) -> JointValues:
-    kp, kd = _compute_gains(bodies, joint)
+def _choose(
+    joint: Joint, gains: tuple[float, float], settings: JointSettings, written: Written
+) -> JointValues:
+    kp, kd = gains
     limit, dynamics = joint.limit, joint.dynamics
     effort = limit.effort if limit is not None else None
     velocity = limit.velocity if limit is not None else None
@@ -91,10 +116,10 @@ def _choose(bodies: Bodies, joint: Joint, settings: JointSettings, written: Writ
     return values
 
 
-def _compute_gains(bodies: Bodies, joint: Joint) -> tuple[float, float]:
+def _compute_gains(servos: Sequence[JointActuator], joint: Joint) -> tuple[float, float]:
     """Return stiffness and damping of the actuators of a joint [per rad or m]."""
     stiffness = damping = 0.0
-    for actuator in bodies.robot.joint_actuators:
+    for actuator in servos:
         if actuator.joint == joint.name:
             square = actuator.gear * actuator.gear
             stiffness -= actuator.bias[1] * square

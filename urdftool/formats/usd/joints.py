@@ -53,6 +53,7 @@ class JointWriter:
         names: Prim names.
         options: Options of the export.
         values: Values of the joints with one degree of freedom.
+        positions: Positions of the joints at home [rad or m], by name.
         written: Receives the losses.
     """
 
@@ -61,6 +62,7 @@ class JointWriter:
     names: Names
     options: Options
     values: Mapping[str, JointValues]
+    positions: Mapping[str, float]
     written: Written
 
     def get_path(self, joint: str) -> Sdf.Path:
@@ -154,6 +156,19 @@ class JointWriter:
         drive.CreateDampingAttr(convert_gain(joint, values.kd))
         if values.effort is not None:
             drive.CreateMaxForceAttr(values.effort)
+        self._write_home(prim, joint, drive)
+
+    def _write_home(self, prim: Usd.Prim, joint: Joint, drive: UsdPhysics.DriveAPI) -> None:
+        """Write the position of a joint at home, and as target of its servo."""
+        position = convert_position(joint, self.positions.get(joint.name, 0.0))
+        if not position:
+            return
+        if self.values[joint.name].kp:
+            drive.CreateTargetPositionAttr(position)
+        set_value(prim, f"state:{drive_name(joint)}:physics:position", "float", position)
+        if self.options.has_physx:
+            with self.builder.edit_layer(PHYSX):
+                apply(prim, f"PhysicsJointStateAPI:{drive_name(joint)}")
 
     def _write_dynamics(self, prim: Usd.Prim, joint: Joint) -> None:
         """Write velocity limit, friction, damping and armature for Newton and PhysX."""

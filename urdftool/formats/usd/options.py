@@ -9,10 +9,14 @@ from typing import Literal, get_args
 
 from ..common.cut import Cutter
 from ..common.option import (
+    ACTUATORS,
     BASE,
     DECOMPOSE,
     FIX_INERTIA,
     FORCE,
+    POSE,
+    TIMESTEP,
+    Actuators,
     Base,
     FixInertia,
     check_options,
@@ -32,6 +36,7 @@ class Options:
 
     Attributes:
         cutter: Decomposes collision meshes into convex pieces, for ``decompose``.
+        state: SRDF group state for the home configuration, or ``stand``; empty for the likeliest.
         file: Name of the stage; empty for the robot's name with ``.usda``.
         proofs: What is known of pairs of the SRDF, by the names of both links, as custom data.
     """
@@ -54,9 +59,16 @@ class Options:
     srdf: Path | None = field(
         default=None,
         metadata=declare(
-            "SRDF file with disabled collisions and virtual joint.", kind=Path, metavar="FILE"
+            "SRDF file with disabled collisions, virtual joint and group states for the home "
+            "position.",
+            kind=Path,
+            metavar="FILE",
         ),
     )
+    pose: Mapping[str, float] = field(default_factory=dict, metadata=POSE)
+    state: str = ""
+    actuators: Actuators = field(default="auto", metadata=ACTUATORS)
+    timestep: float | None = field(default=None, metadata=TIMESTEP)
     self_collision: bool | None = field(
         default=None,
         metadata=declare(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -28,6 +29,7 @@ from ..common.losses import DeclaredLosses
 from ..written import Written
 from .options import Options
 from .read import read
+from .verify_home import compare_home
 from .verify_pair import (
     CONFIGURATIONS,
     FLOAT,
@@ -68,8 +70,11 @@ def verify_copy(
         losses = DeclaredLosses.from_findings(written.losses)
         positions = list(_make_configurations(robot))
         settings = _read_settings(robot, options)
+        assert written.planned is not None
+        home = written.planned.configurations[0].positions
+        robot = replace(robot, joint_actuators=written.planned.joint_actuators)
         pair = Pair(robot, reading.robot, losses, positions, _find_bodies(path), settings)
-        checks = compare(pair, options)
+        checks = [*compare(pair, options), compare_home(path, robot, home)]
         if is_installed("newton") if newton is None else newton:
             from .verify_newton import compare_newton
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostic import Severity
 from ...lint.validate import validate
 from ...model.elements import Robot
+from ...model.mechanism import Configuration, JointActuator
 from ..common.naming import replace_file_name
 from ..common.srdf import Srdf, read_srdf
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
@@ -14,9 +16,10 @@ from ..written import Written
 from .bodies import Bodies, make_bodies, report_floating
 from .contacts import write_pairs, write_self_collision
 from .files import make_layered_files, make_single_file
+from .home import Home, plan_home, plan_servos
 from .inertials import make_inertias
 from .isaac import write_isaac
-from .joint_values import choose_joint_values
+from .joint_values import choose_joint_values, read_joint_settings
 from .joints import JointWriter, report_unwritten_spring
 from .links import LinkWriter
 from .loops import write_closures, write_frames
@@ -82,12 +85,22 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     shapes = ShapeWriter(links, meshes, materials, SurfaceWriter(links, written), written)
     for link in robot.links:
         shapes.write(link)
-    values = choose_joint_values(bodies, options.actuator_config, written)
-    joints = JointWriter(builder, bodies, names, options, values, written)
+    home = plan_home(bodies, inertias, options, srdf, written)
+    settings = read_joint_settings(bodies, options.actuator_config)
+    servos = plan_servos(bodies, home, options, settings, written)
+    values = choose_joint_values(bodies, settings, servos, written)
+    written.planned = _plan_robot(robot, servos, home)
+    joints = JointWriter(builder, bodies, names, options, values, home.positions, written)
     _write_joints(joints, links, options, srdf)
     _report_names(bodies, names, written)
     _finish(builder, robot, options, written)
     return written
+
+
+def _plan_robot(robot: Robot, servos: list[JointActuator], home: Home) -> Robot:
+    """Return the robot with its servos and its home, which the proof expects."""
+    states = [Configuration(None, "home", dict(home.positions))]
+    return replace(robot, joint_actuators=servos, configurations=states)
 
 
 def _make_builder(names: Names, options: Options) -> StageBuilder:

@@ -1,0 +1,106 @@
+"""Home and servos of a stage: as in MJCF, and compared by the proof."""
+
+import math
+
+import pytest
+
+from tests.formats.mjcf.robots import export as export_mjcf
+from tests.formats.mjcf.robots import find, rules, tree
+from tests.formats.test_standing_pose import CORNERS, quadruped
+from tests.formats.usd.stages import export, joint, link, robot, stage_of
+
+pytestmark = pytest.mark.library("pxr")
+
+
+def read_joint(written, folder, name):
+    """The attributes of a joint that a stage sets."""
+    stage = stage_of(written, folder / "out")
+    prim = stage.GetPrimAtPath(f"/r/joints/{name}")
+    return {a.GetName(): a.Get() for a in prim.GetAttributes() if a.HasAuthoredValue()}
+
+
+@pytest.fixture
+def dog(write):
+    return write("dog.urdf", quadruped())
+
+
+def test_home_and_gains_are_those_of_mjcf(dog, tmp_path):
+    model = export_mjcf(dog, file="r.xml")
+    home = [float(word) for word in find(tree(model), "key", "home").get("qpos").split()]
+    gains = {one.joint: one.gain for one in model.planned.joint_actuators}
+    names = [f"{leg}_{part}" for leg in CORNERS for part in ("hip", "knee")]
+    for name, position in zip(names, home[7:], strict=True):
+        joint = read_joint(export(dog, file="r.usda"), tmp_path / name, name)
+        degrees = pytest.approx(math.degrees(position), abs=1e-4)
+        assert joint["state:angular:physics:position"] == degrees
+        assert joint["drive:angular:physics:targetPosition"] == degrees
+        stiffness = math.degrees(joint["drive:angular:physics:stiffness"])
+        assert stiffness == pytest.approx(gains[name], rel=1e-6)
+
+
+def test_a_servo_is_critically_damped(dog, tmp_path):
+    """A calf of 0.2 kg whose center is in the joint: I = 0.002 kg·m² about the axis."""
+    joint = read_joint(export(dog, file="r.usda"), tmp_path, "fl_knee")
+    stiffness, damping = (
+        math.degrees(joint[f"drive:angular:physics:{name}"]) for name in ("stiffness", "damping")
+    )
+    assert damping == pytest.approx(2 * math.sqrt(stiffness * 0.002), rel=1e-5)
+    assert stiffness == pytest.approx(0.002 / 0.002**2, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("choices", "stiff"),
+    [
+        ({}, True),
+        ({"actuators": "position"}, True),
+        ({"actuators": "none"}, False),
+        ({"actuators": "described"}, False),
+        ({"actuators": "motor"}, False),
+        ({"actuators": "velocity"}, False),
+        ({"timestep": 0.02}, True),
+    ],
+)
+def test_the_user_chooses_what_drives(dog, tmp_path, choices, stiff):
+    joint = read_joint(export(dog, file="r.usda", **choices), tmp_path, "fl_knee")
+    stiffness = math.degrees(joint["drive:angular:physics:stiffness"])
+    assert (stiffness > 0) == stiff
+    if "timestep" in choices:
+        assert stiffness == pytest.approx(0.002 / 0.02**2, rel=1e-6)
+    damping = joint["drive:angular:physics:damping"]
+    assert (damping > 0) == (stiff or choices["actuators"] == "velocity")
+
+
+@pytest.mark.parametrize(("leg", "knee"), [("fl", -1.2), ("rr", -1.5)])
+def test_pose_and_patterns(dog, tmp_path, leg, knee):
+    written = export(dog, file="r.usda", pose={"*_knee": -1.5, "fl_knee": -1.2})
+    joint = read_joint(written, tmp_path, f"{leg}_knee")
+    assert joint["state:angular:physics:position"] == pytest.approx(math.degrees(knee))
+    assert "lossy-standing" not in rules(written)
+
+
+def test_the_home_is_compared(dog):
+    import urdftool
+    from urdftool.formats.usd.options import Options
+    from urdftool.formats.usd.verify import verify_copy
+
+    options = Options(file="r.usda")
+    written = export(dog, file="r.usda")
+    source = urdftool.load(dog)
+    rows = {check.name: check for check in verify_copy(source, options, written, newton=False)}
+    assert (rows["home"].verdict, rows["drives"].verdict) == ("equal", "equal")
+    text = written.files["r.usda"].decode()
+    for name, row in (("state:angular:physics:position = -", "home"),
+                      ("angular:physics:targetPosition = -", "home"),
+                      ("angular:physics:stiffness = ", "drives")):  # fmt: skip
+        assert name in text
+        written.files["r.usda"] = text.replace(name, f"{name}1").encode()
+        rows = {check.name: check for check in verify_copy(source, options, written, newton=False)}
+        assert rows[row].verdict == "differs"
+
+
+def test_a_joint_without_effort_has_a_drive_without_a_largest_force(tmp_path, write):
+    parts = link("a"), joint("j", "a", "b", "continuous"), link("b")
+    path = write("r.urdf", robot(*parts))
+    made = read_joint(export(path, file="r.usda"), tmp_path, "j")
+    assert made["drive:angular:physics:stiffness"] > 0
+    assert "drive:angular:physics:maxForce" not in made

@@ -1,0 +1,155 @@
+"""Home of a robot in a stage: joint positions, the floor, and servos that hold both."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ...model.elements import Joint
+from ...model.mechanism import JointActuator
+from ...model.pose import Pose
+from ..common.actuator_config import JointSettings
+from ..common.drive_choice import AUTO, Drive, list_drives
+from ..common.floor import lift_to_floor
+from ..common.home_positions import choose_home_positions
+from ..common.joint_loads import JointLoad, compute_joint_loads
+from ..common.rigid_tree import RigidGroups, group_rigid_links
+from ..common.servo_gains import (
+    TIMESTEP,
+    Gain,
+    choose_position_gain,
+    choose_velocity_gain,
+    drop_unlimited,
+    report_gains,
+)
+from ..common.shape_box import ShapeBoxes
+from ..common.srdf import Srdf
+from ..common.standing import Ground, measure_ground
+from ..common.standing_pose import choose_standing_positions
+from ..written import Written
+from .bodies import Bodies, is_movable
+from .inertials import BodyInertia
+from .joint_values import list_single_joints
+from .options import Options
+
+
+@dataclass(frozen=True)
+class Home:
+    """Initial configuration of a robot.
+
+    Attributes:
+        positions: Joint positions [rad or m] by name.
+        pose: Pose of the root at which a free robot stands on the floor z = 0.
+        tree: The rigid bodies.
+        ground: Geometry near the ground; None for a fixed base.
+        loads: What each joint moves and holds, by name.
+    """
+
+    positions: Mapping[str, float]
+    pose: Pose
+    tree: RigidGroups
+    ground: Ground | None
+    loads: Mapping[str, JointLoad]
+
+
+def plan_home(
+    bodies: Bodies,
+    inertias: Mapping[str, BodyInertia],
+    options: Options,
+    srdf: Srdf | None,
+    written: Written,
+) -> Home:
+    """Choose the home of a robot.
+
+    Args:
+        bodies: Bodies of the robot.
+        inertias: Mass properties of the bodies by link.
+        options: Options of the export.
+        srdf: The SRDF, if there is one.
+        written: Receives positions beyond limits, and a note on bent legs.
+
+    Raises:
+        ConfigError: The SRDF has no such state.
+        ModelError: A joint of the pose does not exist or mimics another.
+    """
+    robot = bodies.robot
+    tree, boxes = group_rigid_links(robot, is_movable), ShapeBoxes(robot)
+    chosen = choose_home_positions(robot, options.pose, options.state, srdf, written)
+    positions, pose, ground = chosen.values, bodies.root_pose, None
+    if bodies.free or chosen.stands:
+        positions = choose_standing_positions(tree, boxes, chosen, written)
+    if bodies.free:
+        pose = lift_to_floor(tree, boxes, positions, pose)
+        ground = measure_ground(tree, boxes, positions, pose)
+    masses = {name: one.body for name, one in inertias.items()}
+    loads = compute_joint_loads(tree, masses, positions, pose, ground)
+    return Home(positions, pose, tree, ground, loads)
+
+
+def plan_servos(
+    bodies: Bodies,
+    home: Home,
+    options: Options,
+    settings: Mapping[str, JointSettings],
+    written: Written,
+) -> list[JointActuator]:
+    """Choose the servos of a robot; those of its source if that has actuators.
+
+    Args:
+        bodies: Bodies of the robot.
+        home: Its home.
+        options: Options of the export, with the kind of actuators and the time step.
+        settings: Settings by joint name, from the user.
+        written: Receives notes on servos and gains.
+    """
+    robot = bodies.robot
+    if options.actuators in AUTO and (robot.joint_actuators or robot.format in ("mjcf", "usd")):
+        return list(robot.joint_actuators)
+    joints = list_single_joints(bodies)
+    drives = list_drives(home.tree, joints, options.actuators, settings, home.ground, written)
+    timestep = options.timestep or TIMESTEP
+    assumed: dict[str, Gain] = {}
+    made = []
+    for drive in drives:
+        own = settings.get(drive.joint.name, JointSettings())
+        load = _add_armature(drive.joint, home.loads.get(drive.joint.name, JointLoad()), own)
+        if own.kp is None and own.kd is None and drive.kind != "motor":
+            made.append(_make_servo(drive, load, own, timestep, assumed))
+    report_gains(robot, assumed, timestep, written)
+    return made
+
+
+def _add_armature(joint: Joint, load: JointLoad, settings: JointSettings) -> JointLoad:
+    armature = settings.armature
+    if armature is None:
+        armature = (joint.dynamics and joint.dynamics.armature) or 0.0
+    return replace(load, inertia=load.inertia + max(armature, 0.0))
+
+
+def _make_servo(
+    drive: Drive,
+    load: JointLoad,
+    settings: JointSettings,
+    timestep: float,
+    assumed: dict[str, Gain],
+) -> JointActuator:
+    """Choose the gains of a servo; a position servo is critically damped at home."""
+    joint = drive.joint
+    kind = "slide" if joint.type == "prismatic" else "hinge"
+    limit, force = joint.limit, settings.force_range
+    effort = drop_unlimited(None if limit is None or limit.effort is None else abs(limit.effort))
+    if force is not None:
+        effort = max(map(abs, force))
+    if drive.kind == "velocity":
+        velocity = abs(drop_unlimited(None if limit is None else limit.velocity) or 0.0)
+        gain = choose_velocity_gain(kind, effort, velocity, load, timestep)
+        stiffness, damping = 0.0, gain.value
+    else:
+        gain = choose_position_gain(kind, effort, load, timestep)
+        stiffness = gain.value
+        damping = 2 * math.sqrt(stiffness * (load.inertia or stiffness * timestep**2))
+    assumed[joint.name] = gain
+    return JointActuator(
+        None, joint.name, joint.name, drive.kind, gain=gain.value, bias=(0.0, -stiffness, -damping)
+    )

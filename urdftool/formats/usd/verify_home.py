@@ -1,0 +1,54 @@
+"""Comparison of the home in a stage: positions, and targets of the servos, in the attributes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+from pxr import Usd, UsdPhysics
+
+from ...compare.check import Check
+from ...model.elements import Robot
+from ...model.kinematics import get_limits
+
+TOLERANCE = 1e-6
+"""Tolerance of a position [rad or m], relative above 1: a 32-bit float."""
+
+
+def compare_home(path: Path, robot: Robot, home: Mapping[str, float]) -> Check:
+    """Compare positions and targets of joints with the home, and both with the limits.
+
+    Args:
+        path: The stage.
+        robot: The source.
+        home: Joint positions at home [rad or m], by name.
+    """
+    check = Check("home", "positions and targets of servos at home, within limits [rad, m]", 1e-6)
+    stage = Usd.Stage.Open(str(path))
+    for prim in stage.Traverse():
+        name = prim.GetCustomDataByKey("urdf:joint")
+        joint = robot.joint.get(str(name)) if name else None
+        if joint is None or not (
+            prim.IsA(UsdPhysics.RevoluteJoint) or prim.IsA(UsdPhysics.PrismaticJoint)
+        ):
+            continue
+        wanted = home.get(joint.name, 0.0)
+        for text, value in _list_positions(prim).items():
+            error = abs(value - wanted) / max(1.0, abs(wanted))
+            check.compare(error, f"joint '{joint.name}': {text}")
+        lower, upper = get_limits(joint)
+        if lower <= upper and joint.mimic is None:
+            check.compare(max(lower - wanted, wanted - upper, 0.0), f"joint '{joint.name}': limits")
+    return check
+
+
+def _list_positions(prim: Usd.Prim) -> dict[str, float]:
+    """Return the position of a joint and the target of its servo, if it has one [rad or m]."""
+    kind, unit = "linear", 1.0
+    if prim.IsA(UsdPhysics.RevoluteJoint):
+        kind, unit = "angular", math.radians(1.0)
+    names = {"position": f"state:{kind}:physics:position"}
+    if prim.GetAttribute(f"drive:{kind}:physics:stiffness").Get():
+        names["target"] = f"drive:{kind}:physics:targetPosition"
+    return {text: unit * (prim.GetAttribute(n).Get() or 0.0) for text, n in names.items()}
