@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ..model.elements import Robot
 from ..simulation.settings import Settings
 from ..simulation.verdict import Verdict
+from .start import choose_start
 
 if TYPE_CHECKING:
     from ..simulation.engines.base import ModelFiles
@@ -59,7 +60,7 @@ def simulate(
 
 
 def run_trials(robot: Robot, settings: Settings, **options: Any) -> list[Run]:
-    """Run the trials of a robot, in MuJoCo with its export as MJCF.
+    """Run the trials of a robot from its home, in MuJoCo with its export as MJCF.
 
     Args:
         robot: The robot, read from a description.
@@ -68,6 +69,7 @@ def run_trials(robot: Robot, settings: Settings, **options: Any) -> list[Run]:
     """
     from ..simulation.run import simulate
 
+    settings, _ = choose_start(robot, settings)
     return simulate(robot, settings, export_mjcf=export_mjcf, **options)
 
 

@@ -73,7 +73,12 @@ def command(
     from ..simulation.mesh_cache import set_cache_folder
     from .cache_options import choose_cache_folder
     from .load_tolerant import load_tolerant
-    from .simulate_control import apply_controllers, report_open_loops, take_robot_of_scene
+    from .simulate_control import (
+        apply_controllers,
+        report_open_loops,
+        report_start,
+        take_robot_of_scene,
+    )
     from .simulate_fleet import Fleet, simulate_fleet
     from .simulate_one import print_old_thresholds, read_configured_thresholds, simulate_one
     from .simulate_options import make_settings
@@ -110,6 +115,7 @@ def command(
         set_cache_folder(model, cache)
         report_open_loops(console, model)
         settings = apply_controllers(console, settings, model, controllers, strict=strict)
+        settings = report_start(console, model, settings)
         return simulate_one(
             console,
             model,

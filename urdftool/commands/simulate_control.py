@@ -81,3 +81,13 @@ def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
             "simulation has one robot and its own ground"
         )
     return part
+
+
+def report_start(console: Console, robot: Robot, settings: Settings) -> Settings:
+    """Return the settings with the home of the robot, and print a note on bent legs."""
+    from ..api.start import choose_start
+
+    settings, notes = choose_start(robot, settings)
+    for note in notes:
+        console.print_note(f"{robot.place}: {note.message}" if robot.place else note.message)
+    return settings

@@ -1,0 +1,49 @@
+"""The start of a simulation: the home of ``export mjcf``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..model.elements import Robot
+from ..model.kinematics import find_movable_joints
+from ..model.start import start_positions
+
+if TYPE_CHECKING:
+    from ..finding import Finding
+    from ..simulation.settings import Settings
+
+
+def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Finding]]:
+    """Choose the positions at which ``export mjcf`` starts a robot, for joints without a position.
+
+    Args:
+        robot: The robot.
+        settings: Settings of the simulation; its pose comes first.
+
+    Returns:
+        The settings with the positions that differ from zero within the limits, and notes on them.
+    """
+    from ..formats.common.base import decide_base
+    from ..formats.common.home_positions import choose_home_positions
+    from ..formats.common.shape_box import ShapeBoxes
+    from ..formats.common.standing_pose import choose_standing_positions
+    from ..formats.mjcf.structure import create_structure
+    from ..formats.written import Written
+
+    leading = {n for n, joint in find_movable_joints(robot).items() if joint.mimic is None}
+    if len(robot.tree.roots) != 1 or not settings.pose.keys() <= leading:
+        return settings, []  # which is refused
+    written = Written("")
+    tree, boxes = create_structure(robot), ShapeBoxes(robot)
+    home = choose_home_positions(robot, settings.pose, "", None, written)
+    is_free = (
+        not settings.fixed_base
+        and decide_base(tree, "auto", None, boxes, home.values, Written(""))[0]
+    )
+    positions = home.values
+    if is_free:
+        positions = choose_standing_positions(tree, boxes, home, written)
+    plain = start_positions(robot)[0]
+    pose = {n: v for n, v in positions.items() if n in leading and v != plain.get(n, 0.0)}
+    return replace(settings, pose=pose | settings.pose), written.losses
