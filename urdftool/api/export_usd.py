@@ -72,6 +72,7 @@ def export_usd(
     from ..formats.registry import format_named
     from ..formats.usd.options import Options
     from .export import make_cutter
+    from .overlaps import find_overlaps
     from .pair_proofs import prove_srdf_pairs
 
     choices = {
@@ -94,7 +95,13 @@ def export_usd(
     require("export_usd", "pxr")
     proofs = prove_srdf_pairs(robot, srdf)
     options = make_options(
-        Options, choices, file=file, cutter=make_cutter(robot), proofs=proofs.texts, state=state
+        Options,
+        choices,
+        file=file,
+        cutter=make_cutter(robot),
+        overlaps=find_overlaps,
+        proofs=proofs.texts,
+        state=state,
     )
     if output is not None and options.file and not overwrite:
         from ..formats.usd.files import check_replaced

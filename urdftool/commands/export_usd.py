@@ -70,6 +70,7 @@ def command(
         urdftool export usd quadruped.urdf.xacro -o q/ --base free --target isaac
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import make_cutter
+    from ..api.overlaps import find_overlaps
     from ..extras import require
     from ..formats.registry import format_named
     from .export_report import run_export
@@ -82,7 +83,13 @@ def command(
     proofs = prove_pairs(console, model, choices["srdf"])
     state, choices["pose"] = choices["pose"]
     options = make_options(
-        Options, choices, file=file, cutter=make_cutter(model), proofs=proofs.texts, state=state
+        Options,
+        choices,
+        file=file,
+        cutter=make_cutter(model),
+        overlaps=find_overlaps,
+        proofs=proofs.texts,
+        state=state,
     )
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")

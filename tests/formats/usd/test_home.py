@@ -7,7 +7,7 @@ import pytest
 from tests.formats.mjcf.robots import export as export_mjcf
 from tests.formats.mjcf.robots import find, rules, tree
 from tests.formats.test_standing_pose import CORNERS, quadruped
-from tests.formats.usd.stages import export, joint, link, robot, stage_of
+from tests.formats.usd.stages import BOX, export, joint, link, robot, stage_of
 
 pytestmark = pytest.mark.library("pxr")
 
@@ -104,3 +104,38 @@ def test_a_joint_without_effort_has_a_drive_without_a_largest_force(tmp_path, wr
     made = read_joint(export(path, file="r.usda"), tmp_path, "j")
     assert made["drive:angular:physics:stiffness"] > 0
     assert "drive:angular:physics:maxForce" not in made
+
+
+BOXES = (
+    *(link(name, 1, BOX) for name in ("a", "b", "c")),
+    joint("i", "a", "b", "continuous", '<origin xyz="0 0 1"/>'),
+    joint("j", "b", "c", "continuous", '<origin xyz="0 0 {}"/>'),
+)
+SELF = '<gazebo reference="c"><selfCollide>true</selfCollide></gazebo>'
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize(
+    ("height", "more", "pairs"), [("-0.9", SELF, 1), ("-0.9", "", 0), ("0.5", SELF, 0)]
+)
+def test_links_that_overlap_at_home_never_collide(write, tmp_path, height, more, pairs):
+    from pxr import UsdPhysics
+
+    import urdftool
+
+    path = write("r.urdf", robot(*BOXES, more).replace("{}", height))
+    source = urdftool.load(path)
+    written = urdftool.export_usd(source, tmp_path / "r.usda", verify=True)
+    stage = stage_of(written, tmp_path / "out")
+    prim = stage.GetPrimAtPath("/r/a")
+    assert rules(written).count("lossy-overlap") == pairs
+    assert {check.name: check.verdict for check in written.checks}["contact pairs"] == "equal"
+    targets = UsdPhysics.FilteredPairsAPI(prim).GetFilteredPairsRel().GetTargets()
+    assert [str(target) for target in targets] == ["/r/c"] * pairs
+    if pairs:
+        mjcf = urdftool.export_mjcf(source, exclude="touching")
+        ours, theirs = (
+            [loss.message for loss in some.losses if loss.code == "lossy-overlap"]
+            for some in (written, mjcf)
+        )
+        assert ours == theirs

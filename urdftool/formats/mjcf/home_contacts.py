@@ -228,6 +228,7 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
         f"{count} at home{does}: {'; '.join(parts)}",
         structure.robot.place,
         hint="; ".join(hints),
+        data={"pairs": [(pair.one, pair.other) for pair in pairs]},
     )
 
 

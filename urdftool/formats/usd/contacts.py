@@ -8,6 +8,7 @@ from pxr import UsdPhysics
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.mechanism import ContactExclusion
 from ...model.settings import is_set
 from ..written import Written
 from .links import LinkWriter
@@ -48,6 +49,26 @@ def is_self_colliding(robot: Robot, options: Options) -> bool:
     asked = (robot.settings, *(link.settings for link in robot.links))
     wanted = any(is_set(settings, "self_collide") for settings in asked)
     return options.srdf is not None or bool(robot.exclusions) or wanted
+
+
+def list_overlaps(
+    robot: Robot, options: Options, positions: Mapping[str, float], written: Written
+) -> list[ContactExclusion]:
+    """List the pairs of links that overlap at home, which simulators would push apart.
+
+    Args:
+        robot: The robot.
+        options: Options of the export.
+        positions: Joint positions at home [rad or m].
+        written: Receives a warning that names the pairs.
+    """
+    if options.overlaps is None or not is_self_colliding(robot, options):
+        return []
+    finding = options.overlaps(robot, positions)
+    if finding is None:
+        return []
+    written.losses.append(finding)
+    return [ContactExclusion(None, one, other) for one, other in finding.data.get("pairs", ())]
 
 
 def write_pairs(

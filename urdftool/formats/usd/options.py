@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, get_args
 
+from ...finding import Finding
+from ...model.elements import Robot
 from ..common.cut import Cutter
 from ..common.option import (
     ACTUATORS,
@@ -27,6 +29,10 @@ Target = Literal["both", "newton", "isaac"]
 Layers = Literal["single", "payload"]
 Approximation = Literal["hull", "mesh"]
 
+Overlaps = Callable[[Robot, Mapping[str, float]], Finding | None]
+"""Finds the links of a robot that overlap at joint positions [rad or m]: a finding whose data has
+the ``pairs`` of their names; None for none."""
+
 SUFFIXES = (".usda", ".usdc", ".usdz", ".usd")
 
 
@@ -38,6 +44,7 @@ class Options:
         cutter: Decomposes collision meshes into convex pieces, for ``decompose``.
         state: SRDF group state for the home configuration, or ``stand``; empty for the likeliest.
         file: Name of the stage; empty for the robot's name with ``.usda``.
+        overlaps: Finds links that overlap at home, which then never collide; None looks for none.
         proofs: What is known of pairs of the SRDF, by the names of both links, as custom data.
     """
 
@@ -98,6 +105,7 @@ class Options:
     force: bool = field(default=False, metadata=FORCE)
     file: str = ""
 
+    overlaps: Overlaps | None = None
     proofs: Mapping[frozenset[str], str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

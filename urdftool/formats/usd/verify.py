@@ -72,7 +72,11 @@ def verify_copy(
         settings = _read_settings(robot, options)
         assert written.planned is not None
         home = written.planned.configurations[0].positions
-        robot = replace(robot, joint_actuators=written.planned.joint_actuators)
+        robot = replace(
+            robot,
+            joint_actuators=written.planned.joint_actuators,
+            exclusions=written.planned.exclusions,
+        )
         pair = Pair(robot, reading.robot, losses, positions, _find_bodies(path), settings)
         checks = [*compare(pair, options), compare_home(path, robot, home)]
         if is_installed("newton") if newton is None else newton:

@@ -8,13 +8,13 @@ from pathlib import Path
 from ...diagnostic import Severity
 from ...lint.validate import validate
 from ...model.elements import Robot
-from ...model.mechanism import Configuration, JointActuator
+from ...model.mechanism import Configuration, ContactExclusion, JointActuator
 from ..common.naming import replace_file_name
 from ..common.srdf import Srdf, read_srdf
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .bodies import Bodies, make_bodies, report_floating
-from .contacts import write_pairs, write_self_collision
+from .contacts import list_overlaps, write_pairs, write_self_collision
 from .files import make_layered_files, make_single_file
 from .home import Home, plan_home, plan_servos
 from .inertials import make_inertias
@@ -89,18 +89,22 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     settings = read_joint_settings(bodies, options.actuator_config)
     servos = plan_servos(bodies, home, options, settings, written)
     values = choose_joint_values(bodies, settings, servos, written)
-    written.planned = _plan_robot(robot, servos, home)
+    overlaps = list_overlaps(robot, options, home.positions, written)
+    written.planned = _plan_robot(robot, servos, home, overlaps)
     joints = JointWriter(builder, bodies, names, options, values, home.positions, written)
-    _write_joints(joints, links, options, srdf)
+    _write_joints(joints, links, options, [*written.planned.exclusions], srdf)
     _report_names(bodies, names, written)
     _finish(builder, robot, options, written)
     return written
 
 
-def _plan_robot(robot: Robot, servos: list[JointActuator], home: Home) -> Robot:
-    """Return the robot with its servos and its home, which the proof expects."""
+def _plan_robot(
+    robot: Robot, servos: list[JointActuator], home: Home, overlaps: list[ContactExclusion]
+) -> Robot:
+    """Return the robot with its servos, home and exclusions, which the proof expects."""
     states = [Configuration(None, "home", dict(home.positions))]
-    return replace(robot, joint_actuators=servos, configurations=states)
+    exclusions = [*robot.exclusions, *overlaps]
+    return replace(robot, joint_actuators=servos, configurations=states, exclusions=exclusions)
 
 
 def _make_builder(names: Names, options: Options) -> StageBuilder:
@@ -111,7 +115,11 @@ def _make_builder(names: Names, options: Options) -> StageBuilder:
 
 
 def _write_joints(
-    joints: JointWriter, links: LinkWriter, options: Options, srdf: Srdf | None
+    joints: JointWriter,
+    links: LinkWriter,
+    options: Options,
+    exclusions: list[ContactExclusion],
+    srdf: Srdf | None,
 ) -> None:
     written, robot = joints.written, joints.bodies.robot
     joints.write()
@@ -119,7 +127,7 @@ def _write_joints(
     write_closures(joints, written)
     write_frames(links, robot)
     write_self_collision(links, options, written)
-    pairs = [(pair.link, pair.other) for pair in robot.exclusions]
+    pairs = [(pair.link, pair.other) for pair in exclusions]
     count = write_pairs(links, [*pairs, *(srdf.disabled if srdf else ())], options.proofs)
     if count:
         written.summary.append(f"{count} pairs without contact")
