@@ -157,7 +157,7 @@ def measure(x: float, y: float) -> float:
 
 _FORMATS_OF = {
     "damping": ("urdf", "sdf", "mjcf", "usd"),
-    "friction": ("urdf", "sdf", "mjcf"),
+    "friction": ("urdf", "sdf", "mjcf", "usd"),
     "armature": ("urdf", "sdf", "mjcf", "usd"),
 }
 """Formats that have each property of the dynamics; a rotor that a format lacks has no inertia."""

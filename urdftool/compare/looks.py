@@ -23,11 +23,10 @@ _FORMATS = ("urdf", "sdf")
 
 
 def skip_looks(pair: Pair, comparison: Comparison) -> None:
-    """Skip the rows of the appearance if one of the formats does not have it."""
+    """Skip the row of the appearance if one of the formats does not have it."""
     others = sorted(set(pair.formats) - set(_FORMATS))
     if others:
-        reason = f"not read of {' and '.join(name.upper() for name in others)}"
-        comparison.skipped.update(dict.fromkeys(("looks", "textures"), reason))
+        comparison.skipped["looks"] = f"not read of {' and '.join(name.upper() for name in others)}"
 
 
 def compare_looks(
@@ -47,23 +46,42 @@ def compare_looks(
         visuals: The visuals.
         has_color: Whether their colors are compared in another row.
     """
-    if not set(pair.formats) <= set(_FORMATS):
-        return
     robots = pair.a.robot, pair.b.robot
     sides = list(zip(robots, links, visuals, strict=True))
     names = links[0].name, links[1].name
     scripts = [get_script(link, visual) for _, link, visual in sides]
     if any(scripts):
-        comparison.record_parts("looks", scripts)
-        if scripts[0] != scripts[1]:
-            _add(comparison, "looks", names, "material script", scripts, visuals)
+        if set(pair.formats) <= set(_FORMATS):
+            comparison.record_parts("looks", scripts)
+            if scripts[0] != scripts[1]:
+                _add(comparison, "looks", names, "material script", scripts, visuals)
         return
-    one, two = (_get_settings(pair, *side) for side in sides)
-    rows = [row for row in APPEARANCE if row.name != "diffuse" or not has_color]
-    compare_settings(pair, comparison, "looks", "link", names, rows, (one, two), visuals)
-    images = [_find_image(robot, visual) for robot, _, visual in sides]
+    if set(pair.formats) <= set(_FORMATS):
+        one, two = (_get_settings(pair, *side) for side in sides)
+        rows = [row for row in APPEARANCE if row.name != "diffuse" or not has_color]
+        compare_settings(pair, comparison, "looks", "link", names, rows, (one, two), visuals)
+    _compare_images(pair, comparison, names, visuals)
+
+
+def _compare_images(
+    pair: Pair, comparison: Comparison, names: tuple[str, str], visuals: tuple[Visual, Visual]
+) -> None:
+    """Compare the images of two visuals, pixel by pixel where their files differ.
+
+    MJCF and USD have the images in mesh files of URDF and SDF as materials.
+    """
+    sides = list(zip((pair.a.robot, pair.b.robot), visuals, strict=True))
+    images = [_find_image(*side) for side in sides]
+    if not set(pair.formats) <= set(_FORMATS) and any(
+        pair.meshes.has_own_colors(robot, visual.geometry) for robot, visual in sides
+    ):
+        return
     digests = [None if path is None else pair.meshes.get_digest(path) for path in images]
     comparison.record_parts("textures", *images)
+    if digests[0] == digests[1]:
+        return
+    if None not in images:
+        digests = [pair.meshes.get_pixel_digest(path) for path in images if path is not None]
     if digests[0] != digests[1]:
         texts = ["" if path is None else path.name for path in images]
         _add(comparison, "textures", names, "image of a visual", texts, visuals)

@@ -11,9 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import UrdftoolError
+from ..extras import is_installed
+from ..geometry.image_file import open_image
 from ..geometry.load import load_mesh
 from ..mechanics.reference import Array
-from ..model.elements import Mesh, Robot
+from ..model.elements import Geometry, Mesh, Robot
 
 _HEAD = 4096
 """Bytes of an OBJ in which its file of materials is named."""
@@ -89,8 +91,27 @@ class MeshMeasures:
             self._digests[str(path)] = sha256(path.read_bytes()).hexdigest()
         return self._digests[str(path)]
 
-    def has_materials(self, path: Path) -> bool:
-        """Tell whether an OBJ names a file of materials at its beginning."""
+    def get_pixel_digest(self, path: Path) -> str:
+        """Return a digest of the pixels of an image; of its file if it cannot be decoded."""
+        if not is_installed("PIL"):
+            return self.get_digest(path)
+        try:
+            with open_image(path) as image:
+                plain = image.convert("RGBA")
+        except Exception:  # Pillow raises arbitrary exceptions for damaged files
+            return self.get_digest(path)
+        return sha256(repr(plain.size).encode() + plain.tobytes()).hexdigest()
+
+    def has_own_colors(self, robot: Robot, geometry: Geometry | None) -> bool:
+        """Tell whether a mesh file has colors, of which readers show either those or a material."""
+        if not isinstance(geometry, Mesh):
+            return False
+        name = geometry.filename.lower()
+        if not name.endswith(".obj"):
+            return name.endswith((".dae", ".gltf", ".glb"))
+        path = self.find(robot, geometry)
+        if path is None:
+            return False
         with path.open("rb") as file:
             return b"mtllib" in file.read(_HEAD)
 

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from ..mechanics.reference import Array, get_origin_matrix
 from ..model.gazebo_plugins import MIMIC_PLUGINS
 from ..model.mechanism import MountedPlugin
-from ..model.plugins import is_part_of_robot, list_replacements
+from ..model.numbers import parse_numbers
+from ..model.part import ZERO, Origin
+from ..model.plugins import is_part_of_robot, list_replacements, normalize_class
+from .bodies import Bodies
 from .difference import Comparison, Difference
 from .pair import Pair, add_presence, locate
 from .settings import measure_text
@@ -12,6 +18,12 @@ from .settings import measure_text
 _ROW = "plugins"
 _NUMBERS = 1e-9
 """Largest difference of parameters, relative above 1; of their printed digits. Chosen."""
+
+_PLACES = 1e-6
+"""Largest distance [m] and angle [rad] of the places of plugins; of printed digits. Chosen."""
+
+_PLACE = ("bodyName", "xyzOffset", "rpyOffset")
+"""Parameters of plugins for Gazebo Classic that name a link and a pose in it."""
 
 _WITHOUT = {"mjcf": "MJCF", "usd": "USD"}
 """Formats without plugins of Gazebo."""
@@ -78,12 +90,41 @@ def _compare(pair: Pair, one: MountedPlugin, two: MountedPlugin, comparison: Com
             Difference(_ROW, "plugin", names, what, values, "", amount, places, owners=owners)
         )
 
-    is_kept = one.library in MIMIC_PLUGINS or one.name == two.name
+    same_class = normalize_class(one.name) == normalize_class(two.name)
+    is_kept = one.library in MIMIC_PLUGINS or same_class
     add("class", (one.name, two.name), 0.0 if is_kept else float("inf"))
+    moved = _PLACE if _is_same_place(pair, one, two) else ()
     for name in dict.fromkeys((*one.settings, *two.settings)):
+        if name in moved:
+            continue
         texts = [
             "" if value is None else " ".join(str(value.content).split())
             for value in (one.settings.get(name), two.settings.get(name))
         ]
         amount = 0.0 if renamed.get(texts[0]) == texts[1] else measure_text(texts[0], texts[1])
         add(name, (texts[0], texts[1]), amount if amount > _NUMBERS else 0.0, name)
+
+
+def _is_same_place(pair: Pair, one: MountedPlugin, two: MountedPlugin) -> bool:
+    """Tell whether two plugins measure one point of a body, in the frames of other links of it.
+
+    Gazebo Classic merges links, and moves what names them.
+    """
+    here, there = _find_place(pair.a, one), _find_place(pair.b, two)
+    if here is None or there is None:
+        return False
+    (body, pose), (other, found) = here, there
+    matched, frame = pair.frames.get(body, ("", np.eye(4)))
+    return matched == other and bool(np.abs(pose - frame @ found).max() <= _PLACES)
+
+
+def _find_place(bodies: Bodies, plugin: MountedPlugin) -> tuple[str, Array] | None:
+    """Return the body of the link that a plugin names, and the pose there; None for none."""
+    texts = {name: str(value.content) for name, value in plugin.settings.items()}
+    link, *offsets = (texts.get(name, "") for name in _PLACE)
+    body = bodies.body_of.get(link)
+    if body is None:
+        return None
+    xyz, rpy = (parse_numbers(text, 3) or ZERO for text in offsets)
+    origin = Origin(plugin.provenance, xyz, rpy)  # type: ignore[arg-type]
+    return body, bodies.by_name[body].members[link] @ get_origin_matrix(origin)

@@ -69,6 +69,7 @@ class Excuse(NamedTuple):
         extent: Parts that are explained.
         ends: Ends of the names of parts that replace one, such as ``_x``.
         least: Least severity of the losses.
+        properties: Beginnings of the names of what differs; by default all of a row.
     """
 
     rows: tuple[str, ...]
@@ -76,6 +77,11 @@ class Excuse(NamedTuple):
     extent: Extent = "part"
     ends: tuple[str, ...] = ()
     least: Severity = Severity.INFO
+    properties: tuple[str, ...] = ("",)
+
+    def covers(self, difference: Difference) -> bool:
+        """Tell whether a difference is one of those that the losses of a part explain."""
+        return difference.row in self.rows and difference.what.startswith(self.properties)
 
 
 @dataclass
@@ -209,7 +215,7 @@ def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[C
         check = checks[difference.row]
         names = _list_names(source, difference, back)
         known = difference.is_convention or any(
-            difference.row in excuse.rows and (parts is None or not parts.isdisjoint(names))
+            excuse.covers(difference) and (parts is None or not parts.isdisjoint(names))
             for excuse, parts in explained
         )
         if difference.row in GLOBAL_ROWS:

@@ -40,7 +40,7 @@ ROWS = (
     Row("visuals", "types, sizes and poses [m]", 1e-5),
     Row("colors", "colors of equal visuals", 1 / 255),
     Row("looks", "ambient, specular, glow, transparency, of URDF and SDF", 1e-6),
-    Row("textures", "images of equal visuals, of URDF and SDF", 0.0),
+    Row("textures", "images of equal visuals", 0.0),
     Row("sensors", "sensors and cameras: link, pose, rate, parameters", 0.0),
     Row("actuators", "drives of joints: kind, gear, gains, ranges", 0.0),
     Row("contact pairs", "links without contact, in two files of one format", 0.0),

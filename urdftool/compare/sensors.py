@@ -240,8 +240,16 @@ def _compare(
         return
     settings = {name: _rename(pair, value) for name, value in one.settings.items()}
     one = one._replace(settings=settings)
+    own = [_get_frame(sensor) == sensor.link for sensor in (one, two)]
     for name in dict.fromkeys((*one.settings, *two.settings)):
-        _compare_parameter(name, one, two, add)
+        if name != "frame" or not all(own):  # links of one body, whose poses are compared
+            _compare_parameter(name, one, two, add)
+
+
+def _get_frame(sensor: _Sensor) -> object:
+    """Return the name of the frame of a sensor's messages; None for none."""
+    value = sensor.settings.get("frame")
+    return None if value is None else value.content
 
 
 def _compare_images(one: _Sensor, two: _Sensor, add: Callable[..., None]) -> None:

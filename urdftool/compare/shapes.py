@@ -375,7 +375,7 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
     if "sdf" in state.pair.formats and any(_has_script(placed) for placed in (x, y)):
         return False
     if any(
-        _has_own_colors(state, robot, placed.geometry)
+        state.pair.meshes.has_own_colors(robot, placed.geometry)
         for robot, placed in zip(robots, (x, y), strict=True)
     ):
         return False
@@ -413,16 +413,6 @@ def _find_gazebo_color(placed: Placed) -> tuple[float, ...] | None:
     if diffuse is not None and isinstance(diffuse.content, tuple):
         return diffuse.content
     return get_rgba(placed.link.gazebo_material)
-
-
-def _has_own_colors(state: _Comparing, robot: Robot, geometry: Geometry) -> bool:
-    """Tell whether a mesh file has colors, of which readers show either those or the material's."""
-    if not isinstance(geometry, Mesh):
-        return False
-    if geometry.filename.lower().endswith(".obj"):
-        path = state.pair.meshes.find(robot, geometry)
-        return path is not None and state.pair.meshes.has_materials(path)
-    return geometry.filename.lower().endswith((".dae", ".gltf", ".glb"))
 
 
 def _find_color(robot: Robot, shape: Visual | Collision) -> tuple[float, ...] | None:

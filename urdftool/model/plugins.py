@@ -61,6 +61,14 @@ def normalize_library(library: str) -> str:
     return "gz_ros2_control-system" if library == "ign_ros2_control-system" else library
 
 
+def normalize_class(name: str) -> str:
+    """Return the name of a class in the newest gz."""
+    if name == "ign_ros2_control::IgnitionROS2ControlPlugin":
+        return "gz_ros2_control::GazeboSimROS2ControlPlugin"
+    before = "ignition::gazebo::"
+    return "gz::sim::" + name.removeprefix(before) if name.startswith(before) else name
+
+
 def _add_parameters(settings: Settings, element: Element, above: str) -> None:
     path = f"{above}{element.tag}"
     name, count = path, 1

@@ -69,8 +69,8 @@ _DAMPER = "physics/ode/cfm_damping"
 SURFACE = (
     Setting("friction", "number", "", _ODE + "mu", 1.0, ("mu1",), contact="lateral_friction",
             lowest=0.0, mjcf="geom friction", usd="physics:dynamicFriction"),
-    Setting("second_friction", "number", "", _ODE + "mu2", 1.0, ("mu2",),
-            contact="lateral_friction", lowest=0.0),
+    Setting("second_friction", "number", "", _ODE + "mu2", 1.0, ("mu2",), lowest=0.0,
+            contact="lateral_friction", mjcf="geom friction", usd="physics:dynamicFriction"),
     Setting("friction_direction", "vector", "", _ODE + "fdir1", (0.0, 0.0, 0.0), ("fdir1",),
             note="in the frame of the collision"),
     Setting("slip", "number", "", _ODE + "slip1", 0.0),

@@ -33,7 +33,8 @@ def verified(name, folder, options, change=lambda text: text):
 def test_small_robots_are_equal(name, base, tmp_path):
     options = Options(srdf=GOLDENS[name].srdf, base=base, actuators="position")
     checks = verified(name, tmp_path, options)
-    expected = {"platform": {"equal", "announced"}}.get(name, {"equal"})
+    lossy = ("platform", "rover")  # friction by direction
+    expected = {"equal", "announced"} if name in lossy else {"equal"}
     # gains are for the step of the model, 2 ms; at 5 ms, the rover on two wheels rolls by 26 mm
     steps = [check for check in checks if check.name == "runs"]
     assert {check.verdict for check in steps} <= {"equal", "announced"}

@@ -122,7 +122,7 @@ def test_a_static_robot_of_two_trees_is_faithful(tmp_path, choices):
     ("part", "old", "new", "row"),
     [
         ("scanner", "<topic>scan</topic>", "<topic>other</topic>", "sensors"),
-        ("scanner", 'type="gpu_lidar"', 'type="gpu_ray"', "sensors"),
+        ("scanner", 'type="gpu_lidar"', 'type="ray"', "sensors"),
         ("cameras", r'(?s)<sensor name="two_right".*?</sensor>', "", "sensors"),
         ("old noise", "<stddev>0.1<", "<stddev>0.2<", "sensors"),
         ("sensing plugin", "<pose>0 0 1 ", "<pose>0 0 2 ", "sensors"),

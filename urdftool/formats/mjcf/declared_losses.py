@@ -42,9 +42,10 @@ EXCUSES = (
     Excuse(("tree", "axes", "frames", "limits", "joint physics", "actuators"), frozenset(TREE)),
     Excuse(("frames", "tree", "base"), frozenset(TORN), "robot"),
     Excuse(("limits", "actuators"), frozenset((*LIMITS, *EFFORT))),
-    Excuse(("collisions", "visuals", "surface", "colors"), frozenset(SHAPES)),
+    Excuse(("collisions", "visuals", "surface", "colors", "textures"), frozenset(SHAPES)),
     Excuse(("collisions", "surface"), frozenset(("lossy-convex",))),
-    Excuse(("colors",), frozenset(("lossy-material", "lossy-texture"))),
+    Excuse(("surface",), frozenset(("lossy-friction",)), properties=("second friction",)),
+    Excuse(("colors", "textures"), frozenset(("lossy-material", "lossy-texture"))),
     Excuse(("sensors",), frozenset(("lossy-sensor", "lossy-camera"))),
     Excuse(("loops",), frozenset(LOOPS)),
     Excuse(

@@ -16,6 +16,9 @@ from .digits import format_numbers_text, number_text
 DEFAULT_FRICTION = "1 0.005 0.0001"
 """MuJoCo's sliding, torsional [m] and rolling [m] friction."""
 
+USUAL_FRICTION = float(DEFAULT_FRICTION.split()[0])
+"""MuJoCo's sliding friction of a geom."""
+
 # keyword -> why it is not exported, and the severity of the loss
 LOST: dict[str, tuple[str, Severity]] = {
     "fdir1": ("MuJoCo's geoms have no friction direction", Severity.WARNING),
@@ -89,7 +92,8 @@ def report_surface_losses(link: Link, written: Written) -> None:
     for collision in link.collisions:
         one, two = (get_number(collision.surface, name) for name in ("friction", "second_friction"))
         bounce = collision.surface.get("restitution")
-        if one is not None and two is not None and one != two:
+        one = USUAL_FRICTION if one is None else one
+        if two is not None and one != two:
             text = f"friction of '{link.name}' is {one:g} and {two:g} by direction; MuJoCo's geoms "
             at = collision.surface["second_friction"].place
             text += f"have one, {one:g}"
@@ -104,7 +108,7 @@ def report_surface_losses(link: Link, written: Written) -> None:
 
 def _is_written(row: Setting) -> bool:
     """Tell whether an export writes a setting, or reports it itself."""
-    return bool(row.mjcf) or row.name in ("second_friction", "restitution", "self_collide")
+    return bool(row.mjcf) or row.name in ("restitution", "self_collide")
 
 
 def report_gazebo_losses(robot: Robot, written: Written) -> None:

@@ -27,6 +27,7 @@ from ..common.standing_pose import choose_standing_positions
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
+from .gazebo import USUAL_FRICTION
 from .home import Home, place_home
 from .inertials import compute_inertials
 from .joint import PLANAR_SUFFIXES, get_axis, get_plane
@@ -39,9 +40,6 @@ from .structure import WORLD, ZERO_AXIS, Structure, create_structure
 
 DIFFUSE, SPECULAR, CUTOFF = (0.7, 0.7, 0.7), (0.3, 0.3, 0.3), 45.0
 """MuJoCo's colors and half angle [°] of a light."""
-
-USUAL_FRICTION = 1.0
-"""MuJoCo's sliding friction of a geom."""
 
 
 @dataclass(frozen=True)

@@ -78,7 +78,7 @@ def _read_surface(row: Row, written: Written) -> Settings:
         if setting.mjcf == _FRICTION and numbers[setting.name] != setting.default:
             settings[setting.name] = Value(written, numbers[setting.name])
     if sliding != 1.0:
-        settings["friction"] = Value(written, sliding)
+        settings["friction"] = settings["second_friction"] = Value(written, sliding)
     return settings
 
 

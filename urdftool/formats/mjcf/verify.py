@@ -18,13 +18,12 @@ import numpy as np
 from ...compare.check import Check
 from ...compare.proof import Claims, prove
 from ...compare.rows import GLOBAL_ROWS, ROWS, Row
-from ...finding import Finding
 from ...mechanics.reference import Mechanics
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
 from ...model.load import read_again
 from ...model.world import add_world
-from ..common.losses import DeclaredLosses
+from ..common.losses import DeclaredLosses, name_links
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
@@ -33,7 +32,7 @@ from .read import read
 from .verify_defaults import check_defaults
 from .verify_fuse import fuse_check
 from .verify_home import check_home
-from .verify_looks import check_material, list_look_names
+from .verify_looks import check_material
 from .verify_meshes import SourceMeshes
 from .verify_runs import check_runs
 from .verify_scene import check_scene
@@ -51,7 +50,7 @@ _EXACT = 1e-9
 _SINGLE = 1e-6
 """Tolerance of what MuJoCo or a mesh file stores in single precision."""
 
-_NOT_READ = (*GLOBAL_ROWS, "simulator data", "plugins", "looks", "textures")
+_NOT_READ = (*GLOBAL_ROWS, "simulator data", "plugins", "looks")
 """Rows that are compared in the compiled model, or do not exist in MJCF."""
 
 
@@ -173,7 +172,7 @@ def _make_joint(joint: Joint, source: Robot) -> Joint:
 def _compare_read(expected: Robot, written: Written, model: Path) -> list[Check]:
     """Compare the robot that is read from the file."""
     reading = read(model)
-    losses = list(_name_links(expected, written.losses))
+    losses = list(name_links(expected, written.losses))
     claims = Claims(losses, written.renamed, EXCUSES, reading.losses)
     return prove(expected, reading.robot, claims, rows=_choose_rows())
 
@@ -185,15 +184,6 @@ def _choose_rows() -> tuple[Row, ...]:
         for row in ROWS
         if row.name not in _NOT_READ
     )
-
-
-def _name_links(robot: Robot, losses: list[Finding]) -> Iterator[Finding]:
-    """Yield losses, those of meshes and materials also for each link that has them."""
-    yield from losses
-    named = [loss for loss in losses if loss.kind in ("mesh", "material")]
-    for link in robot.links if named else ():
-        names = list_look_names(link)
-        yield from (replace(loss, name=link.name) for loss in named if loss.name in names)
 
 
 def _compare_compiled(

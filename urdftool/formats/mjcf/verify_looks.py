@@ -16,9 +16,9 @@ from ...compare.links import describe_shape
 from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
-from ...model.elements import Capsule, Collision, Geometry, Link, Material, Mesh, Robot, Visual
+from ...model.elements import Capsule, Geometry, Link, Material, Mesh, Robot, Visual
 from ...model.gazebo_colors import get_rgba
-from ..common.losses import DeclaredLosses
+from ..common.losses import DeclaredLosses, list_look_names
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
 from .verify_meshes import SourceMeshes
@@ -117,16 +117,6 @@ def _has_size(geometry: Geometry | None) -> bool:
         value for key in ("size", "radii", "radius", "length") for value in lengths.get(key) or ()
     ]
     return isinstance(geometry, Capsule) or (bool(sizes) and min(sizes) > 0)
-
-
-def list_look_names(link: Link) -> set[str]:
-    """Return the names of the materials and mesh files of a link, which losses have."""
-    names = {visual.material.name for visual in link.visuals if visual.material is not None}
-    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
-    for shape in shapes:
-        if isinstance(shape.geometry, Mesh):
-            names.add(shape.geometry.filename.rpartition("/")[2])
-    return names
 
 
 def _get_own(robot: Robot, link: Link, visual: Visual) -> Look:

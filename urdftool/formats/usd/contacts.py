@@ -72,24 +72,19 @@ def list_overlaps(
 
 
 def write_pairs(
-    links: LinkWriter, pairs: Iterable[tuple[str, str]], proofs: Mapping[frozenset[str], str]
-) -> int:
-    """Write pairs of links that never collide, by their bodies; return their number.
+    links: LinkWriter, pairs: Iterable[ContactExclusion], proofs: Mapping[frozenset[str], str]
+) -> None:
+    """Write pairs of bodies that never collide, each at the first of its names.
 
     Args:
         links: Writer of the links.
-        pairs: Names of the links of each pair.
+        pairs: The pairs.
         proofs: Texts for custom data, by the names of both links.
     """
-    carrier = links.bodies.carrier
     found: dict[str, set[str]] = {}
-    texts: dict[str, list[str]] = {}
-    for one, other in pairs:
-        first, second = sorted((carrier[one], carrier[other]))
-        if first and second and first != second:
-            found.setdefault(first, set()).add(second)
-            if proof := proofs.get(frozenset((one, other))):
-                texts.setdefault(first, []).append(f"{one}, {other}: {proof}")
+    for pair in pairs:
+        found.setdefault(pair.link, set()).add(pair.other)
+    texts = _list_proofs(links.bodies.carrier, found, proofs)
     with links.builder.edit_layer(PHYSICS):
         for first, others in found.items():
             prim = links.builder.stage.GetPrimAtPath(links.get_path(first))
@@ -98,4 +93,18 @@ def write_pairs(
             filtered.CreateFilteredPairsRel().SetTargets(paths)
             if first in texts:
                 prim.SetCustomDataByKey("urdf:filteredPairs", "; ".join(texts[first]))
-    return sum(map(len, found.values()))
+
+
+def _list_proofs(
+    carrier: Mapping[str, str],
+    pairs: Mapping[str, set[str]],
+    proofs: Mapping[frozenset[str], str],
+) -> dict[str, list[str]]:
+    """Return the proofs of the pairs of each body, by its name."""
+    texts: dict[str, list[str]] = {}
+    for names, proof in proofs.items():
+        one, other = sorted(names)
+        first, second = sorted((carrier.get(one, ""), carrier.get(other, "")))
+        if second in pairs.get(first, ()):
+            texts.setdefault(first, []).append(f"{one}, {other}: {proof}")
+    return texts

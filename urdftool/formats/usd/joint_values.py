@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...diagnostic import Severity
@@ -84,22 +84,25 @@ def choose_joint_values(
     return found
 
 
-def _choose(
-    joint: Joint, gains: tuple[float, float], settings: JointSettings, written: Written
-) -> JointValues:
-    kp, kd = gains
+def get_own_values(joint: Joint) -> JointValues:
+    """Return the values of the description of a joint, without gains; none is negative."""
     limit, dynamics = joint.limit, joint.dynamics
     effort = limit.effort if limit is not None else None
     velocity = limit.velocity if limit is not None else None
-    plain = JointValues(
+    return JointValues(
         effort=None if effort is None or not math.isfinite(effort) else abs(effort),
         velocity=None if not velocity or not math.isfinite(velocity) else abs(velocity),
         friction=max((dynamics.friction if dynamics else None) or 0.0, 0.0),
         damping=max((dynamics.damping if dynamics else None) or 0.0, 0.0),
         armature=max((dynamics.armature if dynamics else None) or 0.0, 0.0),
-        kp=kp,
-        kd=kd,
     )
+
+
+def _choose(
+    joint: Joint, gains: tuple[float, float], settings: JointSettings, written: Written
+) -> JointValues:
+    kp, kd = gains
+    plain = replace(get_own_values(joint), kp=kp, kd=kd)
     force = settings.force_range
     own = JointSettings(kp, kd, plain.armature, plain.damping, plain.friction)
     chosen = settings.override(own)

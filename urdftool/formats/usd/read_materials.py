@@ -68,6 +68,8 @@ def read_surface(context: Context, prim: Usd.Prim) -> Settings:
         if value is not None:
             content = convert_float(value)
             found[name] = Value(context.get_written(own, f"physics:{attribute}"), content)
+    if "friction" in found:  # the same in each direction
+        found["second_friction"] = found["friction"]
     still = context.get_value(own, "physics:staticFriction")
     if still is not None and still != context.get_value(own, "physics:dynamicFriction"):
         text = "friction at rest (staticFriction) other than in motion is not read"

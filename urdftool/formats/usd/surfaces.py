@@ -32,11 +32,11 @@ class SurfaceWriter:
         surface = collision.surface
         sliding, other = (get_number(surface, name) for name in ("friction", "second_friction"))
         bounce = get_number(surface, "restitution") or 0.0
-        if sliding is None and not bounce:
+        if sliding is None and other is None and not bounce:
             return None
         if sliding is None:  # the schema's default is 0; Gazebo and MuJoCo have 1
             sliding = 1.0
-        if sliding is not None and other is not None and other != sliding:
+        if other is not None and other != sliding:
             self.written.report_loss(
                 "friction",
                 f"friction of link '{link.name}' is {sliding:g} and {other:g} by direction; a "

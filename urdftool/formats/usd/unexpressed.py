@@ -41,7 +41,7 @@ def report_losses(robot: Robot, written: Written) -> None:
 
 def _is_written(row: Setting) -> bool:
     """Tell whether an export writes a setting, or reports it itself."""
-    reported = ("second_friction", "spring_stiffness", "spring_reference", "self_collide")
+    reported = ("spring_stiffness", "spring_reference", "self_collide")
     return bool(row.usd) or row.name in reported
 
 

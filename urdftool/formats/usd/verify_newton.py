@@ -15,23 +15,22 @@ from ...compare.check import Check
 from ...errors import UrdftoolError
 from ...isolated import IsolatedProcess
 from ...mechanics.reference import Mechanics
-from ...model.elements import Joint
+from ...model.elements import Joint, Robot
 from ...model.kinematics import add_mimic_positions, get_limits
 from ...model.pose import rotation_from_quaternion
-from ..common.actuator_config import JointSettings
+from ..common.losses import DeclaredLosses
+from .declared_losses import INERTIA, MASS, TREE
 from .verify_newton_shapes import compare_colliders
-from .verify_pair import (
+from .verify_newton_source import (
     CONFIGURATIONS,
     FLOAT,
-    INERTIA_LOSSES,
-    MASS_LOSSES,
-    Pair,
+    Source,
     compare_poses,
     get_effort,
     get_gains,
     get_inertial,
     get_resistance,
-    is_below_changed_joint,
+    make_source,
     resolve_mimic,
 )
 
@@ -47,17 +46,24 @@ _UNLIMITED = 1e9
 """Position beyond which Newton treats a joint as unlimited."""
 
 
-def compare_newton(pair: Pair, path: Path) -> list[Check]:
-    """Import a stage with Newton in a process of its own, and compare it with the source."""
+def compare_newton(robot: Robot, losses: DeclaredLosses, path: Path) -> list[Check]:
+    """Import a stage with Newton in a process of its own, and compare it with the source.
+
+    Args:
+        robot: The robot that the stage must hold.
+        losses: What the export reported.
+        path: Path of the stage.
+    """
+    source = make_source(robot, losses, path)
     links, joints = _read_names(path)
     paths = {name: label for label, name in joints.items()}
     configurations = [
         {
             paths[name]: value
-            for name, value in add_mimic_positions(pair.source, q).items()
+            for name, value in add_mimic_positions(source.robot, q).items()
             if name in paths
         }
-        for q in pair.configurations
+        for q in source.configurations
     ]
     accepted = Check("Newton: import", "Newton accepts the stage", 0.0)
     try:
@@ -80,10 +86,10 @@ def compare_newton(pair: Pair, path: Path) -> list[Check]:
     accepted.compare(0.0, "")
     return [
         accepted,
-        *_compare_bodies(pair, bodies),
-        *_compare_joints(pair, moving, joints),
-        _compare_frames(pair, answer["poses"], links),
-        *compare_colliders(pair, answer["shapes"], links),
+        *_compare_bodies(source, bodies),
+        *_compare_joints(source, moving, joints),
+        _compare_frames(source, answer["poses"], links),
+        *compare_colliders(source, answer["shapes"], links),
     ]
 
 
@@ -100,14 +106,13 @@ def _read_names(path: Path) -> tuple[dict[str, str], dict[str, str]]:
     return links, joints
 
 
-def _compare_bodies(pair: Pair, bodies: Mapping[str, dict[str, Any]]) -> list[Check]:
-
+def _compare_bodies(source: Source, bodies: Mapping[str, dict[str, Any]]) -> list[Check]:
     mass = Check("Newton: mass", "mass of each body, and their sum, relative", FLOAT)
     center = Check("Newton: center of mass", "of each body [m]", FLOAT)
     inertia = Check("Newton: inertia", "tensor of each body, relative to its largest entry", FLOAT)
     repaired = Check("Newton: repairs", "mass and inertia after finalize()", FLOAT)
     total = 0.0
-    for link in pair.source.links:
+    for link in source.robot.links:
         weight, at, tensor = get_inertial(link)
         body = bodies.get(link.name)
         name = f"link '{link.name}'"
@@ -115,26 +120,26 @@ def _compare_bodies(pair: Pair, bodies: Mapping[str, dict[str, Any]]) -> list[Ch
             mass.compare(float(weight > 0), f"{name} is not a body")
             continue
         total += body["mass"]
-        known = pair.losses.has_for(MASS_LOSSES, link.name)
+        known = source.losses.has_for(MASS, link.name)
         mass.compare(abs(weight - body["mass"]) / max(weight, 1e-30), name, known=known)
         size = max(1.0, float(np.abs(at).max()))
         if weight:
             offset = float(np.abs(at - np.array(body["com"])).max())
             center.compare(offset / size, name, known=known)
         read = np.array(body["inertia"])
-        known = pair.losses.has_for(INERTIA_LOSSES, link.name)
+        known = source.losses.has_for(INERTIA, link.name)
         scale = float(np.abs(tensor).max()) or 1.0
         inertia.compare(float(np.abs(tensor - read).max()) / scale, name, known=known)
         final = float(np.abs(np.array(body["final_inertia"]) - read).max())
         repaired.compare(final / max(float(np.abs(read).max()), 1e-30), name)
-    expected = sum(get_inertial(link)[0] for link in pair.source.links)
+    expected = sum(get_inertial(link)[0] for link in source.robot.links)
     sums = abs(total - expected) / max(expected, 1e-30)
-    mass.compare(sums, "sum", known=pair.losses.has_any(*MASS_LOSSES))
+    mass.compare(sums, "sum", known=source.losses.has_any(*MASS))
     return [mass, center, inertia, repaired]
 
 
 def _compare_joints(
-    pair: Pair, moving: Mapping[str, dict[str, Any]], names: Mapping[str, str]
+    source: Source, moving: Mapping[str, dict[str, Any]], names: Mapping[str, str]
 ) -> list[Check]:
     freedoms = Check("Newton: joints", "types and degrees of freedom", 0.0)
     values = Check(
@@ -143,9 +148,9 @@ def _compare_joints(
         1e-6,
     )
     mimic = Check("Newton: mimic", "leader, factor and offset", 1e-6)
-    for joint in pair.source.joints:
+    for joint in source.robot.joints:
         read = moving.get(joint.name)
-        known = pair.losses.has_for(("lossy-joint-type", "lossy-floating-joint"), joint.name)
+        known = source.losses.has_for(TREE, joint.name)
         label = f"joint '{joint.name}'"
         if read is None:
             freedoms.compare(float(not joint.is_fixed and joint.type != "floating"), label,
@@ -155,11 +160,11 @@ def _compare_joints(
         freedoms.compare(float(read["freedoms"] != expected), label, known=known)
         if expected != 1 or read["freedoms"] != 1:
             continue
-        for name, (ours, theirs) in _get_values(pair, joint, read).items():
+        for name, (ours, theirs) in _get_values(source, joint, read).items():
             lost = ("lossy-velocity",) if name == "velocity" else ()
-            excused = known or pair.losses.has_for(lost, joint.name)
+            excused = known or source.losses.has_for(lost, joint.name)
             values.compare(_measure_difference(ours, theirs), f"{name} of {label}", known=excused)
-        _compare_mimic(pair, joint, read, names, mimic)
+        _compare_mimic(source, joint, read, names, mimic)
     return [freedoms, values, mimic]
 
 
@@ -167,17 +172,16 @@ _FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "ball"
 
 
 def _get_values(
-    pair: Pair, joint: Joint, read: Mapping[str, float]
+    source: Source, joint: Joint, read: Mapping[str, float]
 ) -> dict[str, tuple[float, float]]:
     lower, upper = get_limits(joint)
-    settings = pair.settings.get(joint.name, JointSettings())
     velocity = joint.limit.velocity if joint.limit is not None else None
-    friction, damping, armature = get_resistance(joint, settings)
-    kp, kd = get_gains(pair.source, joint, settings)
+    friction, damping, armature = get_resistance(joint)
+    kp, kd = get_gains(source.robot, joint)
     return {
         "lower limit": (_bound(lower), _bound(read["limit_lower"])),
         "upper limit": (_bound(upper), _bound(read["limit_upper"])),
-        "effort": (get_effort(joint, settings), _bound(read["effort_limit"])),
+        "effort": (get_effort(joint), _bound(read["effort_limit"])),
         "velocity": (_NO_VELOCITY if velocity is None else abs(velocity), read["velocity_limit"]),
         "friction": (friction, read["friction"]),
         "damping": (damping, read["damping"]),
@@ -196,10 +200,9 @@ def _measure_difference(one: float, other: float) -> float:
 
 
 def _compare_mimic(
-    pair: Pair, joint: Joint, read: Mapping[str, Any], names: Mapping[str, str], check: Check
+    source: Source, joint: Joint, read: Mapping[str, Any], names: Mapping[str, str], check: Check
 ) -> None:
-
-    leader, factor, offset = resolve_mimic(joint, pair.source)
+    leader, factor, offset = resolve_mimic(joint, source.robot)
     got = read["mimic"]
     theirs = (joint.name, 1.0, 0.0) if got is None else (names.get(got[0], ""), *got[1:])
     difference = float(leader != theirs[0])
@@ -208,30 +211,30 @@ def _compare_mimic(
             _measure_difference(float(factor), theirs[1]),
             _measure_difference(float(offset), theirs[2]),
         )
-    known = pair.losses.has_for(("lossy-mimic",), joint.name)
+    known = source.losses.has_for(("lossy-mimic",), joint.name)
     check.compare(difference, f"joint '{joint.name}'", known=known)
 
 
 def _compare_frames(
-    pair: Pair, poses: list[dict[str, list[float]]], links: Mapping[str, str]
+    source: Source, poses: list[dict[str, list[float]]], links: Mapping[str, str]
 ) -> Check:
     check = Check(
         "Newton: frames", f"poses of bodies in the first, at {CONFIGURATIONS + 1} configurations",
         1e-5,
     )  # fmt: skip
-    source = Mechanics(pair.source)
-    for positions, read in zip(pair.configurations, poses, strict=True):
-        ours = source.compute_frames(add_mimic_positions(pair.source, positions))
+    mechanics = Mechanics(source.robot)
+    for positions, read in zip(source.configurations, poses, strict=True):
+        ours = mechanics.compute_frames(add_mimic_positions(source.robot, positions))
         theirs = {links[label]: _make_matrix(row) for label, row in read.items() if label in links}
         for name, difference in compare_poses(ours, theirs):
-            known = is_below_changed_joint(pair, name)
-            check.compare(difference / _count_depth(pair, name), f"link '{name}'", known=known)
+            known = source.is_below_changed_joint(name)
+            check.compare(difference / _count_depth(source, name), f"link '{name}'", known=known)
     return check
 
 
-def _count_depth(pair: Pair, link: str) -> int:
+def _count_depth(source: Source, link: str) -> int:
     """Return the number of links above a link, at least 1: Newton computes with 32-bit floats."""
-    return max(1, sum(1 for _ in pair.source.tree.list_ancestors(link)))
+    return max(1, sum(1 for _ in source.robot.tree.list_ancestors(link)))
 
 
 def _make_matrix(row: list[float]) -> Array:

@@ -25,7 +25,8 @@ from ...model.elements import (
     Sphere,
 )
 from ...model.settings import get_number
-from .verify_pair import FLOAT, Pair
+from .declared_losses import SHAPES
+from .verify_newton_source import FLOAT, Source
 
 Array = npt.NDArray[np.float64]
 
@@ -38,16 +39,16 @@ The largest difference among the robots of example-robot-data is 6 %.
 _DEFAULT_FRICTION = 1.0
 """Newton's coefficient of friction for shapes without a material."""
 
-_LOST = ("lossy-shape", "lossy-convex", "mesh-not-found", "corrupt-mesh", "bad-scale")
+_LOST = (*SHAPES, "lossy-convex")
 
 
 def compare_colliders(
-    pair: Pair, shapes: list[dict[str, Any]], links: Mapping[str, str]
+    source: Source, shapes: list[dict[str, Any]], links: Mapping[str, str]
 ) -> list[Check]:
     """Compare number and extent of the colliders of each body, with those of its frames.
 
     Args:
-        pair: The robots.
+        source: The robot that the stage must hold.
         shapes: Shapes that Newton has.
         links: Names of links by the paths of their prims.
     """
@@ -62,12 +63,12 @@ def compare_colliders(
     for shape in shapes:
         if shape["collides"]:
             read.setdefault(links.get(shape["body"], ""), []).append(shape)
-    frames = Mechanics(pair.source).compute_frames({})
-    for body, parts in _group_by_body(pair).items():
+    frames = Mechanics(source.robot).compute_frames({})
+    for body, parts in _group_by_body(source).items():
         name = f"link '{body}'" if body else "the world"
         own = [(link, shape) for link in parts for shape in link.collisions if shape.geometry]
         theirs = read.get(body, [])
-        lost = any(pair.losses.has_for(_LOST, link.name) for link in parts)
+        lost = any(source.losses.has_for(_LOST, link.name) for link in parts)
         count.compare(float(len(own) != len(theirs)), name, known=lost)
         if len(own) != len(theirs) or not own:
             continue
@@ -79,7 +80,7 @@ def compare_colliders(
         for one, two in zip(ours, read_friction, strict=True):
             friction.compare(abs(one - two), name, known=lost)
         root = frames[body] if body else np.eye(4)
-        bounds = [_compute_bounds(pair.source, shape, np.linalg.inv(root) @ frames[link.name])
+        bounds = [_compute_bounds(source.robot, shape, np.linalg.inv(root) @ frames[link.name])
                   for link, shape in own]  # fmt: skip
         got = [shape["bounds"] for shape in theirs]
         if all(b is not None for b in bounds) and all(b is not None for b in got):
@@ -90,11 +91,11 @@ def compare_colliders(
     return [count, extent, friction]
 
 
-def _group_by_body(pair: Pair) -> dict[str, list[Link]]:
+def _group_by_body(source: Source) -> dict[str, list[Link]]:
     """Return the links of each body by the name of the link with mass that carries them."""
     found: dict[str, list[Link]] = {}
-    for link in pair.source.links:
-        found.setdefault(pair.body.get(link.name, ""), []).append(link)
+    for link in source.robot.links:
+        found.setdefault(source.body.get(link.name, ""), []).append(link)
     return found
 
 

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostic import Severity
 from ...lint.validate import validate
 from ...model.elements import Robot
-from ...model.mechanism import Configuration, ContactExclusion, JointActuator
 from ..common.naming import replace_file_name
-from ..common.srdf import Srdf, read_srdf
+from ..common.srdf import read_srdf
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .bodies import Bodies, make_bodies, report_floating
 from .contacts import list_overlaps, write_pairs, write_self_collision
 from .files import make_layered_files, make_single_file
-from .home import Home, plan_home, plan_servos
+from .home import plan_home, plan_servos
 from .inertials import make_inertias
 from .isaac import write_isaac
 from .joint_values import choose_joint_values, read_joint_settings
@@ -28,6 +26,7 @@ from .meshes import Meshes
 from .mimics import write_mimics
 from .names import Names, make_names
 from .options import Options
+from .planned import make_planned
 from .shapes import ShapeWriter
 from .stage import ISAAC, LAYERS, PHYSX, StageBuilder
 from .surfaces import SurfaceWriter
@@ -90,21 +89,15 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     servos = plan_servos(bodies, home, options, settings, written)
     values = choose_joint_values(bodies, settings, servos, written)
     overlaps = list_overlaps(robot, options, home.positions, written)
-    written.planned = _plan_robot(robot, servos, home, overlaps)
+    exclusions = [(pair.link, pair.other) for pair in (*robot.exclusions, *overlaps)]
+    pairs = [*exclusions, *(srdf.disabled if srdf else ())]
+    planned = make_planned(bodies, values, home.positions, pairs)
     joints = JointWriter(builder, bodies, names, options, values, home.positions, written)
-    _write_joints(joints, links, options, [*written.planned.exclusions], srdf)
+    _write_joints(joints, links, options, planned)
+    written.planned = planned
     _report_names(bodies, names, written)
     _finish(builder, robot, options, written)
     return written
-
-
-def _plan_robot(
-    robot: Robot, servos: list[JointActuator], home: Home, overlaps: list[ContactExclusion]
-) -> Robot:
-    """Return the robot with its servos, home and exclusions, which the proof expects."""
-    states = [Configuration(None, "home", dict(home.positions))]
-    exclusions = [*robot.exclusions, *overlaps]
-    return replace(robot, joint_actuators=servos, configurations=states, exclusions=exclusions)
 
 
 def _make_builder(names: Names, options: Options) -> StageBuilder:
@@ -114,23 +107,16 @@ def _make_builder(names: Names, options: Options) -> StageBuilder:
     return StageBuilder(names.robot, is_layered=options.layers == "payload", kinds=kinds)
 
 
-def _write_joints(
-    joints: JointWriter,
-    links: LinkWriter,
-    options: Options,
-    exclusions: list[ContactExclusion],
-    srdf: Srdf | None,
-) -> None:
+def _write_joints(joints: JointWriter, links: LinkWriter, options: Options, planned: Robot) -> None:
     written, robot = joints.written, joints.bodies.robot
     joints.write()
     write_mimics(joints)
     write_closures(joints, written)
     write_frames(links, robot)
     write_self_collision(links, options, written)
-    pairs = [(pair.link, pair.other) for pair in exclusions]
-    count = write_pairs(links, [*pairs, *(srdf.disabled if srdf else ())], options.proofs)
-    if count:
-        written.summary.append(f"{count} pairs without contact")
+    write_pairs(links, planned.exclusions, options.proofs)
+    if planned.exclusions:
+        written.summary.append(f"{len(planned.exclusions)} pairs without contact")
     for joint in robot.joints:
         report_unwritten_spring(joint, written)
     if options.target == "isaac":

@@ -8,11 +8,13 @@ from xml.etree import ElementTree
 
 from ....compare.check import Check
 from ....compare.proof import Claims, prove
-from ....compare.rows import EQUIPMENT_ROWS, narrow_tolerances
 from ....compare.rows import ROWS as ROWS_OF_ROBOTS
+from ....compare.rows import narrow_tolerances
 from ....errors import UrdftoolError
 from ....model.elements import Dynamics, Joint, Limit, Robot
 from ....model.load import read_again
+from ....model.mechanism import MountedSensor
+from ....model.sensors import get_kind
 from ....model.world import WORLD, add_gazebo_base, weld_base
 from ...common.actuator_config import JointSettings, read_actuator_config
 from ...common.force_fallbacks import drop_invalid_parts
@@ -20,13 +22,11 @@ from ...written import Written
 from ..options import Options
 from ..read import read
 from ..write import write
-from .declared_losses import EXCUSES, declare_losses, list_added_bodies
+from .declared_losses import EXCUSES, declare_losses, list_added_bodies, name_blocks
 from .elements import compare_elements
 from .frames import open_model
 from .loader import run_loads
 from .pair import Pair
-from .plugins import compare_plugins
-from .sensors import compare_sensors
 from .world import compare_world
 
 TOLERANCE = 1e-9
@@ -34,10 +34,15 @@ TOLERANCE = 1e-9
 above the rounding errors of poses in other frames.
 """
 
-ROWS = tuple(
-    row for row in narrow_tolerances(ROWS_OF_ROBOTS, TOLERANCE) if row.name not in EQUIPMENT_ROWS
+_NOT_IN_SDF = (
+    *("actuators", "contact pairs", "loops", "configurations", "simulator data", "world"),
 )
-"""Rows of the model; the others compare translated sensors and plugins."""
+"""Rows of what SDF does not have; joints of loops are among the other elements."""
+
+ROWS = tuple(
+    row for row in narrow_tolerances(ROWS_OF_ROBOTS, TOLERANCE) if row.name not in _NOT_IN_SDF
+)
+"""Rows of the robot; the other elements of blocks have one of their own."""
 
 COMPARED_AS_ELEMENTS = tuple(
     f"unread-{tag}"
@@ -80,11 +85,10 @@ def read_pair(robot: Robot, written: Written, place: Path, options: Options | No
     source = _read_source(robot, options, written)
     packages = None if robot.source is None else robot.source.packages.make_finder_for(place)
     reading = read(place, packages=packages)
-    losses = [*written.losses, *list_added_bodies(source)]
+    losses = [*written.losses, *name_blocks(robot, written.losses), *list_added_bodies(source)]
     unread = [loss for loss in reading.losses if loss.code not in COMPARED_AS_ELEMENTS]
     claims = Claims(losses, written.renamed, EXCUSES, unread)
-    declared = declare_losses(robot, written.losses)
-    return Pair(source, reading.robot, claims, declared, options, open_model(place))
+    return Pair(source, reading.robot, claims, declare_losses(losses), options, open_model(place))
 
 
 def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
@@ -93,6 +97,9 @@ def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
     if options.force:
         source = drop_invalid_parts(source)
     source = add_gazebo_base(source)
+    if not options.classic:
+        sensors = [_cast_on_gpu(sensor) for sensor in source.mounted_sensors]
+        source = replace(source, mounted_sensors=sensors)
     if options.base == "fixed" or any(one.code == "lossy-welded-base" for one in written.losses):
         root = source.tree.roots[0]
         if root.name != WORLD and source.base is not None:
@@ -106,6 +113,12 @@ def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
         for joint in source.joints
     ]
     return replace(source, joints=joints)
+
+
+def _cast_on_gpu(sensor: MountedSensor) -> MountedSensor:
+    """Return a sensor, a lidar as gz has it."""
+    is_lidar = get_kind(sensor.type).type == "lidar"
+    return replace(sensor, type="gpu_lidar") if is_lidar else sensor
 
 
 def _set(joint: Joint, settings: JointSettings) -> Joint:
@@ -125,7 +138,7 @@ def compare(pair: Pair) -> list[Check]:
     checks = prove(
         pair.robot, pair.result, pair.claims, rows=ROWS, has_frames=pair.options.is_at_least("1.7")
     )
-    return [*checks, compare_sensors(pair), compare_plugins(pair), compare_elements(pair)]
+    return [*checks, compare_elements(pair)]
 
 
 def _check_same_again(robot: Robot, written: Written, options: Options) -> Check:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ....compare.proof import Excuse
 from ....diagnostic import Severity
@@ -51,6 +52,8 @@ EXCUSES = (
     Excuse(("collisions", "visuals"), SHAPES, "body"),
     Excuse(("colors", "looks", "textures"), SHAPES | {"lossy-material", "lossy-texture"}),
     Excuse(("colors", "looks"), BLOCKS, least=Severity.WARNING),
+    Excuse(("sensors",), frozenset(("lossy-frame-id",)), properties=("frame",)),
+    Excuse(("sensors",), BLOCKS | {"lossy-sensor", "unknown-sensor-type"}, least=Severity.WARNING),
     Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
 )
 """Rows and parts that a loss explains."""
@@ -69,14 +72,14 @@ def list_added_bodies(robot: Robot) -> Iterator[Finding]:
             yield Finding(ADDED, Severity.INFO, "", place, "joint", f"{name}_floating")
 
 
-def declare_losses(robot: Robot, losses: Sequence[Finding]) -> DeclaredLosses:
-    """Collect the losses that change the behavior, those of blocks also by their reference."""
-    declared: set[tuple[str, str]] = set()
+def name_blocks(robot: Robot, losses: Sequence[Finding]) -> Iterator[Finding]:
+    """Yield the losses of blocks without a name for the link or joint of each block."""
     for loss in losses:
-        if loss.severity > Severity.INFO:
-            declared.add((loss.code, loss.name))
-            if loss.code in BLOCKS and not loss.name:
-                declared |= {
-                    (loss.code, block) for block in find_references_at(robot, loss.location)
-                }
-    return DeclaredLosses(frozenset(declared))
+        if loss.code in BLOCKS and not loss.name:
+            names = find_references_at(robot, loss.location)
+            yield from (replace(loss, name=name) for name in names)
+
+
+def declare_losses(losses: Sequence[Finding]) -> DeclaredLosses:
+    """Collect the losses that change the behavior."""
+    return DeclaredLosses.from_findings(loss for loss in losses if loss.severity > Severity.INFO)

@@ -10,14 +10,15 @@ import numpy as np
 from ....compare.check import Check
 from ....model.appearance import APPEARANCE
 from ....model.block_elements import list_model_elements, list_part_elements
-from ....model.elements import Joint, Link
+from ....model.elements import Joint, Link, Robot
+from ....model.kinematics import link_poses
+from ....model.read import parse_numbers
 from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS, OF_JOINTS, SURFACE
 from ....source.document import Element
 from .declared_losses import BLOCKS, MOTION
 from .facts import EXACT, Facts, compare_facts, format_value, get_facts
-from .frames import invert_pose
+from .frames import Array, invert_pose, make_pose, make_pose_of_six
 from .pair import Pair
-from .sensors import get_pose_of_element
 
 OTHER_ROWS = frozenset(
     ("sensor", "plugin", "visual", "collision", "material", "velocity_decay", "inertial", "pose",
@@ -135,7 +136,7 @@ def _compare_pose(
     if held is None:
         return
     place = invert_pose(held[1]) @ pair.where.get_local(owner, found)
-    off = float(np.abs(place - get_pose_of_element(pair, link, element)).max())
+    off = float(np.abs(place - _get_pose_of_element(pair, link, element)).max())
     check.compare(off, f"{about} is at another pose", known=known)
 
 
@@ -244,3 +245,20 @@ def _list_facts(pair: Pair, kind: str, link: Link) -> Iterator[Facts]:
 
 def _add_prefix(element: Element) -> Facts:
     return {f"{element.tag}/{path}": value for path, value in get_facts(element).items()}
+
+
+def _get_pose_of_element(pair: Pair, part: Link | Joint, element: Element) -> Array:
+    """Return the pose of an element of a block in the frame of its link."""
+    child = element.find_child("pose")
+    values = parse_numbers(child.text, 6) if child is not None else None
+    pose = make_pose_of_six(values) if values is not None else np.eye(4)
+    frame = child.get("relative_to") if child is not None else None
+    if frame and isinstance(part, Link) and frame in pair.robot.link:
+        placed = _compute_poses(pair.robot)
+        pose = invert_pose(placed[part.name]) @ placed[frame] @ pose
+    return pose
+
+
+def _compute_poses(robot: Robot) -> dict[str, Array]:
+    """Return the poses of links with all joints at zero, 4 × 4."""
+    return {n: make_pose(p.rotation, p.translation) for n, p in link_poses(robot).items()}
