@@ -3,7 +3,8 @@
 Without files, the robots of example-robot-data and pybullet_data that are installed are measured.
 ``--mistakes`` plants one mistake in each result of every fourth robot. ``--peer PYTHON`` measures
 scikit-robot, which that Python has, in place of the operations. ``--write`` writes the tables into
-docs/edit-measurements.md.
+docs/edit-measurements.md. ``--save FILE`` writes the results after each robot; ``--merge FILE...``
+adds those of several processes.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from pathlib import Path
 from ..damage.robots import example_robot_data, pybullet_data
 from .page import write_page
 from .peer_runs import measure_peer
-from .run import Results, measure_robots
+from .run import Results, measure_robots, merge_results
 
 GENERATED = ("random_urdfs",)
 """Folders of pybullet_data with objects that a program made."""
@@ -39,6 +40,8 @@ def main() -> int:
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--mistakes", action="store_true")
     parser.add_argument("--peer", metavar="PYTHON")
+    parser.add_argument("--save", metavar="FILE", type=Path)
+    parser.add_argument("--merge", metavar="FILE", type=Path, nargs="+")
     parser.add_argument("files", nargs="*", type=Path)
     options = parser.parse_args()
     if find_spec("pinocchio") is None:
@@ -46,10 +49,13 @@ def main() -> int:
         return 2
     paths = options.files or list_robots()
     with tempfile.TemporaryDirectory() as folder:
-        if options.peer:
+        if options.merge:
+            results = merge_results(options.merge)
+        elif options.peer:
             results = Results(peer=measure_peer(paths, options.peer, Path(folder)))
         else:
-            results = measure_robots(paths, Path(folder), mistakes=options.mistakes)
+            save, mistakes = options.save, options.mistakes
+            results = measure_robots(paths, Path(folder), mistakes=mistakes, save=save)
     print(write_page(results, is_written=options.write))
     return 0
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 import numpy as np
@@ -71,6 +72,32 @@ class Results:
     peer: list[str] = field(default_factory=list)
 
 
+def save_results(results: Results, path: Path) -> None:
+    """Write results as JSON."""
+    values = vars(results) | {"rows": {name: vars(row) for name, row in results.rows.items()}}
+    path.write_text(json.dumps(values), "utf-8")
+
+
+def merge_results(paths: Sequence[Path]) -> Results:
+    """Read the results of several processes, and return their sums."""
+    total = Results()
+    for path in paths:
+        part = json.loads(path.read_text("utf-8"))
+        total.read += part["read"]
+        total.unread += part["unread"]
+        total.missed += part["missed"]
+        for name, count in part["planted"].items():
+            total.planted[name] += count
+        for name, values in part["rows"].items():
+            row, other = total.rows[name], Row(**values)
+            row.worst = [max(pair) for pair in zip(row.worst, other.worst, strict=True)]
+            for one in fields(Row):
+                if one.name != "worst":
+                    value = getattr(row, one.name) + getattr(other, one.name)
+                    setattr(row, one.name, value)
+    return total
+
+
 def open_robot(path: Path) -> tuple[Robot, str] | None:
     """Return a robot with its text; None if urdftool or Pinocchio does not read it."""
     try:
@@ -81,8 +108,10 @@ def open_robot(path: Path) -> tuple[Robot, str] | None:
         return None
 
 
-def measure_robots(paths: Sequence[Path], folder: Path, *, mistakes: bool) -> Results:
-    """Make and measure all operations on robots."""
+def measure_robots(
+    paths: Sequence[Path], folder: Path, *, mistakes: bool, save: Path | None = None
+) -> Results:
+    """Make and measure all operations on robots; save the results after each robot."""
     results = Results()
     for path in paths:
         opened = open_robot(path)
@@ -103,6 +132,8 @@ def measure_robots(paths: Sequence[Path], folder: Path, *, mistakes: bool) -> Re
                 _go_back(operation, (robot, text), edited, row, (name, folder))
             if mistakes and results.read % EVERY == 0:
                 _plant(operation, robot, edited, results, (name, folder))
+        if save is not None:
+            save_results(results, save)
     return results
 
 

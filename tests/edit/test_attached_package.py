@@ -117,3 +117,27 @@ def test_settings_that_differ_are_an_error(urdftool, write, tmp_path):
     assert result.code == 2
     assert "setting self_collide of the whole robot has another value" in result.err
     assert not (tmp_path / "no.urdf").exists()
+
+
+def test_a_mesh_of_another_package_is_named_by_it(urdftool, tmp_path):
+    arm, hand = copy_packages(tmp_path, "arm")
+    mesh = (
+        '<collision><geometry><mesh filename="../meshes/palm.obj"/></geometry></collision></link>'
+    )
+    hand.write_text(hand.read_text().replace("</link>", mesh, 1))
+    path = hand.parents[1] / "meshes" / "palm.obj"
+    path.parent.mkdir()
+    path.write_text(
+        "v 0 0 0\nv 0.1 0 0\nv 0 0.2 0\nv 0 0 0.3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    )
+    for folder, expected in (
+        (arm.parent, "package://hand_description/meshes/palm.obj"),
+        (arm.parents[1], "package://hand_description/meshes/palm.obj"),
+        (hand.parents[1] / "new", "../meshes/palm.obj"),
+        (tmp_path / "a" / "b" / "out", "../../../hand_description/meshes/palm.obj"),
+    ):
+        out = folder / "robot.urdf"
+        result = urdftool("edit", "attach", arm, hand, *MOUNT, "-o", out)
+        assert result.code == 0, result.err
+        assert f'filename="{expected}"' in out.read_text()
+        assert expected.startswith("package:") or (folder / expected).exists()

@@ -81,7 +81,8 @@ def _attach(
     if text:
         add_prefix(part, text, keep=keep)
         part = apply_changes(part)
-    first = attach_robot(draft, part, mount)
+    folder = None if output is None else Path(output).parent
+    first = attach_robot(draft, part, mount, folder)
     draft.notes += part.notes
     names = [words for words in part.lines if words[0] != "root"]
     lines = [*names, *list_origin_lines(part, first)]

@@ -37,13 +37,15 @@ class Mount:
     rpy: Vector = (0.0, 0.0, 0.0)
 
 
-def attach_robot(arm: Draft, part: Draft, mount: Mount) -> str:
+def attach_robot(arm: Draft, part: Draft, mount: Mount, folder: Path | None = None) -> str:
     """Insert a robot, with its comments, at the end of another; return its first link.
 
     Args:
         arm: The first robot.
         part: The second one, whose names have their prefix already.
         mount: Where it is attached.
+        folder: Folder of the result, to which paths of meshes are relative; None for that of the
+            first robot.
 
     Raises:
         ModelError: Names clash, or the link does not exist.
@@ -57,7 +59,7 @@ def attach_robot(arm: Draft, part: Draft, mount: Mount) -> str:
         part.remove(element)
     _drop_doubles(arm, part)
     _declare_settings(arm, part)
-    _move_paths(arm, part)
+    move_paths(part, Path(arm.file.path).parent if folder is None else folder)
     text = _take_content(arm, part, first, format_joint(mount, name, first))
     arm.append_bytes(text)
     _copy_namespaces(arm, part)
@@ -186,13 +188,11 @@ def _list_plugins(block: Element) -> list[str]:
     return [name for e in block.list_children("plugin") if (name := e.get("filename"))]
 
 
-def _move_paths(arm: Draft, part: Draft) -> None:
-    """Make relative paths of the second robot those of the folder of the first."""
-    move_paths(part, Path(arm.file.path).parent)
-
-
 def move_paths(draft: Draft, folder: Path) -> None:
-    """Make relative paths of meshes and textures relative to another folder."""
+    """Make relative paths of meshes and textures relative to another folder.
+
+    From one package to another, they become ``package://`` paths.
+    """
     here = Path(draft.file.path).parent
     if draft.description.path == "-" or here.resolve() == folder.resolve():
         return
@@ -201,7 +201,17 @@ def move_paths(draft: Draft, folder: Path) -> None:
             continue
         uri = draft.get(element, "filename") or ""
         if uri and "://" not in uri and not uri.startswith(("/", "$")) and uri not in draft.meshes:
-            draft.set(element, "filename", make_relative(uri, here.resolve(), folder.resolve()))
+            draft.set(element, "filename", _refer(draft, here / uri, folder))
+
+
+def _refer(draft: Draft, path: Path, folder: Path) -> str:
+    """Return how a description in a folder refers to a file."""
+    path, folder = path.resolve(), folder.resolve()
+    packages = draft.description.packages
+    owner, own = packages.find_owner(path), packages.find_owner(folder / path.name)
+    if owner is None or own is None or owner == own:
+        return make_relative(path, folder)
+    return f"package://{owner[0]}/{path.relative_to(owner[1]).as_posix()}"
 
 
 def format_joint(mount: Mount, name: str, first: str) -> list[str]:

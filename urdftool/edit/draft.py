@@ -324,6 +324,6 @@ def is_identity(pose: Pose) -> bool:
     return is_same_pose(pose, IDENTITY)
 
 
-def make_relative(uri: str, source: Path, target: Path) -> str:
-    """Return a relative path of a folder, as it is from another folder."""
-    return os.path.relpath(source / uri, target).replace(os.sep, "/")
+def make_relative(path: Path, folder: Path) -> str:
+    """Return a path as it is from a folder."""
+    return os.path.relpath(path, folder).replace(os.sep, "/")

@@ -29,14 +29,17 @@ _MOST_PACKAGES = 200
 def find_semantics(draft: Draft) -> list[TextDraft]:
     """Find the SRDF files of a robot, and record if none is edited.
 
-    Searched are the folder of the description; then its package, by the robot name in the SRDF;
-    then the other packages of its workspace. If several of these have one, none is chosen.
+    Searched are the folder of the description; then its package, and the folder above that of the
+    description, by the robot name in the SRDF; then the other packages of its workspace. If several
+    of these have one, none is chosen.
     """
     beside = get_srdf_documents(draft.robot, draft.description)
     if beside:
         return [TextDraft(document.file) for document in beside]
     packages = draft.description.packages.list_neighbors()[:_MOST_PACKAGES]
     own, others = packages[:1], packages[1:]
+    near = Path(draft.description.path).absolute().parents[:2]  # as urdf/ and srdf/ of a package
+    own += [folder for folder in near[1:] if folder.is_relative_to(own[0]) and folder not in own]
     found = [one for folder in own for one in _search(draft, folder)]
     by_package = [] if found else [list(_search(draft, folder)) for folder in others]
     by_package = [files for files in by_package if files]
