@@ -13,10 +13,13 @@ from urdftool.geometry.load import load_named
 from urdftool.geometry.tessellate import tessellate
 from urdftool.model.kinematics import add_mimic_positions, link_poses
 from urdftool.model.pose import make_pose
-from urdftool.srdf.chain import bound_motion, find_chain, place
+from urdftool.srdf.chain import find_chain, place
 from urdftool.srdf.cover import make_hull, split_triangles
+from urdftool.srdf.directed import MovingBoxes
+from urdftool.srdf.motion import bound_motion
+from urdftool.srdf.separate import Separator, get_poses
 from urdftool.srdf.shapes import make_circumscribed
-from urdftool.srdf.verdicts import Options, decide
+from urdftool.srdf.verdicts import Options, decide, list_tasks
 
 ROBOTS = [
     FIXTURES / "robots" / "my_robot" / "urdf" / "mobile_manipulator.urdf.xacro",
@@ -135,7 +138,7 @@ def test_motion_bounds_hold_at_random_poses(path):
             ]
             zero = np.zeros(1), np.zeros(1)
             centers = spots[0][:, None], spots[1][:, None]
-            move_a, move_b, _ = bound_motion(chain, placed, half, centers, zero)
+            move_a, move_b = bound_motion(chain, placed, half, centers, zero).bounds
             start = np.linalg.norm(spots[1] - spots[0], axis=1)
             for _ in range(30):
                 moved = place(chain, center + half * random.uniform(-1, 1, center.shape))
@@ -282,3 +285,61 @@ def test_a_body_of_several_links_is_that_of_each(write):
     for verdict in verdicts.pairs[::3]:
         alone = Options(jobs=1, only=frozenset((verdict.links,)))
         assert decide(robot, alone).pairs[0].kind == verdict.kind
+
+
+@pytest.mark.parametrize("path", ROBOTS, ids=lambda path: path.name)
+def test_free_pieces_are_apart_at_random_poses_of_their_box(path):
+    """Pieces that a direction separates in a box are apart at all its joint positions."""
+    import fcl
+
+    robot, random, freed = load(path), np.random.default_rng(7), 0
+    for task in list_tasks(robot, Options()):
+        chain, covers = task.chain, (task.a.cover, task.b.cover)
+        if not chain.coordinates:
+            continue
+        number = np.zeros((len(covers[0]), len(covers[1])), dtype=np.int64)
+        separator = Separator(covers, number, 1e-4)
+        lower = np.array([c.lower for c in chain.coordinates])
+        upper = np.array([c.upper for c in chain.coordinates])
+        center = random.uniform(lower, upper, (40, len(lower)))
+        half = random.choice([0.01, 0.03, 0.1], (40, 1)) * (upper - lower)
+        placed = place(chain, center)
+        centers = separator.locate(get_poses(placed))
+        motion = bound_motion(chain, placed, half, centers, (covers[0].radii, covers[1].radii))
+        boxes = MovingBoxes(placed, motion, tuple(step.column for step in chain.steps))
+        box = np.arange(40)
+        pieces = tuple(random.integers(0, len(cover), 40) for cover in covers)
+        unit = random.normal(size=(40, 3)) * 0.2 + centers[1][box, pieces[1]]
+        unit -= centers[0][box, pieces[0]]
+        unit /= np.linalg.norm(unit, axis=1)[:, None]
+        gap = measure_gap(covers, placed, pieces, unit)
+        free = separator.directed.find_free(boxes, box, pieces, unit, gap, 1e-4)
+        crude = motion.bounds[0][box, pieces[0]] + motion.bounds[1][box, pieces[1]] + 1e-4
+        freed += (free & (gap <= crude)).sum()
+        for _ in range(20):
+            moved = place(chain, center + half * random.choice([-1, 1, 0.3], center.shape))
+            for row in np.nonzero(free)[0]:
+                solids = [separator._get_solid(side, int(pieces[side][row])) for side in (0, 1)]
+                objects = [
+                    fcl.CollisionObject(solid, fcl.Transform(turn[row], shift[row]))
+                    for solid, (turn, shift) in zip(solids, get_poses(moved), strict=True)
+                ]
+                distance = fcl.distance(*objects, fcl.DistanceRequest(), fcl.DistanceResult())
+                assert distance > 0
+    assert freed > 20  # pairs that only the bound of second order separates
+
+
+def measure_gap(covers, placed, pieces, unit):
+    """Return the distance of pieces along directions at the centers of their boxes [m]."""
+    heights = []
+    for cover, some, (turn, shift), choose in zip(
+        covers, pieces, get_poses(placed), (max, min), strict=True
+    ):
+        heights.append(
+            [
+                choose((cover.pieces[index].points @ turn[row].T + shift[row]) @ unit[row])
+                for row, index in enumerate(some)
+            ]
+        )
+    grown = covers[0].inflation[pieces[0]] + covers[1].inflation[pieces[1]]
+    return np.array(heights[1]) - np.array(heights[0]) - grown

@@ -1,16 +1,4 @@
-"""Joints between two links, and how far they move the links' points.
-
-The theorem of the proof. Let c be the center of a box of joint values and q any point of it, with
-half widths h. Number the joints on the path from link A to link B with 1 to n, and choose a split
-s. Seen from the frame between the joints s and s + 1, only the joints s + 1 … n move B, and only
-1 … s move A. Move the joints from c to q one after the other, n first. The joint k then turns about
-the axis that it has at c, because the joints between the frame and k are still at c. A point at the
-distance ρ from that axis at c, which the joints after k have moved by at most D, is at most at the
-distance ρ + D from it, and moves along a chord of at most ``2 sin(min(h, π) / 2) (ρ + D)``; a
-prismatic joint moves it by at most h. The sum over the joints bounds the displacement of each point
-of B, and in the same way of A. So two bodies whose distance at c is larger than the sum of both
-bounds do not touch at any q of the box, for each s.
-"""
+"""Joints between two links, and the poses of both at joint positions."""
 
 from __future__ import annotations
 
@@ -20,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry.mesh import Array, Points
+from ..geometry.mesh import Array
 from ..model.elements import Joint, Robot
 from ..model.kinematics import find_movable_joints, follow_mimic_chain, get_limits
 from ..model.pose import IDENTITY, Pose, make_pose
@@ -225,67 +213,3 @@ def _rotate(axis: Array, angle: Array) -> Array:
     sine, versine = np.sin(angle)[:, None, None], (1 - np.cos(angle))[:, None, None]
     rotations: Array = np.eye(3) + sine * cross + versine * (cross @ cross)
     return rotations
-
-
-def bound_motion(
-    chain: Chain,
-    placed: Placement,
-    halves: Array,
-    centers: tuple[Points, Points],
-    radii: tuple[Array, Array],
-) -> tuple[Array, Array, Array]:
-    """Bound the displacement of each piece within boxes of joint values.
-
-    Args:
-        chain: Joints.
-        placed: Bodies at the centers of the boxes.
-        halves: Half widths of the boxes [rad, m], shape (n, number of coordinates).
-        centers: Centers of the pieces of A and of B in the placed frame [m], shape (n, k, 3).
-        radii: Radii of their bounding spheres [m], shape (k,).
-
-    Returns:
-        Bounds for the pieces of A and of B [m], shape (n, k), for the best split of the joints;
-        and the share of each coordinate in their sum [m], shape (n, number of coordinates).
-    """
-    steps = chain.steps
-    of_a = _accumulate(steps, placed, halves, centers[0], radii[0], range(len(steps)))
-    of_b = _accumulate(steps, placed, halves, centers[1], radii[1], range(len(steps))[::-1])
-    worst_a = np.stack([bound.max(axis=1) for bound in of_a])
-    worst_b = np.stack([bound.max(axis=1) for bound in of_b[::-1]])
-    split = np.argmin(worst_a + worst_b, axis=0)
-    rows = np.arange(len(halves))
-    share = np.zeros_like(halves)
-    for index, step in enumerate(steps):
-        on_a = split > index
-        more = np.where(
-            on_a, worst_a[index + 1] - worst_a[index], worst_b[index] - worst_b[index + 1]
-        )
-        share[:, step.column] += more
-    return np.stack(of_a)[split, rows], np.stack(of_b[::-1])[split, rows], share
-
-
-def _accumulate(
-    steps: Sequence[Step],
-    placed: Placement,
-    halves: Array,
-    centers: Points,
-    radii: Array,
-    order: Sequence[int],
-) -> list[Array]:
-    """List the bounds after none, one, two … of the joints in an order, each of shape (n, k)."""
-    total = np.zeros(centers.shape[:2])
-    totals = [total]
-    for index in order:
-        step = steps[index]
-        half = abs(step.scale) * halves[:, step.column]
-        more = (abs(step.slide) * half)[:, None]
-        if step.turn:
-            chord = 2 * np.sin(np.minimum(half, np.pi) / 2)
-            between = centers - placed.points[index][:, None]
-            along = np.einsum("nki,ni->nk", between, placed.axes[index])
-            squared = np.einsum("nki,nki->nk", between, between) - along * along
-            distance = np.sqrt(np.maximum(squared, 0.0)) + radii
-            more = more + chord[:, None] * (distance + total)
-        total = total + more
-        totals.append(total)
-    return totals

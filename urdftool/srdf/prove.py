@@ -1,7 +1,7 @@
 """Proof by boxes of joint values that links of two bodies never touch.
 
 A box is free for a pair of links if the distance of their covers at its center is larger than all
-displacements within it (the theorem of :mod:`.chain`), by a margin that is larger than all errors
+displacements within it (the theorems of :mod:`.motion`), by a margin that is larger than all errors
 of rounding. Else it is halved, unless the links touch at its center, which is a witness.
 """
 
@@ -13,8 +13,10 @@ import numpy as np
 
 from ..geometry.mesh import Array
 from .body import Body, Contacts
-from .chain import Chain, Placement, bound_motion, place
-from .separate import Candidates, Poses, Separator
+from .chain import Chain, Placement, place
+from .directed import MovingBoxes
+from .motion import bound_motion
+from .separate import Candidates, Separator, get_poses
 
 MARGIN = 1e-4
 """Distance added to each displacement [m], above the errors of FCL (1e-6) and of sums (1e-8).
@@ -126,7 +128,8 @@ class Prover:
             number[pair] = index
         self.pair_of = number[a.cover.owner[:, None], b.cover.owner[None]]
         """Index of the pair of links of two pieces, shape (ka, kb); -1 for none."""
-        self.separator = Separator(self.covers, self.pair_of)
+        self.separator = Separator(self.covers, self.pair_of, MARGIN)
+        self.columns = tuple(step.column for step in chain.steps)
         self.lower = np.array([c.lower for c in chain.coordinates])
         self.upper = np.array([c.upper for c in chain.coordinates])
 
@@ -202,7 +205,7 @@ class Prover:
     def _measure_spheres(self, placed: Placement, pieces: tuple[np.ndarray, ...]) -> Array:
         """Return the smallest distance of the bounding spheres of each pair of links [m]."""
         ones, others = pieces
-        centers = self.separator.locate(_get_poses(placed))
+        centers = self.separator.locate(get_poses(placed))
         reach = self.covers[0].radii[ones] + self.covers[1].radii[others]
         depth: Array = np.full((len(centers[0]), len(self.pairs)), np.inf)
         pair = self.pair_of[ones, others]
@@ -230,26 +233,26 @@ class Prover:
         c = boxes.candidates
         self.boxes += len(boxes)
         placed = place(self.chain, boxes.values)
-        poses = _get_poses(placed)
-        centers = self.separator.locate(poses)
+        centers = self.separator.locate(get_poses(placed))
         radii = self.covers[0].radii, self.covers[1].radii
-        moves_a, moves_b, share = bound_motion(self.chain, placed, boxes.halves, centers, radii)
-        needed = moves_a[c.box, c.one] + moves_b[c.box, c.other] + MARGIN
+        motion = bound_motion(self.chain, placed, boxes.halves, centers, radii)
+        moving = MovingBoxes(placed, motion, self.columns)
+        needed = motion.bounds[0][c.box, c.one] + motion.bounds[1][c.box, c.other] + MARGIN
         slack = self.separator.compute_slack(c, centers, needed)
         near = np.nonzero(slack <= 0)[0]
         c, needed, slack = c.choose(near), needed[near], slack[near]
-        rows, group, slack = self.separator.resolve(c, poses, needed, slack, boxes.directions)
+        rows, group, slack = self.separator.resolve(c, moving, needed, slack, boxes.directions)
         shape = len(boxes), len(self.pairs)
         depth: Array = np.full(shape[0] * shape[1], np.inf)
-        motion: Array = np.zeros(shape[0] * shape[1])
+        moves: Array = np.zeros(shape[0] * shape[1])
         np.minimum.at(depth, group, slack + needed[rows])
-        np.maximum.at(motion, group, needed[rows])
-        depth, motion = depth.reshape(shape), motion.reshape(shape)
+        np.maximum.at(moves, group, needed[rows])
+        depth, moves = depth.reshape(shape), moves.reshape(shape)
         self._test(boxes.values, placed, depth, TESTS)
         undecided: np.ndarray = np.isfinite(depth)
-        self._measure(boxes.values, placed, motion, undecided)
+        self._measure(boxes.values, placed, moves, undecided)
         left = rows[(undecided & self._list_open()).reshape(-1)[group]]
-        return self._halve(boxes, c.choose(left), share)
+        return self._halve(boxes, c.choose(left), moving.choose_shares())
 
     def _test(self, values: Array, placed: Placement, depth: Array, tests: int) -> None:
         """Test the deepest overlaps of each pair for contact."""
@@ -322,14 +325,9 @@ def _number_boxes(candidates: Candidates) -> tuple[np.ndarray, Candidates]:
     return kept, Candidates(box, candidates.one, candidates.other)
 
 
-def _get_poses(placed: Placement) -> Poses:
-    (a, b), (at_a, at_b) = placed.rotations, placed.translations
-    return (a, at_a), (b, at_b)
-
-
 def get_pose_of(placed: Placement, row: int) -> list[tuple[Array, Array]]:
     """Return rotation and translation [m] of A and of B in one box."""
-    return [(rotation[row], translation[row]) for rotation, translation in _get_poses(placed)]
+    return [(rotation[row], translation[row]) for rotation, translation in get_poses(placed)]
 
 
 def _take(stack: list[Boxes]) -> Boxes:

@@ -15,7 +15,9 @@ from typing import Any
 import numpy as np
 
 from ..geometry.mesh import Array, Faces, Points
+from .chain import Placement
 from .cover import Cover, Piece, make_hull
+from .directed import Directed, MovingBoxes
 
 Indices = np.ndarray
 Poses = tuple[tuple[Array, Array], tuple[Array, Array]]
@@ -45,16 +47,39 @@ class Candidates:
         return Candidates(self.box[rows], self.one[rows], self.other[rows])
 
 
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """What is known of candidates.
+
+    Attributes:
+        needed: Distance that must be exceeded by each at the center of its box [m], shape (m,).
+        slack: Proved distance minus ``needed`` [m].
+        free: Whether a direction separates it in the whole box.
+    """
+
+    needed: Array
+    slack: Array
+    free: Indices
+
+
+def get_poses(placed: Placement) -> Poses:
+    """Return rotation and translation [m] of A and of B."""
+    (a, b), (at_a, at_b) = placed.rotations, placed.translations
+    return (a, at_a), (b, at_b)
+
+
 class Separator:
     """Tests of separation for two covers."""
 
-    def __init__(self, covers: tuple[Cover, Cover], pair_of: Indices) -> None:
+    def __init__(self, covers: tuple[Cover, Cover], pair_of: Indices, margin: float) -> None:
         """Store the covers.
 
         Args:
             covers: Pieces of A and of B.
             pair_of: Index of the pair of links of two pieces, shape (ka, kb).
+            margin: Distance that must remain [m].
         """
+        self.directed, self.margin = Directed(covers), margin
         self.covers, self.pair_of = covers, pair_of
         self.count = int(pair_of.max()) + 1
         self.solids: tuple[dict[int, Any], dict[int, Any]] = {}, {}
@@ -92,7 +117,7 @@ class Separator:
     def resolve(
         self,
         candidates: Candidates,
-        poses: Poses,
+        boxes: MovingBoxes,
         needed: Array,
         slack: Array,
         directions: Array,
@@ -101,7 +126,7 @@ class Separator:
 
         Args:
             candidates: Pairs of pieces that may touch.
-            poses: Poses of both bodies in each box.
+            boxes: Poses of both bodies in each box, and the motion within.
             needed: Distance that must be exceeded by each candidate [m], shape (m,).
             slack: What is known: proved distance minus ``needed`` [m], shape (m,); changed.
             directions: Unit vector that is tried first in each box, shape (n, 3); changed.
@@ -110,12 +135,13 @@ class Separator:
             Rows of the candidates that are left; and for each of them the group, which is the
             box times the number of pairs of links plus the pair; and the slack.
         """
-        c = candidates
+        c, poses = candidates, get_poses(boxes.placed)
         group = c.box * self.count + self.pair_of[c.one, c.other]
         order = np.argsort(group, kind="stable")
-        boxes, which = np.unique(c.box[order], return_inverse=True)
-        first_tried = directions[boxes]
-        rows = order[self._try(c, poses, needed, slack, first_tried, order, (boxes, which))]
+        tried, which = np.unique(c.box[order], return_inverse=True)
+        free = np.zeros(len(c), dtype=bool)
+        known = _Known(needed, slack, free)
+        rows = order[self._try(c, boxes, known, directions[tried], order, (tried, which))]
         settled: list[Indices] = []
         while len(rows):
             first = np.nonzero(np.diff(group[rows], prepend=-1))[0]
@@ -125,8 +151,8 @@ class Separator:
             queried = rows[hits[np.unique(number[hits], return_index=True)[1]]]
             found = self._ask(c.choose(queried), poses)
             directions[c.box[queried]] = found
-            kept = self._try(c, poses, needed, slack, found, rows, (c.box[queried], number))
-            stays = slack[queried] <= 0
+            kept = self._try(c, boxes, known, found, rows, (c.box[queried], number))
+            stays = (slack[queried] <= 0) & ~free[queried]
             done = kept & stays[number]
             settled.append(rows[done])
             rows = rows[kept & ~stays[number]]
@@ -136,25 +162,23 @@ class Separator:
     def _try(
         self,
         c: Candidates,
-        poses: Poses,
-        needed: Array,
-        slack: Array,
+        box: MovingBoxes,
+        known: _Known,
         unit: Array,
         rows: Indices,
         tried: tuple[Indices, Indices],
     ) -> Array:
-        """Update the slack of rows by directions; return which are not free.
+        """Update what is known of rows by directions; return which are not free.
 
         Args:
             c: Candidates.
-            poses: Poses of both bodies in each box.
-            needed: Distance that must be exceeded by each candidate [m].
-            slack: Slack of each candidate [m]; changed.
+            box: Poses of both bodies in each box, and the motion within.
+            known: What is known of each candidate; changed.
             unit: Unit vectors, shape (g, 3).
             rows: Candidates to update, shape (r,).
             tried: Box of each vector, shape (g,), and the vector of each row, shape (r,).
         """
-        boxes, which = tried
+        (boxes, which), poses = tried, get_poses(box.placed)
         gap = np.einsum("ni,ni->n", unit, poses[1][1][boxes] - poses[0][1][boxes])[which]
         for side, index, sign in ((0, c.one, -1.0), (1, c.other, 1.0)):
             cover = self.covers[side]
@@ -162,9 +186,64 @@ class Separator:
             corners, begins = self.corners[side]
             heights = np.minimum.reduceat(corners @ turned.T, begins, axis=0)
             gap = gap + heights[index[rows], which] - cover.inflation[index[rows]]
-        slack[rows] = np.maximum(slack[rows], gap - needed[rows])
-        kept: Array = slack[rows] <= 0
+        slack = known.slack
+        slack[rows] = np.maximum(slack[rows], gap - known.needed[rows])
+        kept: Array = (slack[rows] <= 0) & ~known.free[rows]
+        left = np.nonzero(kept)[0]
+        free = left[self._try_directed(c, box, unit, rows[left], which[left], gap[left])]
+        known.free[rows[free]], kept[free] = True, False
         return kept
+
+    def _try_directed(
+        self,
+        c: Candidates,
+        box: MovingBoxes,
+        unit: Array,
+        rows: Indices,
+        which: Indices,
+        gap: Array,
+    ) -> Indices:
+        """Return the positions of the rows that directions separate in the whole box.
+
+        The nearest pieces of a pair of links are looked at first, and the others if these are free.
+
+        Args:
+            c: Candidates.
+            box: Poses of both bodies in each box, and the motion within.
+            unit: Unit vectors, shape (g, 3).
+            rows: Candidates, shape (r,).
+            which: Vector of each row.
+            gap: Distance of each row along its vector at the center [m].
+        """
+        curves = box.motion.curves
+        curve = curves[0][c.box[rows], c.one[rows]] + curves[1][c.box[rows], c.other[rows]]
+        group = c.box[rows] * self.count + self.pair_of[c.one[rows], c.other[rows]]
+        order = np.lexsort((gap - curve, group))
+        first = np.diff(group[order], prepend=-1) > 0
+        number = np.cumsum(first) - 1
+        nearest = order[first]
+        is_free: Indices = np.zeros(len(nearest), dtype=bool)
+        tried = np.nonzero((gap - curve)[nearest] > self.margin)[0]
+        is_free[tried] = self._find_free(c, box, unit[which], rows, gap, nearest[tried])
+        others = order[~first & is_free[number]]
+        also = others[self._find_free(c, box, unit[which], rows, gap, others)]
+        return np.concatenate([nearest[is_free], also])
+
+    def _find_free(
+        self,
+        c: Candidates,
+        box: MovingBoxes,
+        unit: Array,
+        rows: Indices,
+        gap: Array,
+        some: Indices,
+    ) -> Indices:
+        """Tell which of some rows are free in the whole box."""
+        chosen = rows[some]
+        pieces = c.one[chosen], c.other[chosen]
+        return self.directed.find_free(
+            box, c.box[chosen], pieces, unit[some], gap[some], self.margin
+        )
 
     def _ask(self, chosen: Candidates, poses: Poses) -> Array:
         """Ask FCL for the nearest points of pieces; return unit vectors from A to B, shape (m, 3).

@@ -107,7 +107,7 @@ class Verdicts:
 
 
 @dataclass(frozen=True, eq=False)
-class _Task:
+class Task:
     """Two bodies, the joints between them, and the links to compare."""
 
     a: Body
@@ -147,8 +147,7 @@ def decide(
     options = options or Options()
     names = list_shaped_links(robot, visual=options.visual)
     shapes = {name: read_shapes(robot, name, visual=options.visual) for name in names}
-    adjacent = find_adjacent_pairs(robot, names)
-    tasks, found = _plan(robot, shapes, adjacent, options)
+    tasks, found = _plan(robot, shapes, find_adjacent_pairs(robot, names), options)
     found |= _prove_all(tasks, options, progress)
     rank = {name: index for index, name in enumerate(names)}
     verdicts = sorted((_order(v, rank) for v in found.values()), key=lambda v: _rank(v, rank))
@@ -156,6 +155,13 @@ def decide(
     problems = {name: shape.problem for name, shape in shapes.items() if shape.problem}
     ordered = {name: ranges[name] for name in robot.joint if name in ranges}
     return Verdicts(tuple(verdicts), ordered, problems)
+
+
+def list_tasks(robot: Robot, options: Options) -> list[Task]:
+    """List the pairs of bodies that :func:`decide` proves."""
+    names = list_shaped_links(robot, visual=options.visual)
+    shapes = {name: read_shapes(robot, name, visual=options.visual) for name in names}
+    return _plan(robot, shapes, find_adjacent_pairs(robot, names), options)[0]
 
 
 def _order(verdict: Verdict, rank: Mapping[str, int]) -> Verdict:
@@ -174,7 +180,7 @@ def _plan(
     shapes: Mapping[str, LinkShape],
     adjacent: set[frozenset[str]],
     options: Options,
-) -> tuple[list[_Task], dict[frozenset[str], Verdict]]:
+) -> tuple[list[Task], dict[frozenset[str], Verdict]]:
     """List what is to be proved, and the verdicts that need no proof."""
     found: dict[frozenset[str], Verdict] = {}
     names = list(shapes)
@@ -194,7 +200,7 @@ def _plan(
         pairs = _list_pairs(a, b, set(found), options)
         if not pairs:
             continue
-        task = _Task(a, b, find_chain(robot, a.top, b.top), tuple(pairs))
+        task = Task(a, b, find_chain(robot, a.top, b.top), tuple(pairs))
         if task.chain.obstacle:
             for one, other in task.names:
                 verdict = Verdict(one, other, OPEN, reason=task.chain.obstacle)
@@ -218,7 +224,7 @@ def _list_pairs(
 
 
 def _prove_all(
-    tasks: Sequence[_Task], options: Options, progress: Progress | None
+    tasks: Sequence[Task], options: Options, progress: Progress | None
 ) -> dict[frozenset[str], Verdict]:
     """Prove all tasks in several processes."""
     begin = monotonic()
@@ -239,7 +245,7 @@ def _prove_all(
     return {verdict.links: verdict for _, some in results for verdict in some}
 
 
-def _prove(task: _Task, options: Options) -> list[Verdict]:
+def _prove(task: Task, options: Options) -> list[Verdict]:
     """Prove what can be proved of two bodies, and search for contacts of the rest."""
     seed = zlib.crc32(" ".join(map(" ".join, task.names)).encode())
     prover = Prover(task.chain, task.a, task.b, list(task.pairs), seed)
