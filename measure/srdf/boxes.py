@@ -2,8 +2,8 @@
 
 A proof clears pairs of convex pieces in boxes of joint positions. For each pair of pieces, the
 boxes in which it was cleared must fill all joint positions, and coal must find no contact of the
-pieces at the center of each box and at a random one of its corners. Where a proof asked the triangles
-instead, coal is asked for their distance. The poses of the links are those of
+pieces at the center of each box and at a random one of its corners. Where a proof asked the
+triangles instead, coal is asked for their distance. The poses of the links are those of
 :mod:`.placement`.
 """
 

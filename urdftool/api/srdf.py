@@ -32,9 +32,9 @@ def make_srdf(
     if boxes is not None:
         require_number("boxes", boxes, 1)
     from ..srdf.content import list_comments, make_semantic
-    from ..srdf.verdicts import BOXES, Options, decide
+    from ..srdf.verdicts import Options, decide
     from ..srdf.write import format_srdf
 
-    options = Options(boxes=boxes or BOXES, visual=visual, default=default, jobs=jobs)
+    options = Options(boxes=boxes, visual=visual, default=default, jobs=jobs)
     verdicts = decide(robot, options)
     return format_srdf(make_semantic(robot, verdicts), tuple(list_comments(robot, verdicts)))

@@ -68,7 +68,8 @@ _STYLES = ("srdf", "mjcf", "curobo", "pyroki", "usd", "table", "json")
     "--boxes",
     type=click.IntRange(1),
     metavar="N",
-    help="Largest number of boxes of joint values for each two bodies.  [default: 40000]",
+    help="Largest number of boxes of joint values for each two bodies.  [default: 40000, or fewer "
+    "for a robot of more than 20 bodies]",
 )
 @click.option(
     "--time",
@@ -173,11 +174,11 @@ def decide_pairs(console: Console, robot: Robot, values: dict[str, Any]) -> Verd
         values: Values of the options.
     """
     from ..report import srdf as report
-    from ..srdf.verdicts import BOXES, Options, decide
+    from ..srdf.verdicts import Options, decide
 
     check_shapes(robot, visual=values["visual"])
     options = Options(
-        boxes=values["boxes"] or BOXES,
+        boxes=values["boxes"],
         visual=values["visual"],
         time_limit=values["time_limit"],
         jobs=values["jobs"],

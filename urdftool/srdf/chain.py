@@ -118,7 +118,7 @@ def _list_steps(
     obstacles: list[str],
 ) -> tuple[tuple[Step, ...], Pose]:
     """List the moving joints above links, topmost first, and the pose after the last one."""
-    movable = find_movable_joints(robot)
+    movable = robot.memo.get("movable joints", lambda: find_movable_joints(robot))
     pose, steps = IDENTITY, []
     for name in links:
         joint = robot.tree.get_parent_joint(name)
@@ -166,9 +166,10 @@ def _bound(robot: Robot, joint: Joint, obstacles: list[str]) -> Coordinate:
 
 def _is_followed(robot: Robot, joint: Joint) -> bool:
     """Tell whether another joint follows a joint, so that one turn is not all positions."""
-    return any(
-        other.mimic is not None and other.mimic.joint == joint.name for other in robot.joints
+    followed = robot.memo.get(
+        "followed joints", lambda: {j.mimic.joint for j in robot.joints if j.mimic is not None}
     )
+    return joint.name in followed
 
 
 def _as_arrays(pose: Pose) -> tuple[Array, Array]:

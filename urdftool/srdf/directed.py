@@ -41,7 +41,7 @@ class MovingBoxes:
 
     def choose_shares(self) -> Array:
         """Return the shares of a direction where one was bounded, else those of any motion."""
-        known: Array = self.share.max(axis=1) > 0
+        known: Indices = np.asarray((self.share > 0).any(axis=1))
         return np.where(known[:, None], self.share, self.motion.share)
 
 

@@ -135,9 +135,12 @@ class Prover:
 
     def run(self, budget: int) -> Result:
         """Sample, and prove until everything is decided or the budget of boxes is used."""
+        whole = self._make_first()
+        if not len(self._advance(whole)):
+            self._mark_free([])
+            return Result(self.outcomes, self.boxes, self.tests)
         self.sample(SAMPLES if self.chain.coordinates else 1)
-        stack = [self._make_first()]
-        check = CHECKED
+        stack, check = [whole], CHECKED
         while stack and self.boxes < budget:
             boxes = self._advance(_take(stack))
             if len(boxes):

@@ -116,8 +116,8 @@ def _read_shape(robot: Robot, shape: Collision | Visual) -> tuple[Solid, Points]
         solid = Solid("mesh", (), np.eye(3), np.zeros(3), vertices, mesh.faces)
         return solid, vertices[mesh.faces]
     kind, size = describe_primitive(geometry)
-    if not all(math.isfinite(value) and value >= 0 for value in size):
-        raise MeshError(f"the size of the {kind} is not finite")
+    if not all(math.isfinite(value) and value > 0 for value in size):
+        raise MeshError(f"the size of the {kind} is not given, or not above 0")
     return Solid(kind, size, rotation, translation), np.zeros((0, 3))
 
 

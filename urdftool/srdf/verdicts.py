@@ -26,6 +26,9 @@ CAN_TOUCH, OPEN = "can-touch", "open"
 BOXES = 40_000
 """Boxes for each two bodies; chosen by the time of the proof of an arm, no source."""
 
+ALL_BOXES, FEWEST = 10_000_000, 256
+"""Boxes for all bodies of a robot, and the least number for each two; chosen, no source."""
+
 Pair = tuple[str, str]
 Progress = Callable[[int, int, str], None]
 """Called with the number of finished pairs of bodies, of all, and the two in work."""
@@ -36,7 +39,8 @@ class Options:
     """What is proved, and how long.
 
     Attributes:
-        boxes: Largest number of boxes for each two bodies.
+        boxes: Largest number of boxes for each two bodies; None for ``BOXES``, or fewer if all
+            bodies would have more than ``ALL_BOXES``.
         visual: Whether the visual geometry is compared.
         time_limit: Time after which pairs that are not begun stay open [s]; None for no limit.
         jobs: Number of processes; None for one per core.
@@ -45,7 +49,7 @@ class Options:
         search: Whether contacts of the pairs that the boxes leave open are searched.
     """
 
-    boxes: int = BOXES
+    boxes: int | None = None
     visual: bool = False
     time_limit: float | None = None
     jobs: int | None = None
@@ -227,8 +231,9 @@ def _prove_all(
     tasks: Sequence[Task], options: Options, progress: Progress | None
 ) -> dict[frozenset[str], Verdict]:
     """Prove all tasks in several processes."""
-    begin = monotonic()
-    limit = options.time_limit
+    begin, limit = monotonic(), options.time_limit
+    boxes = options.boxes or min(BOXES, max(FEWEST, ALL_BOXES // max(1, len(tasks))))
+    options = replace(options, boxes=boxes)
 
     def prove(index: int) -> list[Verdict]:
         if limit is not None and monotonic() - begin > limit:
@@ -249,7 +254,7 @@ def _prove(task: Task, options: Options) -> list[Verdict]:
     """Prove what can be proved of two bodies, and search for contacts of the rest."""
     seed = zlib.crc32(" ".join(map(" ".join, task.names)).encode())
     prover = Prover(task.chain, task.a, task.b, list(task.pairs), seed)
-    result = prover.run(options.boxes)
+    result = prover.run(options.boxes or BOXES)
     if options.search:
         search(prover, result.outcomes)
     if options.default:
