@@ -54,6 +54,11 @@ class Bounds(NamedTuple):
         )
         return Bounds((x - a, y - b, z - c), (x + a, y + b, z + c))
 
+    def measure_distance(self, point: Vector) -> float:
+        """Measure the distance of a point outside of the box from it [m]; 0 inside."""
+        sides = zip(self.low, point, self.high, strict=True)
+        return math.hypot(*(max(low - value, 0.0, value - high) for low, value, high in sides))
+
     def meets(self, other: Bounds) -> bool:
         """Tell whether two boxes have a common point."""
         return all(

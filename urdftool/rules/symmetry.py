@@ -187,6 +187,16 @@ def map_twin_links(robot: Robot) -> dict[str, str]:
     return {name: other for name, other in twins.items() if name not in rights}
 
 
+def find_twin(robot: Robot, link: Link) -> Link | None:
+    """Find the mirror image of a link of either side, by the names; None if there is none."""
+
+    def compute() -> dict[str, str]:
+        twins = map_twin_links(robot)
+        return {**twins, **{other: name for name, other in twins.items()}}
+
+    return robot.link.get(robot.memo.get("twins", compute).get(link.name, ""))
+
+
 def _find_pairs(robot: Robot) -> Iterator[Pair]:
     links, twins = robot.link, map_twin_links(robot)
     for name, other in twins.items():

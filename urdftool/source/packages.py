@@ -20,12 +20,13 @@ from pathlib import Path
 
 from ..errors import AccessError, PackageNotFound
 from ..projects import find_project, find_repository, is_shared, is_trusted, is_within
-from ..suggestions import find_nearest
+from ..suggestions import find_nearest, fold
 from ..workspace import Workspace, memoize_by_workspace
 from .access import FileAccess
 from .install_rules import InstallRule, find_installed, is_installed_as, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
+_ENDING = re.compile(r"_(description|gazebo|bringup|msgs|support|resources|moveit_config)s?$")
 _MAX_MANIFEST = 1 << 20  # bytes of a package.xml that are searched; chosen, real ones have 2 kB
 _IGNORE_FILES = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _SKIP_FOLDERS = frozenset(("node_modules", "build", "install", "devel", "log", "__pycache__"))
@@ -263,7 +264,10 @@ class Packages:
         known = [own[0]] if own else []
         for root in (*self.paths, *self._list_workspace_roots(own[1] if own else None)):
             known += self._find_packages(root)
-        return find_nearest(name, (*known, *self.named, *self.configured), 0.8)
+        near = find_nearest(name, (*known, *self.named, *self.configured), 0.8)
+        stems = [_ENDING.sub("", one) for one in (name, near)]  # ur_description is not pr2_…
+        alike = fold(name) == fold(near) or stems[0] == stems[1]
+        return near if alike or find_nearest(stems[0], stems[1:], 0.8) else ""
 
     def list_neighbors(self) -> list[Path]:
         """Return the folders of the packages around the file, its own first.

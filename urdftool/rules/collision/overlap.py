@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...diagnostic import Severity
 from ...geometry.penetration import CORNER_DIRECTIONS, Convex
 from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.kinematics import MOVABLE, compute_motion, get_limits
@@ -48,7 +49,9 @@ _Pair = tuple[Link, Link, float]
         ),
     },
 )
-def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[Problem]:
+def self_collision_at_zero(
+    robot: Robot, *, deeper: float = 0.001, deep: float = 0.02
+) -> Iterator[Problem]:
     """Two links that no joint connects overlap with all joints at rest.
 
     A motion planner finds the start state in collision, and a simulator with self-collision pushes
@@ -57,7 +60,8 @@ def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[P
     MuJoCo, which may overlap by a centimeter; the meshes themselves, which MoveIt compares,
     may be apart. A joint that cannot be at zero rests in the middle of its range. ``deeper`` [m] is
     the tolerated overlap. One finding counts the pairs, the deepest first, and a second one the
-    pairs that include the convex hull of a mesh.
+    pairs that include the convex hull of a mesh. It is a warning if the center of a link is in
+    another of similar size, and the overlap is more than ``deep`` [m].
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
     found = list(find_resting_overlaps(robot, deeper))
@@ -67,16 +71,45 @@ def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[P
         (exact, "links", ("moveit", *loaded)),
         (hulls if loaded else [], "the convex hulls of links", loaded),
     ):
-        if pairs:
-            pairs.sort(key=lambda pair: -pair[2])
-            yield _report_overlap(pairs, keys, what)
+        pairs.sort(key=lambda pair: -pair[2])
+        inside = [pair for pair in pairs if pair[2] > deep and _is_inside(robot, *pair[:2])]
+        if inside:
+            yield _report_overlap(inside, keys, what, WARNING)
+        rest = [pair for pair in pairs if pair not in inside]
+        if rest:
+            yield _report_overlap(rest, keys, what)
+
+
+def _is_inside(robot: Robot, one: Link, other: Link, core: float = 0.5) -> bool:
+    """Tell whether the center of one link is deep in the other, of a similar size.
+
+    ``core`` is the depth as a part of the half width.
+    """
+    known = get_convex_bodies(robot)
+    pieces = [
+        [
+            piece
+            for link, piece in known.bodies.get(known.body_of.get(end.name, end.name), ())
+            if link is end
+        ]
+        for end in (one, other)
+    ]
+    return any(
+        0.5 < piece.radius / around.radius < 2
+        and _compute_depth(around, piece.pose.translation) > core
+        for first, second in (pieces, pieces[::-1])
+        for piece in first
+        for around in second
+    )
 
 
 def _has_mesh(link: Link) -> bool:
     return any(isinstance(collision.geometry, Mesh) for collision in link.collisions)
 
 
-def _report_overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> Problem:
+def _report_overlap(
+    pairs: list[_Pair], effects: tuple[str, ...], what: str, severity: Severity | None = None
+) -> Problem:
     """Report the pairs of links that overlap, the deepest at the second link."""
     _, other, depth = pairs[0]
     at_rest = "with all joints at rest"
@@ -89,7 +122,8 @@ def _report_overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> 
         )
     names = [[one.name, other.name] for one, other, _ in pairs]
     data = {"pairs": names, "depth": depth}
-    return Problem(other, message, at=other.collisions[0], effects=effects, data=data)
+    at = other.collisions[0]
+    return Problem(other, message, at=at, effects=effects, data=data, severity=severity)
 
 
 def _format_pairs(found: list[_Pair]) -> str:

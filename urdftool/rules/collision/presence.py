@@ -115,7 +115,7 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
     quadruped, but not its front hips. Or it is the only moving body of the robot with a visual
     and without a collision. Then it was forgotten, or lost in an edit: add a ``<collision>``.
     Links that are fixed to each other count as one body. Links with less than a hundredth of the
-    median mass of the others are ignored.
+    median mass of the others are ignored, or with less than the mass of the only other one.
     """
     discarded = not keeps_visuals(robot)
     for link, others in _find_odd_links(robot):
@@ -183,14 +183,16 @@ def _find_only_body(robot: Robot) -> Iterator[tuple[Link, str]]:
         and any(link.visuals for link in links)
     ]
     solid = [links for links in moving if any(link.collisions for link in links)]
-    if len(solid) != len(moving) - 1 or len(solid) < 2:
+    if len(solid) != len(moving) - 1 or not solid:
         return
     bare = next(links for links in moving if links not in solid)
-    if any(map(_has_misspelled_collision, bare)):
+    if any(_has_misspelled_collision(link) or _has_rail(robot, link) for link in bare):
         return
-    if compute_mass(bare) >= median(map(compute_mass, solid)) / 100:
+    part = 1 / 100 if len(solid) > 1 else 1
+    if compute_mass(bare) >= part * median(map(compute_mass, solid)):
         link = next(link for link in bare if link.visuals)
-        yield link, f"the {len(solid)} other moving bodies of the robot have"
+        others = f"the {len(solid)} other moving bodies of the robot have"
+        yield link, others if len(solid) > 1 else "the other moving body of the robot has"
 
 
 def _has_misspelled_collision(link: Link) -> bool:
@@ -296,11 +298,11 @@ def _is_rotating_inside(robot: Robot, link: Link) -> bool:
 
 
 def _has_rail(robot: Robot, link: Link) -> bool:
-    """Tell whether the rail of a prismatic joint goes through the visuals of a link."""
+    """Tell whether the rail of a prismatic joint, which collides, goes through a link's visuals."""
     reach = get_extents(robot)
     joint = robot.tree.get_parent_joint(link.name)
     rail = robot.link.get(joint.parent) if joint is not None else None
-    if joint is None or rail is None or joint.type != "prismatic":
+    if joint is None or rail is None or joint.type != "prismatic" or not rail.collisions:
         return False
     seen, along = reach.get_shapes_box(link.visuals), reach.get_shapes_box(rail.visuals)
     if seen is None or along is None:

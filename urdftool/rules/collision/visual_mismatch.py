@@ -15,7 +15,7 @@ from ..mesh.mesh_uses import MeshUse, get_mesh_uses, is_concave
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..shape_changes import copy_origin, set_in_origin
 from .displaced import find_displaced
-from .misalignment import compare_places, join_attached_boxes, measure_boxes
+from .misalignment import Misalignment, compare_places, join_attached_boxes, measure_boxes
 
 APPLIES_TO = ("collision",)
 
@@ -343,7 +343,8 @@ def collision_off_visual(
     collisions do not overlap, or if their centers are further apart than ``apart`` of the visual's
     diagonal; a fifth of that if both are a primitive of the same size. If two of visual, collision
     and center of mass agree, the third is wrong; otherwise the one whose origin repeats that of the
-    joint. Geometry of different sizes is an info, because simple shapes may be offset on purpose.
+    joint. Geometry of different sizes is an info, because simple shapes may be offset on purpose,
+    unless the collision is apart from the visual and the center of mass, which agree.
     Collisions that the visual of a joined or attached link covers are not reported.
     """
     for link in robot.links:
@@ -365,7 +366,7 @@ def collision_off_visual(
             link,
             what + (_AXES if is_rotated else ""),
             at=shape.origin or shape,
-            severity=None if found.alike else INFO,
+            severity=None if found.alike or _is_alone(robot, link, found) else INFO,
             data={
                 "distance": found.distance,
                 "odd": found.odd,
@@ -374,6 +375,14 @@ def collision_off_visual(
                 "is_rotated": is_rotated,
             },
         )
+
+
+def _is_alone(robot: Robot, link: Link, found: Misalignment) -> bool:
+    """Tell whether a collision is apart from both the visual and the center of mass of its link."""
+    visual_box, collision_box = measure_boxes(get_extents(robot), link)
+    if found.odd != "collision" or visual_box is None or collision_box is None:
+        return False
+    return not visual_box.meets(collision_box)
 
 
 @collision_off_visual.fix(UNSAFE)

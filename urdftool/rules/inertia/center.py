@@ -9,7 +9,7 @@ from ...mechanics.mass_bounds import MARGIN, Misfit, check_com, name_shapes
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.gltf_axes import is_gltf
-from ...model.pose import make_pose
+from ...model.pose import compute_norm, make_pose
 from ..fix import (
     FixContext,
     Proposal,
@@ -41,7 +41,12 @@ from .tensors import is_zero
     formats=ANY_FORMAT,
 )
 def com_outside_geometry(
-    robot: Robot, *, margin: float = MARGIN, together: float = 6, light: float = LIGHT
+    robot: Robot,
+    *,
+    margin: float = MARGIN,
+    together: float = 6,
+    light: float = LIGHT,
+    far: float = 1.0,
 ) -> Iterator[Problem]:
     """A link's center of mass is outside the bounding box of its geometry.
 
@@ -53,20 +58,24 @@ def com_outside_geometry(
     a mesh. A mesh often shows the cover without the motor, so it is a warning only beyond half a
     diagonal, and an info before that. More than ``together`` infos are reported as one finding.
     The geometry of attached links without a mass of their own counts too. Links with less than
-    ``light`` of the robot's mass, or ten times that part of the mass of their rigid body, are
-    skipped because they hardly influence it.
+    ``light`` of the robot's mass, or ten times that part of the mass of their rigid body, hardly
+    influence it, and are skipped; those that a joint moves, up to ``far`` times the diagonal.
     """
     remarks: list[tuple[Link, Misfit, list[str]]] = []
     reach = get_extents(robot)
     skipped = find_negligible_links(robot, light)
     for link in robot.links:
         inertial = link.inertial
-        if inertial is None or not inertial.mass or link.name in skipped or _has_gltf(link):
+        if inertial is None or not inertial.mass or _has_gltf(link):
             continue
         box = reach.get_link_box(link)
         if box is None:
             continue
         com, of_mesh = make_pose(inertial.origin).translation, has_mesh(link)
+        if link.name in skipped and not (
+            _is_moved(robot, link) and box.measure_distance(com) > far * compute_norm(box.size)
+        ):
+            continue
         if check_com(box, com, of_mesh, margin=margin) is None:
             continue
         box = reach.get_inertial_box(link, box)
@@ -90,6 +99,11 @@ def com_outside_geometry(
         also = f"; also outside: {', '.join(others)}"
         del remarks[1:]
     yield from (_report_outside(*one, also) for one in remarks)
+
+
+def _is_moved(robot: Robot, link: Link) -> bool:
+    joint = robot.tree.get_parent_joint(link.name)
+    return joint is not None and not joint.is_fixed
 
 
 def _report_outside(link: Link, found: Misfit, attached: Sequence[str], also: str = "") -> Problem:

@@ -29,6 +29,7 @@ from ..rule import (
     Problem,
     rule,
 )
+from ..symmetry import find_twin
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
 from .solids import DENSITY, compute_volume
@@ -66,7 +67,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     A body without mass cannot be accelerated, and each simulator substitutes something different:
     Gazebo removes the body and its descendants, PyBullet assumes 1 kg, MuJoCo computes a mass from
     the collision geometry at the density of water. If a fixed joint attaches the link to one with
-    a mass, it is only an info, except for PyBullet and MuJoCo, which substitute a mass there too.
+    a mass, it is only an info, unless the link of the other side has one, and except for PyBullet
+    and MuJoCo, which substitute a mass there too.
     Frames without geometry need none, although PyBullet gives them 1 kg. A marker below 1 g at
     the density of water is an info where MuJoCo substitutes the mass.
     """
@@ -100,9 +102,14 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             several = "; MuJoCo computes their masses at the density of water"
         elif link.name in heavy:
             others = [one for one, _ in find_attached_links(robot, link) if one.mass > 0]
+            twin = find_twin(robot, link)
             outcome, severity = "part", INFO
             so = f", and is fixed to link '{others[0].name}', which has one"
             several = ", and are fixed to links that have one"
+            if twin is not None and twin.inertial is not None and twin.mass > 0:
+                outcome, severity = "half", WARNING
+                so = f", but its mirror image '{twin.name}' has one"
+                several = ", but their mirror images have one"
         elif held:
             outcome, severity = "static", INFO
             so = " and is fixed to the world, where its mass has no effect"

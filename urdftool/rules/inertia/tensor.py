@@ -13,6 +13,7 @@ from ...model.pose import Pose
 from ...source.location import Place
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..symmetry import find_twin
 from .bodies import compute_body_inertia, compute_mass, find_rigid_bodies
 from .corrections import MASS_IN_DOUBT, write_inertia_of_shapes, write_meant_inertia
 from .joint_inertia import compute_joint_inertia
@@ -208,13 +209,16 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     group="robot",
     formats=ANY_FORMAT,
 )
-def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -> Iterator[Problem]:
+def zero_inertia(
+    robot: Robot, targets: frozenset[str], *, part: float = 0.25, first: float = 0.1
+) -> Iterator[Problem]:
     """A rigid body has a mass and no inertia: all six components are 0.
 
     The body is a point, which any torque accelerates infinitely. Only the inertia of the whole
     rigid body counts: a point mass that is fixed to a link with an inertia is added to it, and one
     that is fixed to the world never rotates. A link with at least ``part`` of the mass of such a
-    body is an info, because the body's inertia is then too small.
+    body is an info, because the body's inertia is then too small; the link that the joint moves
+    needs ``first`` of the mass, and is a warning, and so is a link whose mirror image has one.
 
     Values below the mass times (10 µm)² are rounding, and count as 0. MuJoCo reads every link
     before it merges them: it then treats six zeros as no inertia, and rejects nonzero moments below
@@ -227,14 +231,17 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
     for link, inertial, six in zero:
         links = whole.get(link.name, [link])
         is_part = len(links) > 1 and not compute_body_inertia(robot, links).is_thin
-        if (is_part and link.mass < part * compute_mass(links)) or is_fixed_to_world(robot, link):
+        joint = robot.tree.get_parent_joint(links[0].name)
+        leads = link is links[0] and joint is not None and not joint.is_fixed
+        twin = _find_complete_twin(robot, link)
+        least = (first if leads else part) * compute_mass(links)
+        if (is_part and twin is None and link.mass < least) or is_fixed_to_world(robot, link):
             continue
         amount = "almost zero" if any(six) else "zero"
-        joint = robot.tree.get_parent_joint(links[0].name)
         in_gazebo = "noise" if is_rejected_by_gazebo(robot, link) else "accepted"
         moves = not is_part and joint is not None and not joint.is_fixed
         rejected = is_rejected_by_mujoco(six) or (moves and not any(six))
-        mild = INFO if is_part else WARNING
+        mild = INFO if is_part and not leads and twin is None else WARNING
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {amount} with a mass of {link.mass:g} kg"
@@ -249,6 +256,13 @@ def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -
             ],
             alike=(any(six), get_solid_kind(link)),
         )
+
+
+def _find_complete_twin(robot: Robot, link: Link) -> Link | None:
+    """Find the mirror image of a link, if it has an inertia."""
+    twin = find_twin(robot, link)
+    inertia = twin.inertial.inertia if twin is not None and twin.inertial is not None else None
+    return twin if inertia is not None and twin and not is_zero(inertia.six, twin.mass) else None
 
 
 @zero_inertia.full

@@ -51,19 +51,22 @@ def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
     formats=ANY_FORMAT,
 )
 def fingers_move_together(robot: Robot) -> Iterator[Problem]:
-    """The two prismatic fingers of a gripper move in the same direction.
+    """The two fingers of a gripper move in the same direction.
 
     To open and close, two fingers on one parent link must move in opposite directions. Here their
     axes have the same direction in the frame of the parent, and either their ranges extend to the
     same side of 0, or one mimics the other with a positive multiplier. One axis is reversed, or the
     right finger is a copy of the left one. Ranges that contain 0 are not reported, unless one joint
-    mimics the other.
+    mimics the other. Fingers that turn are compared if their joints are apart across the axes.
     """
     for link in robot.links:
-        slides = [j for j in robot.tree.get_child_joints(link.name) if j.type == "prismatic"]
-        if len(slides) != 2 or not all(map(_is_finger, slides)):
+        below = robot.tree.get_child_joints(link.name)
+        slides = [j for j in below if j.type in ("prismatic", "revolute") and _is_finger(j)]
+        if len(slides) != 2 or slides[0].type != slides[1].type:
             continue
         one, other = slides
+        if one.type == "revolute" and not _are_apart(one, other):
+            continue
         axes = (_compute_axis_in_parent(one), _compute_axis_in_parent(other))
         if sum(a * b for a, b in zip(*axes, strict=True)) < 0.95:
             continue
@@ -84,6 +87,15 @@ def fingers_move_together(robot: Robot) -> Iterator[Problem]:
                 at=other.axis or other,
                 data={"joints": [one.name, other.name]},
             )
+
+
+def _are_apart(one: Joint, other: Joint) -> bool:
+    """Tell whether two joints are at least 1 mm apart, across the axis of the first."""
+    axis = _compute_axis_in_parent(one)
+    places = [make_pose(joint.origin).translation for joint in (one, other)]
+    step = [b - a for a, b in zip(*places, strict=True)]
+    along = sum(a * b for a, b in zip(step, axis, strict=True))
+    return math.hypot(*(a - along * b for a, b in zip(step, axis, strict=True))) > 1e-3
 
 
 _FINGER = re.compile(r"finger|jaw|claw|grip", re.IGNORECASE)
