@@ -54,12 +54,18 @@ def test_robots_are_found_by_content(folder):
     assert find_other_descriptions([str(folder / "arm/scene.xml")]).files == []
 
 
-def test_without_mujoco_mjcf_is_skipped(folder, monkeypatch):
+def test_without_mujoco_mjcf_is_not_checked(folder, monkeypatch, urdftool):
     monkeypatch.setattr("urdftool.formats.search.is_installed", lambda name: False)
     found = find_other_descriptions([str(folder)])
     assert relative(found.files, folder) == ["robot/model.sdf", "worlds/fleet.sdf"]
-    reason = found.skipped[str(folder / "alone.mjcf")]
+    reason = found.not_checked[str(folder / "alone.mjcf")]
     assert "pip install 'urdftool[mujoco]'" in reason
+    result = urdftool("lint", folder, "--no-cache", "-j", "1")
+    assert result.code == 2
+    last = result.err.splitlines()[-1]
+    assert "3 not checked" in last  # and fleet.sdf, which includes a model that is not there
+    assert "alone.mjcf" in last
+    assert "arm/scene.xml" in last
 
 
 @pytest.mark.library("mujoco")

@@ -253,6 +253,7 @@ def command(
     belonging = {file for real in found.robots for file in found.list_files(real)}
     reports = add_skipped_parts(check_files(files, options, jobs), paths, belonging)
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]
+    skipped += [Report(path, skipped=why, stopped=why) for path, why in other.not_checked.items()]
     return report(console, [*reports, *skipped, *excluded], settings, output)
 
 

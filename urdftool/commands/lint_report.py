@@ -68,7 +68,7 @@ def report(
     from ..report.findings import summarize
     from ..report.findings_formats import as_text
     from ..report.findings_screen import MANY, format_advice
-    from ..report.findings_words import list_skipped_rules
+    from ..report.findings_words import list_rejections, list_skipped_rules
 
     outcome = gather(reports)
     check_targets((output.output_file, output.write_baseline), inputs=_list_inputs(outcome))
@@ -98,6 +98,8 @@ def report(
     _report_skipped(console, outcome.reports, output.paths)
     broken = _report_errors(console, outcome.reports)
     if any(report.checked or report.stopped or report.unexpanded for report in outcome.reports):
+        for line in list_rejections(outcome) if style == "full" else ():
+            console.print_note(line)
         console.print_note(summarize(outcome))
         for line in list_skipped_rules(outcome):
             console.print_note(line)

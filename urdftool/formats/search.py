@@ -25,17 +25,19 @@ class Found:
     Attributes:
         files: Files that describe a robot.
         skipped: Reason by file that belongs to a format, but describes no robot of its own.
+        not_checked: Reason by file that may be a robot, but whose reader is not installed.
     """
 
     files: list[str] = field(default_factory=list)
     skipped: dict[str, str] = field(default_factory=dict)
+    not_checked: dict[str, str] = field(default_factory=dict)
 
 
 def find_other_descriptions(paths: Iterable[str]) -> Found:
     """Find the descriptions in SDF and MJCF below folders; hidden folders are skipped.
 
     A part that another MJCF file below the folders includes is skipped, and so is a world of SDF
-    without a link of its own. MJCF is skipped without MuJoCo.
+    without a link of its own. MJCF is not checked without MuJoCo.
 
     Args:
         paths: Files and folders; files are ignored.
@@ -72,7 +74,7 @@ def _add_models(found: Found, models: dict[str, tuple[str, bytes]]) -> None:
         elif b"<body" not in data and not _MODEL.search(data):
             found.skipped[path] = "MJCF without a body"
         elif not is_installed("mujoco"):
-            found.skipped[path] = "MJCF requires MuJoCo: pip install 'urdftool[mujoco]'"
+            found.not_checked[path] = "MJCF requires MuJoCo: pip install 'urdftool[mujoco]'"
         else:
             found.files.append(path)
 

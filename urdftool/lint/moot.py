@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -85,6 +85,18 @@ class Rejections:
                 others = _THROUGH_URDFDOM if reader == "urdfdom" else ()
                 for one in (reader, *others):
                     self._by_reader.setdefault(one, set()).add(rule)
+
+    def list_rejecting(self, found: Collection[str]) -> dict[str, tuple[str, ...]]:
+        """List the rules that reject the robot, by reader, without readers based on urdfdom.
+
+        Args:
+            found: Rules with findings.
+        """
+        return {
+            reader: tuple(sorted(rules & set(found)))
+            for reader, rules in sorted(self._by_reader.items())
+            if reader not in _THROUGH_URDFDOM and rules & set(found)
+        }
 
     def remove_moot_effects(self, finding: Finding, *, selected: bool = False) -> Finding:
         """Remove the readers from a finding that reject the robot only for other defects.

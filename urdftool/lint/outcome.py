@@ -20,6 +20,7 @@ class Report:
         findings: Findings that are not suppressed.
         targets: Targets for which it was checked.
         overruled: Why a generation of Gazebo of which it has a plugin is not a target.
+        rejected: Rules whose findings say that a reader rejects the robot, by reader.
         ignored: Suppressed findings, each with the reason in its comment.
         files: Source files read.
         format: Name of the format of the description.
@@ -39,6 +40,7 @@ class Report:
     findings: list[Finding] = field(default_factory=list)
     targets: frozenset[str] = frozenset()
     overruled: str = ""
+    rejected: dict[str, tuple[str, ...]] = field(default_factory=dict)
     ignored: list[tuple[Finding, str]] = field(default_factory=list)
     files: tuple[str, ...] = ()
     format: str = "urdf"

@@ -353,6 +353,7 @@ def _check_description(
         rejections.remove_moot_effects(one, selected=bool(settings.select)) for one in findings
     ]
     report.findings = sort_findings(merge(findings))
+    report.rejected = rejections.list_rejecting({finding.code for finding in findings})
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot
 

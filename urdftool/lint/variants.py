@@ -109,6 +109,11 @@ def as_one(reports: Mapping[str, Report]) -> Report:
         ),
         targets=frozenset().union(*(report.targets for report in checked.values())),
         overruled="; ".join(sorted({report.overruled for report in checked.values()} - {""})),
+        rejected={
+            reader: tuple(sorted({rule for r in checked.values() for rule in r.rejected[reader]}))
+            for reader in first.rejected
+            if all(reader in report.rejected for report in checked.values())
+        },
         ignored=[(finding, reasons[_get_key(finding)]) for finding in hidden],
         files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
         stopped="; ".join(f"with {name}: {reason}" for name, reason in stopped.items()),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
@@ -78,3 +79,36 @@ def list_skipped_rules(outcome: Outcome) -> list[str]:
         )
         for library, names in rules.items()
     ]
+
+
+def list_rejections(outcome: Outcome) -> Iterator[str]:
+    """Yield what readers do with each robot as a whole, by its findings.
+
+    Several robots are counted for each reader. A reader that is not named may reject a robot too:
+    only known effects of findings count.
+    """
+    rejected = [report for report in outcome.reports if report.rejected]
+    if len(outcome.reports) > 1:
+        readers = sorted({reader for report in rejected for reader in report.rejected})
+        for reader in readers:
+            count = sum(reader in report.rejected for report in rejected)
+            yield f"{reader} rejects {count} of {len(outcome.reports)} robots"
+        return
+    for report in rejected:
+        together: dict[tuple[str, ...], list[str]] = {}
+        for reader, rules in report.rejected.items():
+            together.setdefault(rules, []).append(reader)
+        for rules, readers in together.items():
+            verb = "rejects" if len(readers) == 1 else "reject"
+            yield f"{', '.join(readers)} {verb} the robot: {_name_lines(outcome, rules)}"
+
+
+def _name_lines(outcome: Outcome, rules: Iterable[str], shown: int = 3) -> str:
+    """Name rules with the line of their first finding."""
+    places = {
+        f.code: f"{os.path.basename(f.location.path)}:{f.location.line}"
+        for f in reversed(outcome.findings)
+    }
+    names = [f"{rule} ({places[rule]})" if rule in places else rule for rule in rules]
+    more = f" and {len(names) - shown} more" if len(names) > shown else ""
+    return ", ".join(names[:shown]) + more

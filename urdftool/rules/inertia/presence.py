@@ -93,6 +93,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         if in_gazebo and link.name not in heavy:
             outcome, severity, so = "removed", ERROR, f"; {_REMOVED}"
             several = "; Gazebo removes them and everything attached to them"
+            if kept is not None and not kept:
+                so = several = "; no link of the robot remains in Gazebo"
         elif "pybullet" in targets and not held:
             outcome, severity, so = "1 kg", ERROR, "; PyBullet gives it 1 kg"
             several = "; PyBullet gives each of them 1 kg"
