@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from difflib import unified_diff
 from pathlib import Path
 
+from generator.rule_evidence import write_evidence
 from urdftool.diagnostic import Severity
 from urdftool.report.file_diff import format_file_diff
 from urdftool.report.rule_pages import get_effect_source, get_facts
@@ -88,6 +89,7 @@ def write_index() -> str:
     lines += ["", "A [baseline](../commands/lint.md) entry that no longer matches a finding is"]
     lines.append("reported as a note of the run, not as a finding.")
     lines += _write_target_sections()
+    lines += write_evidence()
     return "\n".join(lines).rstrip() + "\n"
 
 

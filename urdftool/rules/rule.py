@@ -29,6 +29,11 @@ Arguments of the decorator control how findings are reported together:
     is then listed under it, and not fixed before it. ``Problem(cause=…)`` names another element, or
     all elements whose values this finding reads, and ``Problem(caused_by=…)`` other rules, or none.
 
+``evidence="…"``
+    What shows that the defect does harm, if no effect on a reader does: what was measured, or a
+    public report. Effects, judged findings and this text are the table of evidence in
+    docs/rules/index.md; a rule on by default needs one of them.
+
 ``of_motion=True``
     The problem matters only for moving parts, such as an inertia that is too large: for links that
     are fixed to the world, and for fixed joints, a warning becomes an info. Errors stay, because
@@ -145,6 +150,7 @@ class Rule:
         of_motion: Whether it matters only for moving parts: for a link that is fixed to the world,
             or for a fixed joint, a warning is an info.
         formats: Names of the formats to which it applies.
+        evidence: What shows that the defect does harm, in addition to effects; empty if nothing.
         make_fix: Proposes changes for a problem, or None for cases that it does not fix; None if
             the rule has no fix.
         fix_traits: Facts about the fix.
@@ -168,6 +174,7 @@ class Rule:
     caused_by: tuple[str, ...] = ()
     of_motion: bool = False
     formats: tuple[str, ...] = ("urdf",)
+    evidence: str = ""
     make_fix: Callable[..., Proposal | None] | None = None
     fix_traits: FixTraits | None = None
     rests_on: tuple[str, ...] = ()
@@ -260,6 +267,7 @@ def rule(
     caused_by: tuple[str, ...] = (),
     of_motion: bool = False,
     formats: tuple[str, ...] = ("urdf",),
+    evidence: str = "",
 ) -> Callable[[Any], Rule]:
     """Make a rule of a function; the arguments are those of :class:`Rule`."""
 
@@ -281,6 +289,7 @@ def rule(
             caused_by=caused_by,
             of_motion=of_motion,
             formats=formats,
+            evidence=evidence,
         )
 
     return make

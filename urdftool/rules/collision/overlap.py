@@ -196,6 +196,7 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
 
 @rule(
     INFO,
+    default=False,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco": "place both links there",
     },

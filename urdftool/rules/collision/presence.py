@@ -188,6 +188,8 @@ def _find_only_body(robot: Robot) -> Iterator[tuple[Link, str]]:
     bare = next(links for links in moving if links not in solid)
     if any(_has_misspelled_collision(link) or _has_rail(robot, link) for link in bare):
         return
+    if len(solid) == 1 and any(_is_rotating_inside(robot, link) for link in bare):
+        return
     part = 1 / 100 if len(solid) > 1 else 1
     if compute_mass(bare) >= part * median(map(compute_mass, solid)):
         link = next(link for link in bare if link.visuals)

@@ -9,6 +9,7 @@ FILES = (
     "lumping",
     "model",
     "sensors",
+    "sensor_values",
     "plugins",
     "drives",
 )

@@ -214,6 +214,7 @@ def _is_gripping(robot: Robot, name: str | None) -> bool:
 
 @rule(
     INFO,
+    default=False,
     effects={
         _ANY: "take it as written",
         _NEGATIVE: "reject the model (sdformat 12.3: Error 9)",

@@ -382,6 +382,8 @@ def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     WARNING,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
+    evidence="PyBullet and MuJoCo diverge at the bounds of the page "
+    "(`tests/rules/test_tiny_inertia.py`)",
 )
 def tiny_moving_inertia(
     robot: Robot,

@@ -394,6 +394,7 @@ def write_dynamics_attributes(problem: Problem, context: FixContext) -> Proposal
 
 @rule(
     INFO,
+    default=False,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
     effects={
         "mujoco, drake": "take 0: no damping slows the joint",

@@ -266,6 +266,7 @@ def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal |
 
 @rule(
     INFO,
+    default=False,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take meters",
     },
@@ -413,6 +414,7 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     INFO,
+    default=False,
     effects={
         "gz, gazebo-classic": "spawn the joint at 0, outside its limits",
         "moveit": "reports that a start state at 0 is outside its bounds",

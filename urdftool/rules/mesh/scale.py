@@ -333,6 +333,7 @@ def _format_scale(scale: tuple[float, ...]) -> str:
 
 @rule(
     INFO,
+    default=False,
     effects={
         "urdfdom, gz, gazebo-classic, pybullet": "take the scale as written",
     },

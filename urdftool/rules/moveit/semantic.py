@@ -241,7 +241,7 @@ def clamp_to_limits(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe(f"write {nearest_inside}", change)
 
 
-@rule(INFO, on=_ON, effects={"moveit": "assumes a fixed joint to the world"})
+@rule(INFO, default=False, on=_ON, effects={"moveit": "assumes a fixed joint to the world"})
 def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Problem]:
     """The SRDF has no ``<virtual_joint>``.
 

@@ -120,7 +120,11 @@ def wrong_root() -> tuple[Problem, ...]:
     return ()
 
 
-@rule(ERROR, formats=("sdf", "mjcf"))
+@rule(
+    ERROR,
+    formats=("sdf", "mjcf"),
+    evidence="the reader of the format rejects the file, with its message",
+)
 def unreadable_model() -> tuple[Problem, ...]:
     """An SDF or MJCF file cannot be read as a robot.
 

@@ -17,7 +17,11 @@ _LONGEST = 30
 """Maximum number of characters of a number below 1e30 without exponent. Chosen, no source."""
 
 
-@rule(ERROR)
+@rule(
+    ERROR,
+    evidence="products of such numbers overflow, and export and simulate reject the robot "
+    "(`tests/formats`, `tests/simulation`)",
+)
 def immense_number(robot: Robot, *, largest: float = 1e30) -> Iterator[Problem]:
     """A mass, size, pose, axis or color is above 1e30.
 
