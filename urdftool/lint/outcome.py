@@ -20,7 +20,7 @@ class Report:
         findings: Findings that are not suppressed.
         targets: Targets for which it was checked.
         overruled: Why a generation of Gazebo of which it has a plugin is not a target.
-        rejected: Rules whose findings say that a reader rejects the robot, by reader.
+        rejected: Rules by whose effects a reader rejects the robot, by reader.
         ignored: Suppressed findings, each with the reason in its comment.
         files: Source files read.
         format: Name of the format of the description.
