@@ -208,3 +208,14 @@ def test_the_outermost_point_is_where_the_box_ends(write, shape):
         assert boxes.find_outermost(collision, frame, way)[axis] == pytest.approx(high[axis])
         way = tuple(-part for part in way)
         assert boxes.find_outermost(collision, frame, way)[axis] == pytest.approx(low[axis])
+
+
+@pytest.mark.parametrize(("foot", "outside"), [(FLAT, False), (POINT, True)])
+def test_a_robot_on_two_points_is_reported(write, foot, outside):
+    """The knees are straight, and the center of mass is above the line through both feet or not."""
+    path = write("r.urdf", biped((-2.4, 2.4), foot).replace('"0 0.1 0"', '"0.02 0.1 0"'))
+    losses = [one for one in export(path, base="free").losses if one.code == "lossy-unsupported"]
+    assert len(losses) == outside
+    for loss in losses:
+        assert loss.data["margin"] == pytest.approx(-0.007, abs=0.01)
+        assert "'l_foot', 'r_foot'" in loss.message

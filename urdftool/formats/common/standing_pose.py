@@ -21,8 +21,9 @@ from .home_positions import STAND, HomePositions
 from .legs import Bends, Leg, find_legs, list_bends
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
-from .standing import LEVEL, list_leg_ends, measure_ground
+from .standing import CLEARANCE, LEVEL, list_leg_ends, measure_ground
 from .support import (
+    CONTACT,
     compute_center,
     compute_margin,
     list_contact_points,
@@ -151,6 +152,38 @@ def _compute_margin(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, 
     if center is None:
         return math.inf
     return compute_margin(list_support_points(tree, boxes, poses).tolist(), center)
+
+
+def report_support(
+    tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float], written: Written
+) -> None:
+    """Report a free robot whose center of mass is outside of its support polygon at home.
+
+    Args:
+        tree: The rigid bodies.
+        boxes: Boxes of its shapes.
+        positions: Joint positions at home [rad, m].
+        written: Receives a note.
+    """
+    poses = link_poses(tree.robot, positions)
+    center, ground = compute_center(tree.robot, poses), measure_ground(tree, boxes, positions)
+    if center is None or ground is None:
+        return
+    level = max(CONTACT, CLEARANCE * ground.size)
+    points = list_support_points(tree, boxes, poses, level)
+    margin = compute_margin(points.tolist(), center)
+    if margin >= 0 or math.isinf(margin):
+        return
+    names = [ground.feet[body] for body in ground.get_near(CLEARANCE)]
+    shown = ", ".join(f"'{name}'" for name in names[:4]) + (" and others" if len(names) > 4 else "")
+    written.report_loss(
+        "unsupported",
+        f"at home, the center of mass is {-1000 * margin:.3g} mm outside of the support polygon of "
+        f"{shown}: the robot falls without a controller",
+        tree.robot.place,
+        severity=Severity.INFO,
+        data={"margin": margin},
+    )
 
 
 def _explain_unbent(

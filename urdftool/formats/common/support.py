@@ -60,12 +60,21 @@ def _list_ways_down() -> Iterator[Vector]:
         yield math.sin(TILT) * math.cos(angle), math.sin(TILT) * math.sin(angle), -math.cos(TILT)
 
 
-def list_support_points(tree: RigidTree, boxes: ShapeBoxes, poses: Mapping[str, Pose]) -> Array:
-    """List the points with which a robot touches the ground below it; shape (n, 3)."""
+def list_support_points(
+    tree: RigidTree, boxes: ShapeBoxes, poses: Mapping[str, Pose], level: float = CONTACT
+) -> Array:
+    """List the points with which a robot touches the ground below it; shape (n, 3).
+
+    Args:
+        tree: The rigid bodies.
+        boxes: Boxes of its shapes.
+        poses: Poses of the links.
+        level: Height above the lowest point [m] up to which a point counts.
+    """
     found = [list_contact_points(tree, boxes, body, poses) for body in tree.members]
     points = np.concatenate(found) if found else np.zeros((0, 3))
     lowest = points[:, 2].min(initial=math.inf)
-    near: Array = points[points[:, 2] <= lowest + CONTACT]
+    near: Array = points[points[:, 2] <= lowest + level]
     return near
 
 

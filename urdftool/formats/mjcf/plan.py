@@ -23,7 +23,7 @@ from ..common.joint_loads import JointLoad, compute_joint_loads
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
 from ..common.standing import Ground, measure_ground
-from ..common.standing_pose import choose_standing_positions
+from ..common.standing_pose import choose_standing_positions, report_support
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
@@ -95,6 +95,8 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     positions = chosen.values
     if free or chosen.stands:
         positions = choose_standing_positions(structure, boxes, chosen, written)
+    if free:
+        report_support(structure, boxes, positions, written)
     structure = replace(structure, free=free, reason=reason)
     home = place_home(structure, boxes, positions)
     masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)

@@ -26,7 +26,7 @@ from ..common.servo_gains import (
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import Srdf
 from ..common.standing import Ground, measure_ground
-from ..common.standing_pose import choose_standing_positions
+from ..common.standing_pose import choose_standing_positions, report_support
 from ..written import Written
 from .bodies import Bodies, is_movable
 from .inertials import BodyInertia
@@ -80,6 +80,7 @@ def plan_home(
     if bodies.free or chosen.stands:
         positions = choose_standing_positions(tree, boxes, chosen, written)
     if bodies.free:
+        report_support(tree, boxes, positions, written)
         pose = lift_to_floor(tree, boxes, positions, pose)
         ground = measure_ground(tree, boxes, positions, pose)
     masses = {name: one.body for name, one in inertias.items()}
