@@ -66,3 +66,27 @@ def test_a_scene_is_simulated(urdftool, write):
     assert result.code in (0, 1)
     assert "m.xml:2:1: warning: parts of the scene are not simulated: plane 'floor'" in result.err
     assert "<" not in result.out
+
+
+BODY = '<link name="{}"><inertial><mass value="1"/></inertial></link>'
+FLOAT = '<joint name="{0}" type="floating"><parent link="{1}"/><child link="{0}"/></joint>'
+HINGE = '<joint name="h" type="continuous"><parent link="b"/><child link="c"/></joint>'
+
+
+@pytest.mark.parametrize(
+    ("root", "joints", "kept", "left_out"),
+    [
+        ('<link name="w"/>', [("a", "w"), ("b", "w")], ["b", "c"], ["link 'a'"]),
+        ('<link name="w"/>', [("b", "w")], ["w", "b", "c"], []),
+        (BODY.format("w"), [("a", "w"), ("b", "a")], ["b", "c"], ["link 'w'", "link 'a'"]),
+        (BODY.format("w"), [("b", "w")], ["b", "c"], ["link 'w'"]),
+    ],
+)
+def test_the_largest_part_of_a_urdf_that_floating_joints_divide(
+    write, root, joints, kept, left_out
+):
+    bodies = [BODY.format(name) for name, _ in joints]
+    text = "".join([root, *bodies, BODY.format("c"), HINGE, *(FLOAT.format(*j) for j in joints)])
+    part, others = take_robot(api.load(write("r.urdf", f'<robot name="r">{text}</robot>')))
+    assert [link.name for link in part.links] == kept
+    assert others == left_out

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from ..model.elements import Link, Plane, Robot
@@ -15,13 +15,15 @@ def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
 
     Planes of the world are left out, since the simulation has its own ground. If several parts
     move freely, or one in addition to parts at the world, the one with most joints is the robot.
+    So is the largest part of a URDF that floating joints divide.
 
     Args:
-        robot: Any robot; it is not modified. URDF describes one robot only and is returned as it
-            is.
+        robot: Any robot; it is not modified.
     """
     tree = robot.tree
-    if robot.xml is not None or tree.root is None or tree.root.name != WORLD:
+    if robot.xml is not None:
+        return _take_largest_part(robot)
+    if tree.root is None or tree.root.name != WORLD:
         return robot, []
     world = tree.root
     left_out = [f"plane '{c.name}'" for c in world.collisions if isinstance(c.geometry, Plane)]
@@ -42,20 +44,45 @@ def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
     return _select(robot, links), left_out
 
 
-def _list_below(tree: KinematicTree, link: str) -> Iterator[str]:
-    """Yield a link and all links below it."""
+def _take_largest_part(robot: Robot) -> tuple[Robot, list[str]]:
+    """Return the part with most joints of a robot that floating joints divide, and the others."""
+    root = robot.tree.root
+    tops = [joint.child for joint in robot.joints if joint.type == "floating"]
+    if root is None or not tops:
+        return robot, []
+    is_frame = not root.mass and not root.collisions
+    rest = {name for name in _list_below(robot.tree, root.name, tops) if name != root.name}
+    if is_frame and len(tops) == 1 and not rest:
+        return robot, []  # a frame above a free base
+    parts = {top: list(_list_below(robot.tree, top, tops)) for top in (root.name, *tops)}
+    if is_frame and not rest:
+        del parts[root.name]
+    sizes = {top: _count(robot.tree, names) for top, names in parts.items()}
+    chosen = max(sizes, key=lambda top: sizes[top])
+    names = set(parts.pop(chosen))
+    links = [link for link in robot.links if link.name in names]
+    return _select(robot, links), [f"link '{top}'" for top in parts]
+
+
+def _list_below(tree: KinematicTree, link: str, ends: Collection[str] = ()) -> Iterator[str]:
+    """Yield a link and all links below it, without ``ends`` and what is below them."""
     todo = [link]
     while todo:
         name = todo.pop()
         yield name
-        todo += [joint.child for joint in tree.get_child_joints(name)]
+        below = [joint.child for joint in tree.get_child_joints(name)]
+        todo += [child for child in below if child not in ends]
 
 
 def _measure(tree: KinematicTree, top: str) -> tuple[int, int]:
     """Return the number of joints that move below a link, and of links."""
-    below = list(_list_below(tree, top))
-    joints = [joint for name in below for joint in tree.get_child_joints(name)]
-    return sum(not joint.is_fixed for joint in joints), len(below)
+    return _count(tree, list(_list_below(tree, top)))
+
+
+def _count(tree: KinematicTree, names: Collection[str]) -> tuple[int, int]:
+    """Return the number of joints that move among links, and of links."""
+    joints = [j for name in names for j in tree.get_child_joints(name) if j.child in names]
+    return sum(not joint.is_fixed for joint in joints), len(names)
 
 
 def _select(robot: Robot, links: list[Link]) -> Robot:
