@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from lxml import etree
 
@@ -88,6 +89,61 @@ def test_the_load_at_home_is_that_of_statics(write):
     assert loads["turn"].force == pytest.approx(2 * GRAVITY * 0.5)
     assert loads["lift"].inertia == pytest.approx(carried)
     assert loads["lift"].force == pytest.approx(carried * GRAVITY)
+
+
+@pytest.mark.library("mujoco")
+def test_inertias_of_a_chain_are_those_of_mujoco(write, tmp_path):
+    """Three parallel axes and a slide: elements of the mass matrix, and of its inverse."""
+    import mujoco
+
+    inertial = (
+        '<inertial><origin xyz="0.1 0.02 -0.03"/><mass value="{}"/>'
+        '<inertia ixx="0.1" ixy="0.01" ixz="0.02" iyy="0.2" iyz="0" izz="0.25"/></inertial>'
+    )
+    place = '<origin xyz="0.3 0.1 0" rpy="0.2 0.1 {}"/>' + LIMIT
+    text = robot(
+        link("base"), *(link(f"l{n}", inertial.format(n + 1)) for n in range(4)),
+        joint("j0", "base", "l0", inside=place.format(0)),
+        joint("j1", "l0", "l1", inside=place.format(0.1)),
+        joint("j2", "l1", "l2", inside=place.format(-0.1)),
+        joint("j3", "l1", "l3", kind="prismatic", inside=place.format(0.5)),
+    )  # fmt: skip
+    path = write("r.urdf", text)
+    loaded = load(path)
+    masses = {one.name: link_inertia(one) for one in loaded.links}
+    home = {"j0": 0.3, "j1": -0.4, "j2": 0.5, "j3": 0.1}
+    loads = compute_joint_loads(create_structure(loaded), masses, home)
+    made = tmp_path / "model.xml"
+    made.write_text(export(path, base="fixed").text)
+    model = mujoco.MjModel.from_xml_path(str(made))
+    data = mujoco.MjData(model)
+    for name, value in home.items():
+        data.joint(name).qpos[0] = value
+    mujoco.mj_forward(model, data)
+    units = np.eye(model.nv)
+    inverse, matrix = np.zeros((model.nv, model.nv)), np.zeros((model.nv, model.nv))
+    mujoco.mj_solveM(model, data, inverse, units)
+    for row in range(model.nv):
+        mujoco.mj_mulM(model, data, matrix[row], units[row])
+    for name in home:
+        held = loads[name]
+        dof = int(model.jnt_dofadr[model.joint(name).id])
+        assert held.inertia == pytest.approx(matrix[dof, dof])
+        assert held.reduced == pytest.approx(max(1 / inverse[dof, dof], 0.1 * held.inertia))
+        assert held.reduced < held.inertia
+
+
+def test_axes_on_one_line_keep_a_gain(write):
+    """Two axes on one line with a link without mass between: the mass matrix is singular."""
+    text = robot(
+        link("base"), link("a", ""), link("b"),
+        joint("i", "base", "a", inside=LIMIT), joint("j", "a", "b", inside=LIMIT),
+    )  # fmt: skip
+    loaded = load(write("r.urdf", text))
+    loads = compute_joint_loads(create_structure(loaded), {"b": link_inertia(loaded.link["b"])}, {})
+    for held in loads.values():
+        assert held.inertia == pytest.approx(0.1)
+        assert 0.01 <= held.reduced <= 0.1
 
 
 @pytest.mark.library("mujoco")

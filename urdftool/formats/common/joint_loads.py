@@ -29,19 +29,33 @@ _RESERVE = 2.0
 """Ratio of stiffness to the m·g·h at which an inverted pendulum tips; chosen, no source."""
 
 
+LEAST_REDUCED = 0.1
+"""Least ratio of the inertia with the other joints free to that with them held; chosen, no source.
+
+Two axes on one line with a link without mass between them would give zero.
+"""
+
+
 @dataclass(frozen=True)
 class JointLoad:
     """What a joint moves and holds while the other joints do not move.
 
     Attributes:
         inertia: Inertia that it moves [kg·m² or kg].
+        reduced: Inertia that it moves while the other joints are free, which bounds its stiffness;
+            ``inertia`` if the ground carries what it moves.
         force: Torque or force with which it holds the robot against gravity [N·m or N].
         stiffness: Stiffness [N·m/rad] below which a robot above its feet may tip; 0 for none.
     """
 
     inertia: float = 0.0
+    reduced: float = 0.0
     force: float = 0.0
     stiffness: float = 0.0
+
+    def add_armature(self, armature: float) -> JointLoad:
+        """Return the load with a rotor inertia at the joint [kg·m² or kg]."""
+        return replace(self, inertia=self.inertia + armature, reduced=self.reduced + armature)
 
 
 def compute_joint_loads(
@@ -78,9 +92,9 @@ def compute_joint_loads(
     forces = _compute_forces(bodies, points)
     below = _get_bodies_below(tree)
     found = {}
-    for joint in tree.moving:
-        if joint.type not in ("revolute", "continuous", "prismatic"):
-            continue
+    joints = [j for j in tree.moving if j.type in ("revolute", "continuous", "prismatic")]
+    reduced = _compute_reduced(tree, joints, poses, bodies, below)
+    for joint in joints:
         moved = below[tree.group[joint.child]]
         held = np.array([carrier in moved for carrier in carriers], dtype=bool)
         load = _compute_load(
@@ -88,6 +102,8 @@ def compute_joint_loads(
         )
         if held.any():
             load = replace(load, stiffness=_compute_stiffness(joint, poses[joint.child], bodies))
+        else:
+            load = replace(load, reduced=reduced[joint.name])
         found[joint.name] = load
     return found
 
@@ -126,14 +142,64 @@ def _compute_load(
     axis = _get_axis(joint, pose)
     if joint.type == "prismatic":
         pull = (forces.sum() - GRAVITY * moved.masses.sum()) * axis[2]
-        return JointLoad(float(moved.masses.sum()), float(abs(pull)))
+        mass = float(moved.masses.sum())
+        return JointLoad(mass, mass, float(abs(pull)))
     start = np.array(pose.translation)
     arms = np.cross(axis, moved.centers - start)
     about = np.einsum("i,nij,j->n", axis, moved.tensors, axis)
     inertia = float((about + moved.masses * (arms**2).sum(axis=1)).sum())
     torque = -GRAVITY * float(moved.masses @ arms[:, 2])
     torque += float(forces @ np.cross(axis, points - start)[:, 2])
-    return JointLoad(inertia, abs(torque))
+    return JointLoad(inertia, inertia, abs(torque))
+
+
+def _compute_reduced(
+    tree: RigidTree,
+    joints: Sequence[Joint],
+    poses: Mapping[str, Pose],
+    bodies: _Bodies,
+    below: Mapping[str, set[str]],
+) -> dict[str, float]:
+    """Compute the inertia of each joint while the others are free, on a fixed base, by name.
+
+    It is the reciprocal of the diagonal element of the inverse mass matrix M. An element of M is
+    the generalized momentum of one joint for the unit velocity of the other below it.
+    """
+    size = len(joints)
+    matrix = np.zeros((size, size))
+    screws = [_get_screw(joint, poses[joint.child]) for joint in joints]
+    for column, joint in enumerate(joints):
+        moved = below[tree.group[joint.child]]
+        momentum = _compute_momentum(bodies.select(moved), screws[column])
+        for row, other in enumerate(joints):
+            if tree.group[joint.child] in below[tree.group[other.child]]:
+                matrix[row, column] = matrix[column, row] = float(screws[row] @ momentum)
+    known = np.flatnonzero(np.diag(matrix) > 0)
+    own = np.diag(matrix)[known]
+    scale = 1 / np.sqrt(own)
+    scaled = matrix[np.ix_(known, known)] * np.outer(scale, scale)
+    ratios = 1 / np.diag(np.linalg.pinv(scaled, hermitian=True)) if len(known) else own
+    found = dict.fromkeys((joint.name for joint in joints), 0.0)
+    for number, inertia, ratio in zip(known, own, ratios, strict=True):
+        part = min(max(float(ratio), LEAST_REDUCED), 1.0)
+        found[joints[int(number)].name] = part * float(inertia)
+    return found
+
+
+def _get_screw(joint: Joint, pose: Pose) -> Array:
+    """Return angular and linear velocity of the origin, shape (6,), for the unit velocity."""
+    axis = _get_axis(joint, pose)
+    if joint.type == "prismatic":
+        return np.concatenate([np.zeros(3), axis])
+    return np.concatenate([axis, np.cross(np.array(pose.translation), axis)])
+
+
+def _compute_momentum(moved: _Bodies, screw: Array) -> Array:
+    """Return angular momentum about the origin and momentum, shape (6,), of moved links."""
+    speeds = screw[3:] + np.cross(screw[:3], moved.centers)
+    linear = moved.masses[:, None] * speeds
+    angular = moved.tensors @ screw[:3] + np.cross(moved.centers, linear)
+    return np.concatenate([angular.sum(axis=0), linear.sum(axis=0)])
 
 
 def _compute_stiffness(joint: Joint, pose: Pose, bodies: _Bodies) -> float:

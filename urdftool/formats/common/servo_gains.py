@@ -2,7 +2,8 @@
 
 A servo holds the robot at home: full effort at a small error, and enough stiffness that the robot
 does not tip over. The stiffness k of a servo that a simulator integrates explicitly is bounded by
-the inertia M that the joint moves and the time step Δt: k ≤ M/Δt². With critical damping, which
+the inertia M that the joint moves and the time step Δt: k ≤ M/Δt². In a chain, M is that with the
+other joints free, unless the ground carries the end of the chain. With critical damping, which
 MuJoCo integrates implicitly, such a servo does not oscillate.
 """
 
@@ -80,7 +81,7 @@ def choose_position_gain(
         load: What the joint moves, with its armature, and holds.
         timestep: Physics time step [s].
     """
-    most = PART * load.inertia / timestep**2
+    most = PART * (load.reduced or load.inertia) / timestep**2
     if effort:
         wanted = max(effort * POSITION_GAIN[kind], load.stiffness)
     elif most > 0:

@@ -95,7 +95,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     positions = chosen.values
     if free or chosen.stands:
         positions = choose_standing_positions(structure, boxes, chosen, written)
-    if free:
+    if free and robot.format != "mjcf":  # whose author chose the start
         report_support(structure, boxes, positions, written)
     structure = replace(structure, free=free, reason=reason)
     home = place_home(structure, boxes, positions)
@@ -139,7 +139,7 @@ def _compute_loads(
     for joint in structure.robot.joints:
         load, armature = loads.get(joint.name), joint.dynamics and joint.dynamics.armature
         if load is not None and armature:
-            loads[joint.name] = replace(load, inertia=load.inertia + armature)
+            loads[joint.name] = load.add_armature(armature)
     return loads
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
@@ -125,7 +125,7 @@ def _add_armature(joint: Joint, load: JointLoad, settings: JointSettings) -> Joi
     armature = settings.armature
     if armature is None:
         armature = (joint.dynamics and joint.dynamics.armature) or 0.0
-    return replace(load, inertia=load.inertia + max(armature, 0.0))
+    return load.add_armature(max(armature, 0.0))
 
 
 def _make_servo(
