@@ -34,6 +34,21 @@ COVERED = {
 """Defects without a rule of their own, and the rules that report them."""
 
 
+NOT_REPORTED = {
+    "effort and velocity of a `<limit>` exchanged": "the values of a small fast drive look the "
+    "same; a velocity above 100 rad/s is `implausible-velocity`",
+    "limits of ±3.1416 on a joint that turns further": "the file does not say how far the drive "
+    "turns; compare with the data sheet",
+    "a part that touches nothing": "sensors and casters are often mounted on parts without "
+    "geometry; `simulate` and `view` show the gap",
+    "an axis reversed on a joint without a counterpart": "nothing in the file shows the direction; "
+    "`axis-against-others` compares joints that have counterparts",
+    "a joint displaced along its rail": "it is another zero of the same motion",
+    "a collision that reaches below the floor": "a description has no floor; `simulate` reports it",
+}
+"""Defects that no rule reports, with the reason."""
+
+
 def write_page(rule: Rule) -> str:
     """Return the page of a rule: what is wrong, what readers do, the changed lines, the fix."""
     fact, _, rest = inspect.cleandoc(rule.check.__doc__ or "").partition("\n")
@@ -86,6 +101,8 @@ def write_index() -> str:
         named = [rules] if isinstance(rules, str) else rules
         links = ", ".join(f"[{name}]({name}.md)" for name in named)
         lines.append(f"| {defect} | {links} |")
+    lines += ["", "## Not reported", "", "| defect | reason |", "|---|---|"]
+    lines += [f"| {defect} | {reason} |" for defect, reason in NOT_REPORTED.items()]
     lines += ["", "A [baseline](../commands/lint.md) entry that no longer matches a finding is"]
     lines.append("reported as a note of the run, not as a finding.")
     lines += _write_target_sections()

@@ -40,7 +40,8 @@ def test_readers_of_several_robots_are_counted(tmp_path, urdftool):
     for name, text in (("a", SOUND), ("b", MASSLESS), ("c", MASSLESS)):
         (tmp_path / f"{name}.urdf").write_text(text.replace('"r"', f'"{name}"'))
     err = urdftool("lint", tmp_path, "--no-cache", "-j", "1").err
-    assert "mujoco rejects 2 of 3 robots" in err
+    (line,) = (line for line in err.splitlines() if line.endswith("2 of 3 robots"))
+    assert "mujoco" in line
 
 
 def test_the_cache_keeps_them(tmp_path, urdftool):

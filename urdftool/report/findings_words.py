@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
@@ -89,10 +90,11 @@ def list_rejections(outcome: Outcome) -> Iterator[str]:
     """
     rejected = [report for report in outcome.reports if report.rejected]
     if len(outcome.reports) > 1:
-        readers = sorted({reader for report in rejected for reader in report.rejected})
-        for reader in readers:
-            count = sum(reader in report.rejected for report in rejected)
-            yield f"{reader} rejects {count} of {len(outcome.reports)} robots"
+        counts = Counter(reader for report in rejected for reader in report.rejected)
+        for count in sorted(set(counts.values()), reverse=True):
+            readers = sorted(reader for reader in counts if counts[reader] == count)
+            verb = "rejects" if len(readers) == 1 else "reject"
+            yield f"{', '.join(readers)} {verb} {count} of {len(outcome.reports)} robots"
         return
     for report in rejected:
         together: dict[tuple[str, ...], list[str]] = {}

@@ -43,7 +43,6 @@ _WITHOUT_BLOCK = {
 
 @rule(
     WARNING,
-    default=False,
     on=("gazebo-classic", "gz"),
     effects=_WITHOUT_BLOCK,
     group="robot",
