@@ -234,13 +234,8 @@ def _collision(geometry, model, data, q, root, compiled):
 
 def _geom_box(compiled, geom, frame):
     """The box of a geom in another frame than the root's."""
-    from urdftool.formats.mjcf import verify_shapes
+    from urdftool.formats.mjcf.verify_home import get_reaches
 
-    class Turned:
-        model, mujoco = compiled.model, compiled.mujoco
-
-        @staticmethod
-        def geom_frame(number):
-            return np.linalg.inv(frame) @ compiled.get_geom_frame(number)
-
-    return verify_shapes._compute_geom_bounds(Turned, geom)
+    pose = np.linalg.inv(frame) @ compiled.get_geom_frame(geom)
+    reaches = np.array([get_reaches(compiled, geom, row) for row in pose[:3, :3]])
+    return pose[:3, 3] + reaches[:, 0], pose[:3, 3] + reaches[:, 1]

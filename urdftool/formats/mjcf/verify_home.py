@@ -82,13 +82,13 @@ def get_lowest_point(compiled: Compiled) -> tuple[float, float]:
             continue
         way = data.geom_xmat[geom].reshape(3, 3)[2]
         middle = float(data.geom_xpos[geom][2])
-        a, b = (middle + reach for reach in _get_reaches(compiled, geom, way))
+        a, b = (middle + reach for reach in get_reaches(compiled, geom, way))
         low, high = min(low, a), max(high, b)
     return low, high - low
 
 
-def _get_reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
-    """Return the lower and upper extent of a geom [m], from the third row of its rotation."""
+def get_reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
+    """Return the extents of a geom along a direction of unit length in its frame [m]."""
     model, kinds = compiled.model, compiled.mujoco.mjtGeom
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == int(kinds.mjGEOM_MESH):
