@@ -185,7 +185,7 @@ class Harness:
             text = f"{d.row}: {d.title}"
             if d.is_convention:
                 result.is_convention |= bool({*d.names, *d.owners} & change.names)
-            elif d.kind == "robot":
+            elif d.kind in ("robot", "configuration"):
                 result.of_robot.append(d.row)
             elif {*d.names, *d.owners} & change.names:
                 result.at_its_part.append(text)

@@ -18,7 +18,7 @@ from urdftool.model.world import weld_base
 
 OPTIONS = {
     "sdf": SdfOptions(folder="robot", uri="relative", force=True),
-    "mjcf": MjcfOptions(force=True),
+    "mjcf": MjcfOptions(actuators="described", force=True),
 }
 
 

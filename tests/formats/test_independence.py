@@ -25,6 +25,7 @@ OPEN = (
     *("sdf.options", "sdf.write", "sdf.verify", "sdf.read"),
     *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),
     *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
+    "usd.declared_losses",
     "mjcf.read",
 )
 
@@ -60,7 +61,7 @@ def test_a_reader_shares_nothing_with_the_writers(path):
 
 
 def test_the_proofs_are_found():
-    assert len(PROOFS) > 25
+    assert len(PROOFS) > 20
     assert len(READERS) > 6
 
 

@@ -62,7 +62,9 @@ def _compare(
     one, two = drives
     comparison.record_parts(_ROW, one, two)
     if one is None or two is None:
-        if one is not two:
+        if _is_undriven(pair, drives):
+            comparison.record_not_comparable("actuators of joints that the URDF does not drive")
+        elif one is not two:
             modes = (None if drive is None else drive.mode for drive in drives)
             add("actuator", (next(modes), next(modes)), math.inf)
         return
@@ -75,3 +77,9 @@ def _compare(
             continue
         amount = measure(x, y)
         add(f"{what} of actuator", (x, y), amount if amount > _TOLERANCE else 0.0, unit)
+
+
+def _is_undriven(pair: Pair, drives: tuple[Drive | None, Drive | None]) -> bool:
+    """Tell whether only a file that is no URDF drives a joint: a URDF need not say how."""
+    sides = zip(pair.formats, drives, strict=True)
+    return any(form == "urdf" and drive is None for form, drive in sides) and any(drives)

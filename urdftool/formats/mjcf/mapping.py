@@ -186,6 +186,8 @@ def format_markdown() -> str:
         ("sensor `contact`", CLOSE, "`touch` in a site over the link's first simple shape")
     )
     sensors.append(("any other sensor", LOST_MARK, "said"))
+    parameters = "parameters of sensors: noise, rate, topic, frame, clip"
+    sensors.append((parameters, LOST_MARK, "`lossy-sensor-parameter`"))
     lost = [(f"gazebo `{tag}`", LOST_MARK, why) for tag, (why, _) in LOST.items()]
     parts = (
         ("Robot and links", ROBOT),

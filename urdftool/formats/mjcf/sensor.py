@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 
 from lxml import etree
 
+from ...diagnostic import Severity
 from ...model.elements import Link, Robot
 from ...model.mechanism import Camera, Frame, MountedSensor
 from ...model.pose import IDENTITY, Pose, get_origin_at, make_pose, rotation_from_rpy
-from ...model.sensors import KINDS, MAX_RAYS, get_kind
+from ...model.sensors import KINDS, MAX_RAYS, get_kind, get_sensor_row
 from ...model.settings import get_number
 from ..common.naming import UniqueNames
 from ..common.shape_box import get_shape_size
@@ -38,6 +39,13 @@ BASE_KINDS = (
 """Sensors of a floating base that control policies read, with the suffixes of their names."""
 
 _SUFFIX_OF = {tag: suffix for kind in KINDS for tag, suffix in kind.mjcf}
+
+
+_EXPRESSED = (
+    *("samples", "minimum angle", "maximum angle", "measured frame", "direction", "collision"),
+    *("visualize", "metrics"),
+)
+"""Parameters that a sensor's type, site or number of rays expresses, or that change no value."""
 
 
 @dataclass
@@ -99,6 +107,27 @@ class _Planner:
             Camera(camera.provenance, name, camera.link, camera.origin, vertical, size)
         )
 
+    def report_parameters(self, sensor: Camera | MountedSensor) -> None:
+        """Report the parameters of a sensor that MuJoCo's do not have; defaults have no effect."""
+        names = dict.fromkeys(
+            "noise" if "noise" in name else name.replace("/", " ")
+            for name, value in sensor.settings.items()
+            if name not in _EXPRESSED
+            and not get_sensor_row(name).mjcf
+            and value.content != get_sensor_row(name).default
+        )
+        if names:
+            what = "camera" if isinstance(sensor, Camera) else "sensor"
+            self.written.report_loss(
+                "sensor-parameter",
+                f"{what} '{sensor.name}' is exported without what MuJoCo's have no place for: "
+                f"{', '.join(names)}",
+                sensor.place,
+                kind="sensor",
+                name=sensor.name,
+                severity=Severity.INFO,
+            )
+
     def report(self, sensor: MountedSensor, why: str) -> None:
         """Report a sensor that is not exported completely."""
         self.written.report_loss(
@@ -130,8 +159,10 @@ def plan_sensors(
             planner.plan.sensors.append(sensor)
         elif link in robot.link:
             _plan_sensor(planner, sensor, link)
+            planner.report_parameters(sensor)
     for camera in robot.cameras:
         planner.add_camera(camera)
+        planner.report_parameters(camera)
     _report_unknown(robot, written)
     if base:
         _plan_base(planner, structure)
