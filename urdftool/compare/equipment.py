@@ -40,15 +40,15 @@ _READ_IN_GAZEBO = _READ | {"joint"}
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     """Compare actuators, contact pairs, configurations and plugins of two files of one format."""
-    rows = set(_ROW_OF.values()) & comparison.tolerances.keys()
+    rows = [row for row in comparison.tolerances if row in _ROW_OF.values()]
     if pair.formats[0] != pair.formats[1]:
-        for row in rows - {"actuators", "sensors"}:
-            comparison.skipped[row] = _WHY.get(row, "of two files of one format only")
+        for row in rows:
+            if row not in ("actuators", "sensors"):
+                comparison.skipped[row] = _WHY.get(row, "of two files of one format only")
         return
     if pair.formats[0] == "urdf":  # its actuators are elements of blocks
-        comparison.skipped.update(
-            dict.fromkeys(rows - {_BLOCKS, "sensors"}, f"in the row of {_BLOCKS}")
-        )
+        others = [row for row in rows if row not in (_BLOCKS, "sensors")]
+        comparison.skipped.update(dict.fromkeys(others, f"in the row of {_BLOCKS}"))
     elif _BLOCKS in rows:
         comparison.skipped[_BLOCKS] = _WHY[_BLOCKS]
     _record_parts(pair, comparison)
