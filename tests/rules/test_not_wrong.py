@@ -342,3 +342,26 @@ def test_a_mirrored_center_of_mass_has_the_numbers_of_its_file(tmp_path):
     assert sorted(map(abs, map(float, wrong.split()))) == sorted(
         map(abs, map(float, right.split()))
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "said"),
+    [
+        ('<robot name="r">\n  <link name="a>\n    <visual/>\n  </link>\n</robot>', 2, 14, "quote"),
+        (
+            "<robot name='r'>\n  <link name='a\">\n    <visual/>\n  </link>\n</robot>",
+            2,
+            14,
+            "quote",
+        ),
+        ('<robot name="r"><link name="a"/></robot>\n\0', 2, 1, "NUL byte"),
+        ('<robot name="r"><link name="a"/></robot>\n</robot>', 2, 2, "end tag"),
+    ],
+)
+def test_a_damaged_file_says_what_is_in_it(tmp_path, urdftool, text, line, column, said):
+    write(tmp_path, {"r.urdf": text})
+    result = urdftool("lint", tmp_path / "r.urdf", "--no-cache", "--format", "concise")
+    assert result.code == 2
+    shown = result.out + result.err
+    assert f"r.urdf:{line}:{column}: " in shown
+    assert said in shown

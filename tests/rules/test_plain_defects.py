@@ -149,3 +149,9 @@ def test_a_package_with_the_same_ending_is_not_suggested(tmp_path):
         path.write_text(f'<robot name="r"><link name="a">{mesh.format(name)}</link></robot>')
         report = check_file(path, Options(Settings(select=("package-not-found",))))
         assert ("did you mean" in report.findings[0].message) is suggested
+
+
+@pytest.mark.parametrize(("mass", "found"), [(1.2, "info"), (6, "warning")])
+def test_a_mass_many_times_that_of_the_mirror_image_is_a_warning(tmp_path, mass, found):
+    right = (inertial(0.0017 * mass, mass), *WHOLE[1:])
+    assert find(tmp_path, "left-right-asymmetry", *legs(*right)) == [("right_leg", found)]

@@ -63,6 +63,8 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
     except expat.ExpatError as error:
         offset = min(parser.ErrorByteIndex, len(file.data))
         message, rule, case = _explain(file, error, offset)
+        if case == _OPEN_QUOTE:
+            offset = _find_open_quote(file.data, offset)
         if stack and case == "an element that is not closed":
             line = file.position(stack[-1].start)[0]
             message += f" (open: <{stack[-1].tag}> of line {line})"
@@ -149,7 +151,10 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
             "blanks" if blank else "a comment" if before.lstrip()[:4] == b"<!--" else "other text",
         )
     case = ""
-    if reason == _INVALID and data[offset - 1 : offset + 1] == b"</":
+    if reason == _INVALID and _find_open_quote(data, offset) >= 0:
+        reason = "the quote that opens here is not closed before the next tag; add one at the end"
+        case = _OPEN_QUOTE
+    elif reason == _INVALID and data[offset - 1 : offset + 1] == b"</":
         reason = f"</{closing}> is an end tag, but no element is open here; remove it"
     elif data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
         reason = f'the XML declaration is invalid ({reason}); use <?xml version="1.0"?>'
@@ -176,8 +181,29 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
 
 
 _INVALID = "not well-formed (invalid token)"
+_OPEN_QUOTE = "a quote that is not closed"
 _UNBOUND_PREFIX = 27  # XML_ERROR_UNBOUND_PREFIX of expat
 _NOT_CLOSED = ("mismatched tag", "no element found")
+
+
+def _find_open_quote(data: bytes, offset: int) -> int:
+    """Find the quote that opens the value of an attribute with ``<`` in it; -1 if there is none.
+
+    A quote that is not closed takes the text up to the next quote into its value, with the tags in
+    between. The parser then reports the first of these, or what follows the next quote.
+    """
+    start = data.rfind(b"<", 0, offset)
+    if data[offset : offset + 1] != b"<" or start < 0:
+        return -1
+    quote = -1
+    for at in range(start, offset):
+        if data[at] not in b"\"'":
+            continue
+        if quote < 0:
+            quote = at
+        elif data[at] == data[quote]:
+            quote = -1
+    return quote
 
 
 def _is_in_comment(data: bytes, offset: int) -> bool:

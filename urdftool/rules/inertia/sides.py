@@ -45,6 +45,7 @@ def left_right_asymmetry(
     mass_difference: float = 0.05,
     com_difference: float = 0.05,
     inertia_difference: float = 0.2,
+    certain: float = 5.0,
 ) -> Iterator[Problem]:
     """A link and its mirror image differ in mass, center of mass or inertia.
 
@@ -52,7 +53,8 @@ def left_right_asymmetry(
     names, such as ``left_arm`` and ``right_arm``. Compared are values that do not depend on the
     orientation of the frames: the mass, the distance of the center of mass from the frame, and the
     sum of the moments of inertia. ``mass_difference``, ``com_difference`` and
-    ``inertia_difference`` are the tolerated relative differences. Parts of rigid bodies that
+    ``inertia_difference`` are the tolerated relative differences. A mass that is ``certain`` times
+    the other is a warning. Parts of rigid bodies that
     mirror each other as a whole are not reported.
     """
     twins = map_twin_links(robot)
@@ -71,13 +73,15 @@ def left_right_asymmetry(
             or _is_different(_trace(bodies[0]), _trace(bodies[1]), inertia_difference)
         ):
             continue  # their rigid bodies mirror each other
-        if _is_different(link.mass, other.mass, mass_difference):
+        masses = link.mass, other.mass
+        if _is_different(*masses, mass_difference):
             yield Problem(
                 other,
                 f"mass of link '{other.name}' is {other.mass:g} kg, but that of its mirror image "
                 f"'{link.name}' is {link.mass:g} kg; make them equal",
                 at=other.inertial,
                 data={"twin": link.name, "mass": other.mass, "mass_of_twin": link.mass},
+                severity=WARNING if max(masses) >= certain * min(masses) else None,
                 effects=[*_select_readers(link, other), "pybullet"],
             )
             continue
