@@ -219,3 +219,11 @@ def test_a_robot_on_two_points_is_reported(write, foot, outside):
     for loss in losses:
         assert loss.data["margin"] == pytest.approx(-0.007, abs=0.01)
         assert "'l_foot', 'r_foot'" in loss.message
+
+
+def test_a_robot_that_lies_on_its_trunk_gets_up(write):
+    """Thighs and calves are level at zero, so that the trunk is on the ground."""
+    text = quadruped((-3, 3), (-3, 3)).replace('"0 0 -0.2"', '"-0.2 0 0"')
+    structure, home, written = stand(write("r.urdf", text))
+    assert "lossy-standing" in [loss.code for loss in written.losses]
+    assert link_poses(structure.robot, home)["fl_calf"].translation[2] < -0.1

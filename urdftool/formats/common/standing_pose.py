@@ -103,8 +103,8 @@ def choose_standing_positions(
 ) -> dict[str, float]:
     """Choose positions with bent legs, if the user asks for it, or if it would not stand as it is.
 
-    Without the user's word, the legs are bent if zero is outside of the limits of hip or knee, or
-    if a foot is not on the ground, and if no other source gives their positions.
+    Without the user's word, the legs are bent if zero is outside of the limits of hip or knee, if a
+    foot is not on the ground, or if the root is, and if no other source gives their positions.
 
     Args:
         tree: The rigid bodies.
@@ -135,12 +135,14 @@ def choose_standing_positions(
 def _needs_bend(
     tree: RigidTree, boxes: ShapeBoxes, legs: Sequence[Leg], home: HomePositions
 ) -> bool:
-    """Tell whether a hip or knee cannot be at zero, or a foot is not on the ground."""
+    """Tell whether a hip or knee cannot be at zero, a foot is in the air, or the robot lies."""
     if any(joint.name in home.clamped for leg in legs for joint in (leg.hip, leg.knee)):
         return True
     ground = measure_ground(tree, boxes, home.values)
     if ground is None:
         return False
+    if tree.root.name in ground.get_near(CLEARANCE):
+        return True
     low = ground.low + LEVEL * ground.size
     return any(ground.get_lowest(leg.foot) > low for leg in legs)
 
