@@ -139,3 +139,15 @@ def test_links_that_overlap_at_home_never_collide(write, tmp_path, height, more,
             for some in (written, mjcf)
         )
         assert ours == theirs
+
+
+def test_an_effort_of_zero_is_left_out(tmp_path, write):
+    import urdftool
+
+    limit = '<limit lower="-1" upper="1" effort="0" velocity="1"/>'
+    path = write("r.urdf", robot(link("a"), joint("j", "a", "b", "revolute", limit), link("b")))
+    written = urdftool.export_usd(urdftool.load(path), tmp_path / "r.usda", verify=True)
+    assert "drive:angular:physics:maxForce" not in read_joint(written, tmp_path, "j")
+    assert rules(written).count("lossy-effort") == 1
+    rows = {check.name: check.verdict for check in written.checks}
+    assert rows["limits"] in ("equal", "announced")

@@ -116,7 +116,22 @@ def _choose(
         chosen.kd or 0.0,
     )
     _report_changes(joint, plain, values, written)
-    return values
+    return _drop_zero_effort(joint, values, written)
+
+
+def _drop_zero_effort(joint: Joint, values: JointValues, written: Written) -> JointValues:
+    """Return the values of a joint without an effort limit of zero, which is reported."""
+    if values.effort != 0 or joint.limit is None:
+        return values
+    written.report_loss(
+        "effort",
+        f"effort limit 0 of joint '{joint.name}' is left out: a drive with it applies nothing, and "
+        "Newton rejects the stage",
+        joint.limit.place,
+        kind="joint",
+        name=joint.name,
+    )
+    return replace(values, effort=None)
 
 
 def _compute_gains(servos: Sequence[JointActuator], joint: Joint) -> tuple[float, float]:
