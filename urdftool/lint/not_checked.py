@@ -37,15 +37,10 @@ def refuse_other_files(file: SourceFile) -> None:
             path=file.path,
         )
     text = tuple(start for start, _ in WIDE)  # has zero bytes
-    if file.data.startswith(text + STAGE_HEADS):
+    is_xml = file.data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+    if is_xml or file.data.startswith(text + STAGE_HEADS):
         return
-    at = file.data.find(b"\0")
-    if at >= 0 and file.data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
-        raise SourceError(
-            "a NUL byte is in the file, which XML does not allow; remove it",
-            at=Place(file, at, at + 1),
-        )
-    if 0 <= at < _HEAD:
+    if b"\0" in file.data[:_HEAD]:
         raise SourceError("is a binary file, not a robot description", path=file.path)
 
 

@@ -154,6 +154,8 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     if reason == _INVALID and _find_open_quote(data, offset) >= 0:
         reason = "the quote that opens here is not closed before the next tag; add one at the end"
         case = _OPEN_QUOTE
+    elif reason == _INVALID and data[offset : offset + 1] == b"\0":
+        reason = "a NUL byte is in the file, which XML does not allow; remove it"
     elif reason == _INVALID and data[offset - 1 : offset + 1] == b"</":
         reason = f"</{closing}> is an end tag, but no element is open here; remove it"
     elif data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
