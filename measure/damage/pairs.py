@@ -44,7 +44,10 @@ def plant_pair(
     robot = Robot(root, folder)
     hit: list[set[str]] = []
     for kind in kinds:
-        damaged = KINDS[kind](robot, random.Random(f"{sample.path.stem} {kind} {seed}"))
+        try:
+            damaged = KINDS[kind](robot, random.Random(f"{sample.path.stem} {kind} {seed}"))
+        except RecursionError:  # the first damage is a circle of joints
+            return None
         if damaged is None or any(damaged & other for other in hit):
             return None
         hit.append(damaged)
