@@ -41,7 +41,7 @@ MENU = {
     ),
     "Measurements": (
         *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
-        "srdf-vendors",
+        *("srdf-vendors", "srdf-numbers"),
         "collision-measurements",
         *("inertia-vendors", "vendors", "lint-precision"),
     ),

@@ -10,7 +10,6 @@ triangles instead, coal is asked for their distance. The poses of the links are 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -205,12 +204,3 @@ def _make_shapes(shape: LinkShape, pose: tuple[Array, Array]) -> list[tuple[Any,
         at = coal.Transform3s(turn @ solid.rotation, turn @ solid.translation + shift)
         found.append((model, at))
     return found
-
-
-def summarize(results: Mapping[str, Checked]) -> list[str]:
-    """Return a line of a table for each robot."""
-    return [
-        f"| {name} | {r.proofs} | {r.boxes:,} | {r.claims:,} | {r.poses:,} | {r.disagreements} "
-        f"| {r.deepest * 1000:.3f} mm | {r.least_filled:.9f} |"
-        for name, r in results.items()
-    ]
