@@ -74,7 +74,7 @@ class Directed:
         gap: Array,
         margin: float,
     ) -> Indices:
-        """Tell which pairs of pieces a direction from A to B separates in the whole box.
+        """Return which pairs of pieces a direction from A to B separates in the whole box.
 
         Args:
             boxes: The boxes; the shares are raised.

@@ -82,8 +82,8 @@ def bound_motion(
         (np.stack(of_a)[split, rows], np.stack(of_b)[split, rows]),
         (np.stack(curves_a)[split, rows], np.stack(curves_b)[split, rows]),
         *_list_widths(steps, halves, split),
-        _share(steps, halves, split, worst_a, worst_b),
-        _share(steps, halves, split, _find_worst(curves_a), _find_worst(curves_b)),
+        _compute_share(steps, halves, split, worst_a, worst_b),
+        _compute_share(steps, halves, split, _find_worst(curves_a), _find_worst(curves_b)),
     )
 
 
@@ -91,7 +91,7 @@ def _find_worst(bounds: Sequence[Array]) -> Array:
     return np.stack([bound.max(axis=1) for bound in bounds])
 
 
-def _share(
+def _compute_share(
     steps: Sequence[Step], halves: Array, split: np.ndarray, worst_a: Array, worst_b: Array
 ) -> Array:
     """Return the share of each coordinate in bounds of A and of B."""

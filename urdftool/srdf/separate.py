@@ -238,7 +238,7 @@ class Separator:
         gap: Array,
         some: Indices,
     ) -> Indices:
-        """Tell which of some rows are free in the whole box."""
+        """Return which of some rows are free in the whole box."""
         chosen = rows[some]
         pieces = c.one[chosen], c.other[chosen]
         return self.directed.find_free(
