@@ -101,7 +101,7 @@ def merge_results(paths: Sequence[Path]) -> Results:
 def open_robot(path: Path) -> tuple[Robot, str] | None:
     """Return a robot with its text; None if urdftool or Pinocchio does not read it."""
     try:
-        text = path.read_text()
+        text = path.read_bytes().decode("utf-8")  # line ends as they are
         Engine(text)
         return urdftool.load(path), text
     except Exception:  # Pinocchio raises several kinds

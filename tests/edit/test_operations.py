@@ -124,6 +124,16 @@ def test_zero_shifts_everything(arm):
     assert edited.is_proved
 
 
+def test_a_joint_without_bounds_gets_none(write):
+    text = ARM.replace('<limit lower="-1.0" upper="2" ', "<limit ").replace(
+        'soft_lower_limit="-0.9" soft_upper_limit="1.9" ', ""
+    )
+    robot = urdftool.load(write("turns/arm.urdf", text))
+    for edited in (robot.change_zero({"shoulder": 0.5}), robot.reverse_sign(["shoulder"])):
+        assert edited.is_proved
+        assert '<limit effort="30" velocity="3"/>' in edited.data.decode()
+
+
 def test_sign_exchanges_limits(arm):
     edited = arm.reverse_sign(["shoulder"])
     text = edited.data.decode()

@@ -353,7 +353,7 @@ def _shift_joint(joint: Joint, known: dict[str, JointValue]) -> Joint:
 
 
 def _shift_limit(joint: Joint, limit: Limit, sign: float, zero: float) -> Limit:
-    if joint.type == "continuous":
+    if joint.turns_freely:
         return limit
     low, high = sorted(sign * (value or 0.0) + zero for value in (limit.lower, limit.upper))
     if (limit.lower or 0.0) > (limit.upper or 0.0):

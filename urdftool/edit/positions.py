@@ -60,7 +60,7 @@ def _change_joint(draft: Draft, joint: Joint, change: Change) -> None:
         draft.set_pose(element, joint.origin, make_pose(joint.origin) @ motion)
     if change.sign < 0:
         negate_axis(draft, joint)
-    if joint.limit is not None and joint.type != "continuous":
+    if joint.limit is not None and not joint.turns_freely:
         _change_pair(draft, joint.limit.xml, ("lower", "upper"), change)
     safety = joint.safety_controller
     if safety is not None:
