@@ -42,7 +42,7 @@ MENU = {
     "Measurements": (
         *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
         *("srdf-vendors", "srdf-numbers"),
-        "collision-measurements",
+        *("collision-measurements", "edit-measurements"),
         *("inertia-vendors", "vendors", "lint-precision"),
     ),
     "Development": ("architecture", "contributing"),

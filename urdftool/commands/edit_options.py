@@ -43,7 +43,7 @@ def add_edit_options(function: F) -> F:
             "files",
             metavar="FILE",
             multiple=True,
-            help="SRDF or YAML file to edit, too, in addition to those that are found. Repeatable.",
+            help="YAML file to edit, too, or the SRDF in place of one that is found. Repeatable.",
         ),
         click.option(
             "-o",
