@@ -25,6 +25,7 @@ STATED = {
                              ("simulator data", "gazebo[chassis] added")},
     "plugin-class-mismatch": {("simulator data", "plugin")},
     "ros2-control-nested": {("simulator data", "removed"), ("simulator data", "added")},
+    "unprefixed-hardware-interface": {("simulator data", "joint[swing]/hardwareInterface")},
     "wrong-case-keyword": {("tree", "type")},
 }  # fmt: skip
 
