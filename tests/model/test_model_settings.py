@@ -67,7 +67,12 @@ def test_every_format_has_the_friction_that_is_simulated(
         made = api.load(tmp_path / name / written.main)
         (collision,) = made.link["a"].collisions
         assert get_number(collision.surface, "friction") == pytest.approx(friction)
-        assert compare_robots(robot, made).is_equal
+        differences = compare_robots(robot, made).differences
+        # Bullet's friction is that of both directions, and <mu1> that of the first
+        by_direction = (
+            {"second friction"} if blocks and contact and name in ("mjcf", "usd") else set()
+        )
+        assert {d.what for d in differences} == by_direction
 
 
 def test_a_later_spring_of_zero_removes_the_spring(write):
@@ -150,13 +155,13 @@ def test_another_friction_is_named_in_verify_and_diff(write, tmp_path, urdftool)
         assert "0.8" in result.out
 
 
-def test_a_wheel_of_an_sdf_without_friction_is_found(tmp_path):
+def test_a_caster_of_an_sdf_without_friction_is_found(tmp_path):
     ball = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
     shape = f"<collision name='c'>{ball}{{}}</collision>"
     grip = "<surface><friction><ode><mu>0.9</mu><mu2>0.9</mu2></ode></friction></surface>"
     text = (
-        "<sdf version='1.9'><model name='m'><link name='base'/><link name='{0}_wheel'>{1}</link>"
-        "<joint name='j' type='revolute'><parent>base</parent><child>{0}_wheel</child>"
+        "<sdf version='1.9'><model name='m'><link name='base'/><link name='{0}_caster'>{1}</link>"
+        "<joint name='j' type='revolute'><parent>base</parent><child>{0}_caster</child>"
         "<axis><xyz>0 1 0</xyz></axis></joint></model></sdf>"
     )
     path = tmp_path / "m.sdf"

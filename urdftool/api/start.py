@@ -32,7 +32,8 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
     from ..formats.written import Written
 
     leading = {n for n, joint in find_movable_joints(robot).items() if joint.mimic is None}
-    if len(robot.tree.roots) != 1 or not settings.pose.keys() <= leading:
+    is_tree = len(robot.tree.roots) == 1 and not robot.tree.detached
+    if not is_tree or not settings.pose.keys() <= leading:
         return settings, []  # which is refused
     written = Written("")
     tree, boxes = create_structure(robot), ShapeBoxes(robot)

@@ -22,7 +22,13 @@ from ...written import Written
 from ..options import Options
 from ..read import read
 from ..write import write
-from .declared_losses import EXCUSES, declare_losses, list_added_bodies, name_blocks
+from .declared_losses import (
+    EXCUSES,
+    declare_losses,
+    list_added_bodies,
+    list_dropped_parts,
+    name_blocks,
+)
 from .elements import compare_elements
 from .frames import open_model
 from .loader import run_loads
@@ -85,7 +91,12 @@ def read_pair(robot: Robot, written: Written, place: Path, options: Options | No
     source = _read_source(robot, options, written)
     packages = None if robot.source is None else robot.source.packages.make_finder_for(place)
     reading = read(place, packages=packages)
-    losses = [*written.losses, *name_blocks(robot, written.losses), *list_added_bodies(source)]
+    losses = [
+        *written.losses,
+        *name_blocks(robot, written.losses),
+        *list_dropped_parts(written.losses),
+        *list_added_bodies(source),
+    ]
     unread = [loss for loss in reading.losses if loss.code not in COMPARED_AS_ELEMENTS]
     claims = Claims(losses, written.renamed, EXCUSES, unread)
     return Pair(source, reading.robot, claims, declare_losses(losses), options, open_model(place))

@@ -32,6 +32,9 @@ _PARTS = ("surface", "link flags", "joint physics", "base")
 ADDED = "added-body"
 """Code of bodies that blocks add to the model."""
 
+DROPPED = "dropped-part"
+"""Code of sensors and plugins of other formats, which are dropped."""
+
 EXCUSES = (
     Excuse(("base",), frozenset((ADDED,)), "robot"),
     Excuse(("tree",), frozenset((ADDED,))),
@@ -52,6 +55,7 @@ EXCUSES = (
     Excuse(("collisions", "visuals"), SHAPES, "body"),
     Excuse(("colors", "looks", "textures"), SHAPES | {"lossy-material", "lossy-texture"}),
     Excuse(("colors", "looks"), BLOCKS, least=Severity.WARNING),
+    Excuse(("sensors", "plugins"), frozenset((DROPPED,)), properties=("existence",)),
     Excuse(("sensors",), frozenset(("lossy-frame-id",)), properties=("frame",)),
     Excuse(("sensors",), BLOCKS | {"lossy-sensor", "unknown-sensor-type"}, least=Severity.WARNING),
     Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
@@ -70,6 +74,13 @@ def list_added_bodies(robot: Robot) -> Iterator[Finding]:
         for name in (*roots, *(element.get("name") or "" for element in added)):
             place = added[0].place
             yield Finding(ADDED, Severity.INFO, "", place, "joint", f"{name}_floating")
+
+
+def list_dropped_parts(losses: Sequence[Finding]) -> Iterator[Finding]:
+    """Yield the losses of whole sensors and plugins with a code of their own."""
+    for loss in losses:
+        if loss.kind in ("sensor", "camera", "plugin"):
+            yield replace(loss, code=DROPPED)
 
 
 def name_blocks(robot: Robot, losses: Sequence[Finding]) -> Iterator[Finding]:
