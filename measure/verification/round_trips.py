@@ -81,12 +81,16 @@ def make_trip(path: Path, through: str, folder: Path) -> Trip:
             continue
         codes = {
             code
-            for name in difference.names
+            for name in (*difference.names, *difference.owners)
             for losses in (lost, lost_back)
             for code in losses.get(name, ())
         }
         if through == "mjcf" and difference.what == "limit of velocity":
             codes = {"lossy-velocity"}
+        if difference.row == "simulator data":  # blocks are written anew; their values have rows
+            codes |= {"rewritten", *lost.get("", ()), *lost_back.get("", ())}
+        if difference.kind == "robot":
+            codes |= lost.get("", set()) | lost_back.get("", set())
         if difference.kind == "robot" and trip.announced:
             codes = {"follows"}
         if codes:

