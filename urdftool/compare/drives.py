@@ -80,6 +80,6 @@ def _compare(
 
 
 def _is_undriven(pair: Pair, drives: tuple[Drive | None, Drive | None]) -> bool:
-    """Tell whether only a file that is no URDF drives a joint: a URDF need not say how."""
+    """Tell whether only the other file drives a joint of a URDF, which need not drive it."""
     sides = zip(pair.formats, drives, strict=True)
     return any(form == "urdf" and drive is None for form, drive in sides) and any(drives)

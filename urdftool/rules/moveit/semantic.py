@@ -16,11 +16,10 @@ from ..fix import (
     Proposal,
     append_child,
     escape_attribute,
-    find_attribute,
-    get_suggestion,
     safe,
     set_attribute,
     unsafe,
+    write_suggestion,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import find_nearest, suggest_name
@@ -139,11 +138,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
 @srdf_unknown_joint.fix(UNSAFE)
 def rename_reference(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the suggested name."""
-    found = find_attribute(problem)
-    name = get_suggestion(problem, found[0].get(found[1]) or "") if found is not None else ""
-    if found is None or not name:
-        return None
-    return unsafe(f"write '{name}'", set_attribute(*found, name))
+    return write_suggestion(problem)
 
 
 @rule(

@@ -19,6 +19,7 @@ from ..fix import (
     safe,
     set_attribute,
     unsafe,
+    write_suggestion,
 )
 from ..rule import (
     ANY_FORMAT,
@@ -127,7 +128,7 @@ def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     if "included_by" in problem.data:
         return None
     if joint.parent != "world":
-        return _write_suggestion(problem)
+        return write_suggestion(problem)
     check_not_included(context)
     made = prepend_child(context.robot.element, '<link name="world"/>')
     parent = joint.parent_element
@@ -137,14 +138,6 @@ def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 _WORLD = re.compile(rb"<link\b[^<>]*\bname\s*=\s*[\"']world[\"']")
-
-
-def _write_suggestion(problem: Problem) -> Proposal | None:
-    found = find_attribute(problem)
-    name = get_suggestion(problem, found[0].get(found[1]) or "") if found is not None else ""
-    if found is None or not name:
-        return None
-    return unsafe(f"write '{name}'", set_attribute(*found, name))
 
 
 @rule(
@@ -225,7 +218,7 @@ def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
     name = get_suggestion(problem, context.get_joint(problem).child)
     if any(joint.child == name for joint in context.robot.joints):
         return None
-    return _write_suggestion(problem)
+    return write_suggestion(problem)
 
 
 _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
