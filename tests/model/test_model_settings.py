@@ -183,3 +183,26 @@ def test_the_color_of_gazebo_is_that_of_an_sdf_and_no_difference(tmp_path, urdft
     path.write_text(path.read_text().replace("Blue", "Green"))
     result = urdftool("verify", path, tmp_path / "sdf" / "model.sdf")
     assert (result.code, "color of" in result.out) == (1, True)
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize(("kind", "tag"), [("sdf", "mu2"), ("urdf", "mu2")])
+def test_the_friction_of_an_mjcf_is_that_of_both_directions(tmp_path, kind, tag):
+    path = tmp_path / "r.xml"
+    geom = '<geom type="box" size=".1 .1 .1" friction="0.5 0.005 0.0001"/>'
+    body = f'<body name="b"><freejoint/>{geom}</body>'
+    path.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    written = getattr(api, f"export_{kind}")(api.load(path), tmp_path / "out", verify=True)
+    text = (tmp_path / "out" / written.main).read_text()
+    assert f"<{tag}>0.5</{tag}>" in text
+    assert {check.name: check.verdict for check in written.checks}["surface"] == "equal"
+
+
+@pytest.mark.library("mujoco")
+def test_parameters_of_a_sensor_that_an_mjcf_lacks_are_reported(write, tmp_path):
+    stddev = "<noise type='gaussian'><stddev>1</stddev></noise>"
+    noise = f"<imu><angular_velocity><x>{stddev}</x></angular_velocity></imu>"
+    sensor = f"<sensor name='s' type='imu'><update_rate>9</update_rate>{noise}</sensor>"
+    written = api.export_mjcf(load(write(of("a", sensor))), tmp_path / "out")
+    (loss,) = [one for one in written.losses if one.code == "lossy-sensor-parameter"]
+    assert loss.message.endswith(": rate, noise")
