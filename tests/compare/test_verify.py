@@ -201,6 +201,13 @@ def test_three_files_name_the_one_that_is_alone(urdftool, write):
     assert f"B  2.5  {files[1]}:15:1  (alone)" in text.out
 
 
+@pytest.mark.parametrize("rows", ["textures", "loops,plugins"])
+def test_robots_without_what_is_compared_are_not_called_equal(urdftool, write, rows):
+    result = urdftool("verify", write("a.urdf", URDF), write("b.urdf", URDF), "--only", rows)
+    assert result.code == 0
+    assert "2 robots: nothing was compared" in result.err
+
+
 def test_equal_robots(urdftool, write):
     result = urdftool("verify", write("a.urdf", URDF), write("c.sdf", SDF))
     assert result.code == 0

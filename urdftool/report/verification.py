@@ -172,6 +172,12 @@ def _format_rest(agreement: Agreement) -> str:
     return "\n" + "".join(lines) + f"not compared: {', '.join(NOT_COMPARED)}\n"
 
 
+def _has_compared(agreement: Agreement) -> bool:
+    """Tell whether a row compared something that one of the robots has."""
+    checks = (check for one in agreement.pairs.values() for check in one.make_checks())
+    return any(check.verdict not in ("none", "not compared") for check in checks)
+
+
 def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int]) -> str:
     """Return one sentence with the verdict.
 
@@ -189,7 +195,9 @@ def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int])
             for text in (*comparison.not_comparable, *comparison.skipped)
         }
         rest = f"; {len(missing)} could not be compared" if missing else ""
-        return f"{robots}: equal in every compared property{rest}"
+        has_compared = _has_compared(agreement)
+        verdict = "equal in every compared property" if has_compared else "nothing was compared"
+        return f"{robots}: {verdict}{rest}"
     text = f"{robots}: {format_count(len(entries), 'difference')}"
     for (i, j), comparison in agreement.pairs.items():
         most = max(totals[i], totals[j])
