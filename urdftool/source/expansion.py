@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from ..control_characters import escape_controls
 from .document import Document, Element
@@ -37,6 +37,29 @@ class Warned(NamedTuple):
     place: Place | None
 
 
+LookupKind = Literal["name", "macro", "argument", "file"]
+"""What is looked up: a property or parameter, a macro, an argument, or an included file."""
+
+
+class Lookup(NamedTuple):
+    """What an element looked up in an expansion.
+
+    Attributes:
+        file: File of the element.
+        start: First byte of the element.
+        kind: What it looked up.
+        name: The name; of a block that a macro was given, with its asterisks.
+        definitions: File and first byte of each element that defined it, several if the element was
+            expanded with different ones; of an included file, the file and 0.
+    """
+
+    file: SourceFile
+    start: int
+    kind: LookupKind
+    name: str
+    definitions: tuple[tuple[SourceFile, int], ...]
+
+
 class Expansion:
     """Result of an expansion.
 
@@ -48,9 +71,12 @@ class Expansion:
         given: Given arguments.
         arguments: Declared arguments.
         warnings: Warnings of xacro.
+        lookups: What elements looked up; None if it is not recorded.
     """
 
-    def __init__(self, file: SourceFile, given: Mapping[str, str]) -> None:
+    def __init__(
+        self, file: SourceFile, given: Mapping[str, str], *, record: bool = False
+    ) -> None:
         """Create an empty result that contains only the file itself."""
         self.file = file
         self.given = dict(given)
@@ -59,6 +85,7 @@ class Expansion:
         self.dependencies: list[str] = []
         self.arguments: dict[str, Argument] = {}
         self.warnings: list[Warned] = []
+        self.lookups: list[Lookup] | None = [] if record else None
 
     @property
     def text(self) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Sequence
-from typing import Any, TypeVar
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar, get_args
 
 from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
-from .expansion import Argument, Expansion, Warned
+from .expansion import Argument, Expansion, Lookup, LookupKind, Warned
 from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH
 from .xacro_tree import (
@@ -28,6 +28,7 @@ _ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, P
 T = TypeVar("T")
 Json = dict[str, Any]
 
+_LOOKUP_KINDS = get_args(LookupKind)
 _KINDS = frozenset((TEXT, COMMENT, CDATA, INSTRUCTION))
 
 
@@ -60,6 +61,7 @@ class Writer:
             ],
             warnings=[(w.message, self._write_place(w.place)) for w in result.warnings],
             included=list(included),
+            lookups=self._list_lookups(result.lookups or ()),
         )
 
     def write_error(self, error: UrdftoolError) -> Json:
@@ -85,6 +87,16 @@ class Writer:
             "call_table": self._calls,
             "stack_table": self._stacks,
         }
+
+    def _list_lookups(self, lookups: Iterable[Lookup]) -> list[Any]:
+        return [
+            (
+                self._files[id(one.file)],
+                *one[1:4],
+                [(self._files[id(file)], start) for file, start in one.definitions],
+            )
+            for one in lookups
+        ]
 
     def _list_nodes(self, document: XacroDocument) -> list[Any]:
         """Return the nodes in document order, each with its depth."""
@@ -176,7 +188,17 @@ class Reader:
             Warned(_require_text(message), None if place is None else self._read_place(place))
             for message, place in value["warnings"]
         ]
+        if result.lookups is not None:
+            result.lookups = [self._read_lookup(*words) for words in value["lookups"]]
         return [_require_text(path) for path in value["included"]]
+
+    def _read_lookup(
+        self, file: Any, start: Any, kind: Any, name: Any, definitions: Any
+    ) -> Lookup:
+        if kind not in _LOOKUP_KINDS:
+            raise ValueError(f"kind {kind!r}")
+        sites = tuple(self._read_start(*site) for site in definitions)
+        return Lookup(*self._read_start(file, start), kind, _require_text(name), sites)
 
     def read_error(self) -> UrdftoolError:
         """Return an error."""

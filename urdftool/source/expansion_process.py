@@ -105,6 +105,7 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
         "encoding": result.file.encoding,
         "given": result.given,
         "trusted": files.trusted,
+        "record": result.lookups is not None,
         "modules": sorted(modules),
     }
     process = (_Fork if can_fork() else _Interpreter)(job, result.file.data)
@@ -344,7 +345,7 @@ def _serve(job: dict[str, Any], data: bytes, channel: Channel, mark: Any) -> Non
     memory = None if used is None else used[0] + limits.MEMORY
     limit_resources(processor=processor, memory=memory, files=0, processes=0)
     file = SourceFile(str(job["path"]), data, str(job["encoding"]))
-    result = Expansion(file, job["given"])
+    result = Expansion(file, job["given"], record=job["record"])
     files = RequestedFiles(file, channel, mark)
     run = Run(result, files, trusted=job["trusted"])
     try:

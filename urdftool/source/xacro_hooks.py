@@ -28,6 +28,7 @@ from .location import Call, Place
 from .safe_builtins import MAX_LENGTH, check_size
 from .xacro_errors import explain
 from .xacro_files import Files
+from .xacro_lookups import LookupRecorder
 from .xacro_parse import parse_xacro
 from .xacro_symbols import make_ros1_evaluation, make_symbols
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
@@ -100,6 +101,8 @@ class Run:
         self.elements = 0
         self.produced = 0
         self.patience = EvaluationLimits(lambda: make_time_error(self.place))
+        record = result.lookups is not None
+        self.lookups = LookupRecorder(lambda: self.node) if record else None
 
     def expand(self) -> list[str]:
         """Expand the file with xacro; return the paths of the included files as xacro lists them.
@@ -119,6 +122,8 @@ class Run:
             raise explain(error, self.node, None, self.result, self.files) from None
         except Exception as error:
             raise explain(error, self.node, self.failed_text, self.result, self.files) from error
+        if self.lookups is not None:
+            self.result.lookups = self.lookups.list_found()
         return list(xacro.all_includes)
 
     def _install_hooks(self) -> None:
@@ -157,6 +162,8 @@ class Run:
         for module, values in ((xacro, here), (substitution_args, there)):
             for name, value in values.items():
                 setattr(module, name, value)
+        if self.lookups is not None:
+            self.lookups.install(xacro, substitution_args)
         sys.setrecursionlimit(max(sys.getrecursionlimit(), _RECURSION_LIMIT))
 
     # Functions that xacro calls ---------------------------------------------------------------
@@ -178,6 +185,8 @@ class Run:
             missing = _MissingFileError(error.path or filename, error)
             raise xacro.XacroException(error.message, exc=missing) from error
         self.result.files.setdefault(file.path, file)
+        if self.lookups is not None:
+            self.lookups.record("file", "", (file, 0))
         return parse_xacro(file, self.include_calls)
 
     def abs_filename_spec(self, original: Callable[[str], str]) -> Callable[[str], str]:
@@ -284,6 +293,8 @@ class Run:
             if tag.tagName == "xacro:arg":
                 name, default = values
                 self.result.arguments.setdefault(name, Argument(name, default, tag.place))
+                if self.lookups is not None:
+                    self.lookups.record_argument(tag, name)
             return values
 
         return wrapped
