@@ -104,6 +104,7 @@ class Checks:
         report = check_file(robot, replace(options, observer=reads))
         state = self.knowledge.states.setdefault(robot, RobotState())
         state.files = {robot, *reads.files, *(state.files if reads.errors else ())}
+        state.version = self.knowledge.version
         if reads.descriptions and not reads.errors:
             state.descriptions = reads.descriptions
         return report

@@ -130,6 +130,17 @@ def _add_reading(server: RobotServer) -> None:
         found = await _ask(ls, "hover", params)
         return ls.converter.structure(found, lsp.Hover) if found else None
 
+    @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
+    async def find_definition(ls: RobotServer, params: lsp.DefinitionParams) -> list[lsp.Location]:
+        found = await _ask(ls, "definition", params) or []
+        return ls.converter.structure(found, list[lsp.Location])
+
+    @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
+    async def find_references(ls: RobotServer, params: lsp.ReferenceParams) -> list[lsp.Location]:
+        declaration = params.context.include_declaration
+        found = await _ask(ls, "references", params, declaration=declaration) or []
+        return ls.converter.structure(found, list[lsp.Location])
+
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     async def list_symbols(
         ls: RobotServer, params: lsp.DocumentSymbolParams

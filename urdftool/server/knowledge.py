@@ -19,8 +19,11 @@ from ..projects import find_project
 from ..source.description import Description
 from ..source.document import Document, parse, read_file
 from ..source.location import SourceFile
+from ..source.packages import Packages
 from ..workspace import Workspace
 from .positions import LineTable
+from .repair import repair_xml
+from .words import WordTable
 
 MOST_ROBOTS = 8
 """Robots that are checked for one file of macros; chosen: a check takes up to 0.2 s."""
@@ -38,10 +41,12 @@ class RobotState:
     Attributes:
         descriptions: Description and robot of each set of arguments; the last that could be read.
         files: Resolved paths of its files.
+        version: Number of changes of documents after which it was read.
     """
 
     descriptions: list[tuple[Description, Robot]] = field(default_factory=list)
     files: set[str] = field(default_factory=set)
+    version: int = -1
 
 
 class Knowledge:
@@ -65,6 +70,7 @@ class Knowledge:
         self._base = Workspace()
         self._repositories: dict[str, Repository] = {}
         self._workspace: Workspace | None = None
+        self._words: dict[str, tuple[bytes, WordTable | None]] = {}
 
     # Documents and settings ----------------------------------------------------------------
 
@@ -206,6 +212,47 @@ class Knowledge:
                 self.memo[key] = None
         found: Document | None = self.memo[key]
         return found
+
+    def parse_leniently(self, path: str) -> Document | None:
+        """Return the source tree of a file, without half-typed tags; None if that fails."""
+        found = self.parse(path)
+        if found is not None:
+            return found
+        file = self.read(path)
+        try:
+            return parse(SourceFile(file.path, repair_xml(file.data), file.encoding))
+        except SourceError:
+            return None
+
+    def get_words(self, path: str) -> WordTable | None:
+        """Return the names in a file; None if it cannot be parsed, even leniently."""
+        real, data = os.path.realpath(path), self.read(path).data
+        known = self._words.get(real)
+        if known is None or known[0] != data:
+            document = self.parse_leniently(path)
+            known = data, None if document is None else WordTable(document)
+            self._words[real] = known
+        return known[1]
+
+    def make_packages(self, path: str) -> Packages:
+        """Return a finder of packages for a file that no robot has."""
+        options = self._options
+        return Packages(
+            path, named=options.packages, paths=options.package_paths, workspace=self.workspace
+        )
+
+    def list_connected(self, path: str) -> list[str]:
+        """Return the resolved paths of the files that a robot has together with a file."""
+        real = os.path.realpath(path)
+        repository = self.get_repository(real)
+        found = {real: None, **dict.fromkeys(sorted(repository.list_files(real)))}
+        for other in repository.includes:
+            files = repository.list_files(other)
+            if real in files:
+                found.update(dict.fromkeys(sorted(files)))
+        for state in self.list_states(path):
+            found.update(dict.fromkeys(sorted(state.files)))
+        return list(found)
 
     def make_table(self, file: SourceFile) -> LineTable:
         """Return the lines of a file, in the unit of the editor."""

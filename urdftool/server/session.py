@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from typing import Any
 
@@ -11,6 +10,7 @@ from .checks import Checks
 from .formatting import format_document
 from .hover import describe_position
 from .knowledge import Knowledge
+from .navigation import list_definitions, list_references
 from .symbols import list_symbols
 
 Emit = Callable[[Any], None]
@@ -18,9 +18,11 @@ Question = Callable[[Knowledge, dict[str, Any]], Any]
 
 _QUESTIONS: dict[str, Question] = {
     "actions": list_actions,
+    "definition": list_definitions,
     "fix-all": list_safe_edits,
     "format": format_document,
     "hover": describe_position,
+    "references": list_references,
     "symbols": list_symbols,
 }
 
@@ -60,7 +62,7 @@ class Session:
         return _QUESTIONS[method](self.knowledge, params)
 
     def _read_robots(self, path: str) -> None:
-        """Read the robots of a file, if no check has read them."""
-        real = os.path.realpath(path)
-        if not any(real in state.files for state in self.knowledge.states.values()):
+        """Read the robots of a file again, if no check has read them as they are."""
+        states = self.knowledge.list_states(path)
+        if not states or any(one.version != self.knowledge.version for one in states):
             Checks(self.knowledge, lambda part: None, lambda: None).read(path)

@@ -74,9 +74,7 @@ class Expansion:
         lookups: What elements looked up; None if it is not recorded.
     """
 
-    def __init__(
-        self, file: SourceFile, given: Mapping[str, str], *, record: bool = False
-    ) -> None:
+    def __init__(self, file: SourceFile, given: Mapping[str, str], *, record: bool = False) -> None:
         """Create an empty result that contains only the file itself."""
         self.file = file
         self.given = dict(given)

@@ -192,9 +192,7 @@ class Reader:
             result.lookups = [self._read_lookup(*words) for words in value["lookups"]]
         return [_require_text(path) for path in value["included"]]
 
-    def _read_lookup(
-        self, file: Any, start: Any, kind: Any, name: Any, definitions: Any
-    ) -> Lookup:
+    def _read_lookup(self, file: Any, start: Any, kind: Any, name: Any, definitions: Any) -> Lookup:
         if kind not in _LOOKUP_KINDS:
             raise ValueError(f"kind {kind!r}")
         sites = tuple(self._read_start(*site) for site in definitions)
