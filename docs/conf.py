@@ -23,7 +23,7 @@ MENU = {
         *(f"commands/{name}" for name in ("expand", "lint", "inertia", "collision", "graph")),
         *(f"commands/{name}" for name in ("info", "diff", "verify", "view", "simulate")),
         *(f"commands/{name}" for name in ("srdf", "fmt", "server")),
-        *(f"commands/{name}" for name in ("bundle", "edit", "export")),
+        *(f"commands/{name}" for name in ("bundle", "edit", "export", "cmake-dir")),
     ),
     "Operations": (
         *(f"edit/{name}" for name in ("attach", "prefix", "merge-fixed", "root", "mirror")),

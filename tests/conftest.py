@@ -25,7 +25,7 @@ settings.load_profile("urdftool")
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-MOST_SKIPPED = 60
+MOST_SKIPPED = 70
 """How many tests may be skipped where the corpus and every extra are present."""
 
 ABSENT = re.compile(

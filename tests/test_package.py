@@ -44,9 +44,13 @@ def test_the_wheel_has_the_package_and_nothing_else(wheel):
 
 
 @pytest.mark.parametrize(
-    "ending", ["/man1/urdftool.1", "completions/urdftool", "site-functions/_urdftool", "LICENSE"]
+    "ending",
+    [
+        *("/man1/urdftool.1", "completions/urdftool", "site-functions/_urdftool", "LICENSE"),
+        *("data/share/urdftool/cmake/urdftoolConfig.cmake", "urdftool/cmake/urdftoolConfig.cmake"),
+    ],
 )
-def test_it_brings_manual_completions_and_licence(wheel, ending):
+def test_it_brings_manual_completions_functions_of_cmake_and_licence(wheel, ending):
     assert [name for name in wheel.namelist() if name.endswith(ending) or f"{ending}." in name]
 
 

@@ -27,7 +27,7 @@ from .terminal import install, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "verify", "view"),
-    *("simulate", "srdf", "bundle", "edit", "export", "fmt", "server"),
+    *("simulate", "srdf", "bundle", "edit", "export", "fmt", "server", "cmake-dir"),
 )
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
@@ -56,7 +56,7 @@ class Commands(CommandGroup):
         """Import and return a command; None for an unknown name."""
         if cmd_name not in COMMANDS:
             return None
-        module = import_module(f".commands.{cmd_name}", __package__)
+        module = import_module(f".commands.{cmd_name.replace('-', '_')}", __package__)
         return accept_general_options(module.command)
 
     def resolve_command(

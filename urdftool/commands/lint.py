@@ -30,7 +30,7 @@ LEVELS = ("error", "warning", "info")
 _GROUPS = {
     "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
     "Rules": "select extend_select ignore target baseline write_baseline",
-    "Output": "style whole output_file statistics fail_on exit_zero",
+    "Output": "style whole output_file junit statistics fail_on exit_zero",
     "Input": "no_expand list_robots changed_since",
     "Performance": "jobs",
 }
@@ -72,6 +72,7 @@ _GROUPS = {
 @click.option(
     "--output-file", metavar="FILE", help="Write the findings to FILE instead of standard output."
 )
+@click.option("--junit", metavar="FILE", help="Also write the findings as JUnit XML to FILE.")
 @click.option(
     "--statistics", is_flag=True, help="Print the number of findings per rule, not the findings."
 )
@@ -135,6 +136,7 @@ def command(
     style: str | None,
     whole: bool,
     output_file: str | None,
+    junit: str | None,
     statistics: bool,
     no_expand: bool,
     fix: bool,
@@ -237,6 +239,7 @@ def command(
         style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline
     )
     output.paths, output.whole, output.arguments = paths, whole, tuple(arguments)
+    output.junit = junit
     if style == "html":
         from .lint_pictures import draw_robots
 

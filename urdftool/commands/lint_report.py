@@ -40,6 +40,7 @@ class OutputOptions:
         arguments: Names of the xacro arguments of the command line.
         draw: Function that returns the pictures of a page, or the reason for each missing one.
         ending: Function that returns the last line for the reports of a run.
+        junit: Additional JUnit XML file; None for none.
     """
 
     style: str | None
@@ -55,6 +56,7 @@ class OutputOptions:
     arguments: Sequence[str] = ()
     draw: Callable[[Outcome], Mapping[str, bytes | str]] | None = None
     ending: Callable[[Sequence[Report]], str] | None = None
+    junit: str | None = None
 
 
 def report(
@@ -71,7 +73,8 @@ def report(
     from ..report.findings_words import list_rejections, list_skipped_rules
 
     outcome = gather(reports)
-    check_targets((output.output_file, output.write_baseline), inputs=_list_inputs(outcome))
+    targets = output.output_file, output.write_baseline, output.junit
+    check_targets(targets, inputs=_list_inputs(outcome))
     if output.baseline or output.write_baseline:
         outcome = _apply_baseline(console, outcome, settings, output)
     outcome = group_outcome(outcome)
@@ -93,6 +96,9 @@ def report(
         click.echo(text, err=True, nl=False)
     else:
         write_result(text, output.output_file, inputs=_list_inputs(outcome) if to_file else [])
+    if output.junit is not None:
+        junit = as_text(outcome, "junit", fail_on=threshold)
+        write_result(junit, output.junit, inputs=_list_inputs(outcome))
     _report_unread(console, outcome.reports)
     _report_unknown_arguments(console, outcome.reports, output.arguments)
     _report_skipped(console, outcome.reports, output.paths)

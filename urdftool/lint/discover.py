@@ -61,11 +61,11 @@ def _has_name(path: str) -> bool:
 def list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
     """Yield the files below a folder by their ending.
 
-    Hidden folders are skipped, and those that builds of ROS ignore; so are devices, pipes, and
-    links out of the project of the folder, which came with the files.
+    Hidden folders are skipped, those that builds of ROS ignore, and those in which CMake builds; so
+    are devices, pipes, and links out of the project of the folder, which came with the files.
     """
     for root, folders, files in os.walk(folder):
-        if root != folder and not IGNORED.isdisjoint(files):
+        if root != folder and _is_of_builds(files):
             folders.clear()
             continue
         folders[:] = sorted(name for name in folders if not name.startswith("."))
@@ -73,6 +73,13 @@ def list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]
             path = os.path.normpath(os.path.join(root, name))
             if name.endswith(endings) and _is_own(path, folder):
                 yield path
+
+
+def _is_of_builds(files: Iterable[str]) -> bool:
+    """Return whether builds ignore a folder with such files, or CMake builds in it alone."""
+    names = frozenset(files)
+    built = "CMakeCache.txt" in names and "CMakeLists.txt" not in names
+    return built or not IGNORED.isdisjoint(names)
 
 
 def _is_own(path: str, folder: str) -> bool:

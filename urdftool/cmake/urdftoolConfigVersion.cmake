@@ -1,0 +1,17 @@
+# Whether the installed urdftool is new enough for find_package(urdftool VERSION).
+
+include("${CMAKE_CURRENT_LIST_DIR}/urdftoolProgram.cmake")
+set(PACKAGE_VERSION "unknown")
+set(PACKAGE_VERSION_COMPATIBLE FALSE)
+if(URDFTOOL_EXECUTABLE)
+  execute_process(COMMAND "${URDFTOOL_EXECUTABLE}" --version OUTPUT_VARIABLE answer ERROR_QUIET)
+  if(answer MATCHES "[0-9]+(\\.[0-9]+)+")
+    set(PACKAGE_VERSION "${CMAKE_MATCH_0}")
+  endif()
+endif()
+if(NOT PACKAGE_VERSION STREQUAL "unknown" AND NOT PACKAGE_VERSION VERSION_LESS PACKAGE_FIND_VERSION)
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+  if(PACKAGE_VERSION VERSION_EQUAL PACKAGE_FIND_VERSION)
+    set(PACKAGE_VERSION_EXACT TRUE)
+  endif()
+endif()
