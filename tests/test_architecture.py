@@ -29,7 +29,16 @@ def for_each_module(test):
 
 BASE = (
     *("control_characters", "errors", "extras", "suggestions", "parallel", "landlock", "isolated"),
-    *("limited", "exchange", "leftovers", "storage", "dependencies", "file_access", "memo"),
+    *(
+        "limited",
+        "exchange",
+        "leftovers",
+        "storage",
+        "dependencies",
+        "file_access",
+        "memo",
+        "collector",
+    ),
     *("workspace", "projects", "git_command", "diagnostic"),
 )
 """Modules that know nothing of robots, each of which may import those before it."""

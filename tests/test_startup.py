@@ -96,3 +96,18 @@ def test_importing_the_package_imports_nothing_of_it():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_a_cached_report_is_read_without_rules_and_robots(tmp_path):
+    heavy = [
+        *("urdftool.lint.run", "urdftool.model.elements", "urdftool.source.packages"),
+        *("urdftool.lint.robot_search", "urdftool.rules.fix"),
+    ]
+    words = ["lint", ROBOT, "--cache-dir", str(tmp_path)]
+    probe = [sys.executable, "-c", PROBE.format(heavy=heavy), *words]
+    first, second = (
+        subprocess.run(probe, capture_output=True, text=True, check=True).stdout.splitlines()[-1]
+        for _ in range(2)
+    )
+    assert "urdftool.lint.run" in first.split()
+    assert second.split() == ["LOADED"]

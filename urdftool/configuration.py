@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
 from .projects import explain_link_out
-from .source.packages import ConfiguredFolder
 from .suggestions import suggest_name
 from .workspace import Workspace, memoize_by_workspace
 
 if TYPE_CHECKING:
     from .source.description import GltfUp
+    from .source.packages import ConfiguredFolder
 
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
 TABLES = ("packages", "lint", "collision", "simulate")
@@ -142,7 +142,7 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
         {
             name: folder / value
             if required
-            else ConfiguredFolder(folder / value, str(path), lines.get(name, 1))
+            else _make_folder(folder / value, str(path), lines.get(name, 1))
             for name, value in packages.items()
         },
         lint,
@@ -150,6 +150,13 @@ def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration
         simulate,
         gltf_up,
     )
+
+
+def _make_folder(folder: Path, path: str, line: int) -> ConfiguredFolder:
+    """Return the folder of a package that line ``line`` of a configuration names."""
+    from .source.packages import ConfiguredFolder  # many runs have no such line
+
+    return ConfiguredFolder(folder, path, line)
 
 
 def _has_long_key(data: bytes) -> bool:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import os
 import stat
 import time
-from collections.abc import Callable, Set
+from collections.abc import Callable, Iterable, Set
 
 Question = tuple[str, str]
 """Kind and path of a query; for ``env`` kind and variable name."""
@@ -83,10 +83,26 @@ class Dependencies:
     def _get_real_paths(self) -> tuple[set[str], set[str]]:
         """Return the queried paths and the listed folders, both without symbolic links."""
         if self._real is None or self._real[0] != len(self.stamps):
-            files = {os.path.realpath(path) for kind, path in self.stamps if kind != "env"}
-            listed = {os.path.realpath(path) for kind, path in self.stamps if kind == "list"}
+            real = resolve_all(path for kind, path in self.stamps if kind != "env")
+            files = set(real.values())
+            listed = {real[path] for kind, path in self.stamps if kind == "list"}
             self._real = len(self.stamps), files, listed
         return self._real[1:]
+
+
+def resolve_all(paths: Iterable[str]) -> dict[str, str]:
+    """Return ``os.path.realpath`` of each path; links of a folder are resolved once."""
+    folders: dict[str, str] = {}
+    found = {}
+    for path in paths:
+        folder, name = os.path.split(path)
+        if name in ("", os.curdir, os.pardir) or os.path.islink(path):
+            found[path] = os.path.realpath(path)
+            continue
+        if folder not in folders:
+            folders[folder] = os.path.realpath(folder)
+        found[path] = os.path.join(folders[folder], name)
+    return found
 
 
 def compute_answer(question: Question) -> str:

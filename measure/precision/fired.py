@@ -16,7 +16,7 @@ from urdftool.formats.detect import read_other_format
 from urdftool.formats.search import find_other_descriptions
 from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
-from urdftool.lint.repository import find_robots
+from urdftool.lint.robot_search import find_robots
 
 FIRED = Path(__file__).with_name("fired.json")
 

@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from tests.conftest import FIXTURES, XACRO
 from urdftool import dependencies
 from urdftool.lint import cache as cache_module
-from urdftool.lint import run
+from urdftool.lint import questions, run
 from urdftool.lint.cache import Cache
 from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
@@ -416,7 +416,9 @@ def test_a_report_of_the_cache_equals_the_computed_one(tmp_path, paths):
     for path in paths:
         options = Options(fixes=True, cache=Cache(DiskCache(tmp_path)))
         computed = run.check_file(path, options)
-        cached = run.find_cached_report(path, Options(fixes=True, cache=Cache(DiskCache(tmp_path))))
+        cached = questions.find_cached_report(
+            path, Options(fixes=True, cache=Cache(DiskCache(tmp_path)))
+        )
         if cached is not None:
             read += 1
             assert describe(cached) == describe(computed)
@@ -499,7 +501,7 @@ def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, mo
         found = {finding.code for finding in run.check_file(path, options).findings}
     assert "missing-name" not in found
     options.cache = Cache(DiskCache(tmp_path / "kept"))
-    assert run.find_cached_report(path, options) is None
+    assert questions.find_cached_report(path, options) is None
 
 
 def test_several_processes_use_one_folder(write):
@@ -541,10 +543,10 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
     assert len(sizes) == 4
     assert sizes[-1] > 2 * sizes[0]
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
-    assert all(run.find_cached_report(path, options) for path in paths)
+    assert all(questions.find_cached_report(path, options) for path in paths)
     write("ws/p59/package.xml", "<package><name>gone</name></package>")
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
-    assert not any(run.find_cached_report(path, options) for path in paths)
+    assert not any(questions.find_cached_report(path, options) for path in paths)
 
 
 def test_old_entries_go(tmp_path):

@@ -81,7 +81,7 @@ OF_PROCESSES = {
 
 OTHERS = {
     *("lint/baseline.py", "lint/cache.py", "lint/discover.py", "lint/group.py", "lint/moot.py"),
-    *("lint/changes.py", "lint/launches.py", "lint/repository.py"),
+    *("lint/changes.py", "lint/launches.py", "lint/robot_search.py"),
     *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py"),
     "model/files.py",
 }

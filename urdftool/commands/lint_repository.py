@@ -22,10 +22,15 @@ _MOST_NAMES = 5
 
 def find_repository(paths: Sequence[str], options: Options) -> Repository:
     """Find the robots below the folders of the command line."""
-    from ..lint.repository import find_robots
+    from ..lint.repository import Repository
+
+    folders = [path for path in paths if os.path.isdir(path)]
+    if not folders:  # avoids imports
+        return Repository()
+    from ..lint.robot_search import find_robots
 
     return find_robots(
-        [path for path in paths if os.path.isdir(path)],
+        folders,
         config=options.config,
         packages=options.packages,
         package_paths=options.package_paths,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
-from ..model.elements import Robot
-from ..source.location import SourceFile
-from ..source.packages import Packages
-from ..source.well_formed import STAGE_HEADS
-from .registry import Format, format_named
+if TYPE_CHECKING:
+    from ..model.elements import Robot
+    from ..source.location import SourceFile
+    from ..source.packages import Packages
+    from .registry import Format
 
 _PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
 _TAG = re.compile(rb"<([\w:.-]+)")
@@ -18,6 +19,9 @@ _FORMAT_OF = {b"sdf": "sdf", b"mujoco": "mjcf", b"mujocoinclude": "mjcf"}
 
 def format_of(file: SourceFile) -> Format:
     """Return the format of a file; URDF if the root element belongs to no format."""
+    from ..source.well_formed import STAGE_HEADS
+    from .registry import format_named
+
     if file.data.startswith(STAGE_HEADS):
         return format_named("usd")
     data = file.data.removeprefix(b"\xef\xbb\xbf")

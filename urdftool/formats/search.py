@@ -10,8 +10,6 @@ from dataclasses import dataclass, field
 from ..errors import UrdftoolError
 from ..extras import is_installed
 from ..lint.discover import list_files
-from ..source.document import read_file
-from .detect import format_of
 
 _ENDINGS = (".sdf", ".xml", ".mjcf")
 _INCLUDE = re.compile(rb"<include\b[^<>]*?\bfile\s*=\s*[\"']([^\"']+)[\"']")
@@ -44,6 +42,11 @@ def find_other_descriptions(paths: Iterable[str]) -> Found:
     """
     found, models = Found(), {}
     folders = [path for path in paths if os.path.isdir(path)]
+    if not folders:  # avoids imports
+        return found
+    from ..source.document import read_file
+    from .detect import format_of
+
     for path in (path for folder in folders for path in list_files(folder, _ENDINGS)):
         try:
             file = read_file(path)

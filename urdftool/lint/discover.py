@@ -6,8 +6,6 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 
-from ..source.packages import Packages
-
 ENDINGS = (".urdf", ".urdf.xacro")
 IGNORED = frozenset(("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"))
 """Files by which colcon, ament and catkin ignore a folder, such as ``install``."""
@@ -86,5 +84,7 @@ def _is_own(path: str, folder: str) -> bool:
     """Tell whether a file below a folder is a file, and no link to another project."""
     if not os.path.isfile(path):
         return False
+    from ..source.packages import Packages
+
     access = Packages(os.path.join(folder, "-")).access
     return not (os.path.islink(path) and access.explain_refusal(path))

@@ -8,19 +8,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..configuration import Configuration
-from ..finding import Finding
-from ..source.description import Description, GltfUp
-from ..source.location import SourceFile
-from ..source.packages import Packages
 from ..workspace import Workspace
 from .settings import Settings
 
 if TYPE_CHECKING:
+    from ..finding import Finding
     from ..model.elements import Robot
     from ..rules.fix import ComputeInertia
+    from ..source.description import Description, GltfUp
+    from ..source.location import SourceFile
+    from ..source.packages import Packages
     from .cache import Cache
 
-ReadOther = Callable[[SourceFile, Packages], "Robot | None"]
+ReadOther = Callable[["SourceFile", "Packages"], "Robot | None"]
 
 
 class Observer(Protocol):

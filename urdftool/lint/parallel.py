@@ -7,7 +7,7 @@ from functools import partial
 
 from .options import Options
 from .outcome import Report
-from .run import check_file, find_cached_report
+from .questions import find_cached_report
 
 WORTH_IT = 40
 """Files; below, starting workers costs more than it saves. Chosen, no source."""
@@ -37,6 +37,10 @@ def check_files(
 
 def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator[Report]:
     """Yield a report for each description, without the cache of reports."""
+    if not paths:
+        return
+    from .run import check_file  # imports what rules require
+
     if len(paths) < WORTH_IT and not jobs:  # avoids an import in most calls
         yield from (check_file(path, options) for path in paths)
         return

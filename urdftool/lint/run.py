@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from ..collector import pause_collector
 from ..configuration import Configuration, find_configuration
 from ..diagnostic import Severity
 from ..errors import ModelError, SourceError, UrdftoolError, XmlError
@@ -38,10 +39,11 @@ from .motion import (
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
 from .outcome import NOT_EXPANDED, Report
+from .questions import join_variants, list_questions
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
-from .variants import as_one, get_variants, label
+from .variants import label
 
 
 def check_robot(robot: Robot, options: Options) -> Report:
@@ -81,45 +83,14 @@ def check_file(path: str | Path, options: Options) -> Report:
     Raises:
         ConfigError: The configuration is invalid.
     """
-    return _as_one([_check_with_cache(*question) for question in _list_checks(path, options)])
-
-
-def find_cached_report(path: str | Path, options: Options) -> Report | None:
-    """Return the cached report of a description; None if it must be checked.
-
-    Raises:
-        ConfigError: The configuration is invalid.
-    """
-    cache = options.cache
-    if cache is None or str(path) == "-":
-        return None
-    reports = []
-    for question in _list_checks(path, options):
-        _, chosen, configuration, settings = question
-        report = cache.read(chosen.get_key(cache, path, configuration, settings))
-        if report is None:
-            return None
-        reports.append((label(chosen.arguments), report))
-    return _as_one(reports)
+    with pause_collector():
+        return join_variants(
+            [_check_with_cache(*question) for question in list_questions(path, options)]
+        )
 
 
 _URDF_ENDINGS = (".urdf", ".xacro")
 """Endings of files that are read as URDF regardless of their content."""
-
-_Question = tuple[str | Path, Options, Configuration, Settings]
-
-
-def _list_checks(path: str | Path, options: Options) -> list[_Question]:
-    """Return the checks of a description: one for each set of xacro arguments."""
-    configuration = find_configuration(path, options.config, options.workspace)
-    settings = read_settings(path, configuration, options.settings)
-    variants: list[dict[str, str]] = []
-    if options.expand and not options.arguments:
-        variants = get_variants(path, configuration) or options.variants.get(
-            options.workspace.resolve_links(path), []
-        )
-    each = [replace(options, arguments=variant) for variant in variants] or [options]
-    return [(path, chosen, configuration, settings) for chosen in each]
 
 
 def _check_with_cache(
@@ -137,10 +108,6 @@ def _check_with_cache(
     key = options.get_key(options.cache, path, configuration, settings)
     options.cache.write(key, report, view.dependencies)
     return label(options.arguments), report
-
-
-def _as_one(reports: list[tuple[str, Report]]) -> Report:
-    return reports[0][1] if len(reports) == 1 else as_one(dict(reports))
 
 
 def _check_variant(

@@ -6,14 +6,16 @@ import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from fnmatch import fnmatch
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..configuration import find_configuration
 from ..errors import ConfigError, SourceError
-from ..source.description import Description
-from ..source.document import parse, read_file
 from ..workspace import Workspace
 from .discover import list_parts
 from .outcome import Report
+
+if TYPE_CHECKING:
+    from ..source.description import Description
 
 _NAMES = 3
 """Number of macros that a message names. Chosen, no source."""
@@ -56,6 +58,8 @@ def add_skipped_parts(
 
 def _explain_skipped(path: str) -> str:
     """Return why a ``.xacro`` file in a folder is not checked separately."""
+    from ..source.document import parse, read_file
+
     try:
         root = parse(read_file(path)).root
     except SourceError as error:

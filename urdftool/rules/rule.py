@@ -64,7 +64,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..diagnostic import Severity
 from ..finding import Scope
-from ..model.elements import Robot
 from .problem import Problem as Problem
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
@@ -81,12 +80,13 @@ ANY_FORMAT = ("urdf", "sdf", "mjcf", "usd")
 URDF_AND_SDF = ("urdf", "sdf")
 
 Check = Callable[..., Iterable[Problem]]
-CheckRobot = Callable[[Robot], Iterable[Problem]]
+CheckRobot = Callable[["Robot"], Iterable[Problem]]
 
 SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
 """Applicability of the fixes of a rule; ``BOTH`` if it depends on the case."""
 
 if TYPE_CHECKING:
+    from ..model.elements import Robot
     from .fix import MakeFix, MakeFixOfFile, Proposal
 
     Make = TypeVar("Make", MakeFix, MakeFixOfFile)

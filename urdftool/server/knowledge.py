@@ -12,7 +12,8 @@ from typing import Any
 from ..errors import SourceError, UrdftoolError
 from ..formats.detect import read_other_format
 from ..lint.options import Options
-from ..lint.repository import Repository, find_robots
+from ..lint.repository import Repository
+from ..lint.robot_search import find_robots
 from ..lint.settings import Settings, check_selectors, check_targets
 from ..model.elements import Robot
 from ..projects import find_project

@@ -56,7 +56,11 @@ class Package:
         self.workspace = description.workspace
         own = None if description.path == "-" else description.packages.own
         self.folder = None if own is None else own[1]
-        self.own = {self.workspace.resolve_links(file.path) for file in description.files}
+
+    @cached_property
+    def own(self) -> set[str]:
+        """The resolved paths of the files of the description."""
+        return {self.workspace.resolve_links(file.path) for file in self.description.files}
 
     @cached_property
     def controller_files(self) -> list[ControllerFile]:

@@ -297,8 +297,10 @@ def prismatic_in_millimeters(robot: Robot, *, largest: float = 10.0) -> Iterator
         if joint.origin is None:
             continue
         far = max(joint.origin.xyz, key=abs)
+        if abs(far) <= largest:
+            continue
         is_gantry = abs(far) < _FAR and _has_shape_as_long(robot, 2 * abs(far))
-        if abs(far) > largest and not is_gantry:
+        if not is_gantry:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' is {abs(far):g} m from its parent; "
