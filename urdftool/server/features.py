@@ -31,6 +31,7 @@ def add_features(server: RobotServer) -> None:
     _add_documents(server)
     _add_actions(server)
     _add_reading(server)
+    _add_completion(server)
 
 
 def _add_documents(server: RobotServer) -> None:
@@ -147,3 +148,21 @@ def _add_reading(server: RobotServer) -> None:
     ) -> list[lsp.DocumentSymbol]:
         found = await _ask(ls, "symbols", params) or []
         return ls.converter.structure(found, list[lsp.DocumentSymbol])
+
+
+def _add_completion(server: RobotServer) -> None:
+    options = lsp.CompletionOptions(trigger_characters=list("<\"' :/{(.$"))
+
+    @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, options)
+    async def complete(ls: RobotServer, params: lsp.CompletionParams) -> lsp.CompletionList:
+        found = await _ask(ls, "completion", params, snippets=_has_snippets(ls)) or []
+        items = ls.converter.structure(found, list[lsp.CompletionItem])
+        return lsp.CompletionList(is_incomplete=False, items=items)
+
+
+def _has_snippets(ls: RobotServer) -> bool:
+    """Tell whether the editor moves the cursor into an inserted attribute."""
+    document = ls.client_capabilities.text_document
+    completion = document.completion if document is not None else None
+    item = completion.completion_item if completion is not None else None
+    return bool(item is not None and item.snippet_support)

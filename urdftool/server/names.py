@@ -99,6 +99,10 @@ class Names:
             if one.kind == "macro":
                 self._macros.setdefault(site, {}).update(known)
 
+    def get_path(self) -> str:
+        """Return the resolved path of the file."""
+        return self._path
+
     def list_packages(self) -> Iterator[Packages]:
         """Yield the finders of packages of the robots, or that of the file if it has none."""
         for description, _ in self.descriptions:

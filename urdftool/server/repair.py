@@ -60,3 +60,9 @@ def _blank(data: bytearray, start: int, end: int) -> None:
     for index in range(start, end):
         if data[index] not in b"\r\n":
             data[index] = 0x20
+
+
+def find_token_end(data: bytes, start: int) -> int | None:
+    """Return the byte after the tag or comment at a byte; None if it is half-typed."""
+    token = _TOKEN.match(data, start)
+    return None if token is None else token.end()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import os
+from collections.abc import Iterable, Iterator, Sequence
 
 from ..source.document import Element
 from .words import XACRO, Word, WordTable
@@ -58,6 +59,24 @@ class Scopes:
         outside = [one for one in known if get_scope(one) is None]
         here = [one for one in outside if one.element.file is word.element.file]
         return [*around, *(here or outside)] or known
+
+    def list_visible(self, path: str, macros: Sequence[int]) -> list[Word]:
+        """Return properties and parameters that an element can use.
+
+        Args:
+            path: File of the element.
+            macros: First bytes of the macros around it, innermost first.
+        """
+        outside: list[Word] = []
+        inside: dict[int, list[Word]] = {start: [] for start in macros}
+        for (kind, _), words in self._definitions.items():
+            for word in words if kind == "name" else ():
+                scope = get_scope(word)
+                if scope is None:
+                    outside.append(word)
+                elif scope.start in inside and os.path.realpath(scope.file.path) == path:
+                    inside[scope.start].append(word)
+        return [word for words in (*inside.values(), outside) for word in words]
 
     def _list_dynamic(self, word: Word, known: list[Word]) -> Iterator[Word]:
         """Yield definitions in the macros that call the macro around a name."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from .actions import list_actions, list_safe_edits
 from .checks import Checks
+from .completion import list_completions
 from .formatting import format_document
 from .hover import describe_position
 from .knowledge import Knowledge
@@ -18,6 +19,7 @@ Question = Callable[[Knowledge, dict[str, Any]], Any]
 
 _QUESTIONS: dict[str, Question] = {
     "actions": list_actions,
+    "completion": list_completions,
     "definition": list_definitions,
     "fix-all": list_safe_edits,
     "format": format_document,

@@ -92,6 +92,16 @@ class WordTable:
         """Return the definitions in the tag of an element, by its first byte."""
         return self._definitions.get(start, [])
 
+    def get_kinds(self, element: Element, attribute: str) -> list[WordKind]:
+        """Return what a value, or for an empty attribute the text, of an element names."""
+        return [
+            word.kind
+            for word in self.words
+            if word.element.start == element.start and word.attribute == attribute
+            if attribute or not word.element.children
+            if not word.is_definition
+        ]
+
     def _list(self, element: Element) -> Iterator[Word]:
         """Yield the names in the tag and in the text of an element."""
         yield from _list_tag(element)
