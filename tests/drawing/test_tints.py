@@ -1,6 +1,6 @@
 """Links of a robot without any color are told apart; a robot with colors is shown as it is."""
 
-from urdftool.drawing.materials import PLAIN, TINTS, Materials
+from urdftool.drawing.materials import PLAIN, TINTS, Tints
 from urdftool.model.load import load
 
 LINK = '<link name="{0}"><visual><geometry><box size="1 1 1"/></geometry>{1}</visual></link>'
@@ -13,8 +13,8 @@ def tints(write, *materials):
     links = "".join(map(LINK.format, names, materials))
     joints = "".join(map(JOINT.format, names, names[1:]))
     robot = load(write("r.urdf", f'<robot name="r">{links}{joints}</robot>'))
-    found = Materials(robot)
-    return [found.tint(link.visuals[0]) for link in robot.links]
+    found = Tints(robot)
+    return [found.get_tint(link.visuals[0]) for link in robot.links]
 
 
 def test_links_without_color_are_told_apart(write):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
-from ..model.elements import Joint, Link, Material, Robot, Vector
+from ..model.elements import Joint, Link, Robot, Vector
 from ..model.pose import compute_norm, make_pose
 from .change import Change
 from .changed_settings import compare_settings
@@ -25,10 +25,10 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
         b: The second (new) robot.
         tolerance: Tolerance as in ``closeness.TOLERANCE``.
     """
-    materials = _collect_materials(a), _collect_materials(b)
+    robots = a, b
 
     def same_link(x: Link, y: Link) -> bool:
-        return next(link_changes(x, y, tolerance, materials), None) is None
+        return next(link_changes(x, y, tolerance, robots), None) is None
 
     def same_joint(x: Joint, y: Joint) -> bool:
         ends = ("parent", "child", "mimic joint")
@@ -42,7 +42,7 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
     for name, link in a.link.items():
         other = b.link.get(links.get(name, name))
         if other is not None:
-            yield from link_changes(link, other, tolerance, materials)
+            yield from link_changes(link, other, tolerance, robots)
     renamed = {**joints, **links}
     for name, joint in a.joint.items():
         new = b.joint.get(joints.get(name, name))
@@ -76,16 +76,6 @@ def _describe_part(part: Link | Joint) -> dict[str, object]:
     if isinstance(part, Joint):
         return {"type": part.type, "parent": part.parent, "child": part.child}
     return {"mass": part.inertial.mass if part.inertial is not None else None}
-
-
-def _collect_materials(robot: Robot) -> dict[str, Material]:
-    """Return named materials; definitions inside visuals are global, as in urdfdom."""
-    found: dict[str, Material] = {}
-    written = [v.material for link in robot.links for v in link.visuals if v.material is not None]
-    for material in (*robot.materials, *written):
-        if material.color is not None or material.texture is not None:
-            found.setdefault(material.name, material)
-    return found
 
 
 SameLink = Callable[[Link, Link], bool]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..mechanics.tensor import SymmetricTensor, rotate_tensor
@@ -19,20 +19,21 @@ from ..model.elements import (
     Material,
     Mesh,
     Plane,
+    Robot,
     Sphere,
     Visual,
 )
+from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose, rpy_from_rotation
 from ..model.shapes import get_shape_name
 from .change import Change
 from .tolerance import are_close, close, compute_distance, format_motion, is_same_pose
 
-Materials = Mapping[str, Material]
 Shape = Visual | Collision
 
 
 def link_changes(
-    a: Link, b: Link, tolerance: float, materials: tuple[Materials, Materials]
+    a: Link, b: Link, tolerance: float, robots: tuple[Robot, Robot]
 ) -> Iterator[Change]:
     """Yield the differences of a link.
 
@@ -40,11 +41,11 @@ def link_changes(
         a: The link in the first robot.
         b: The link in the second.
         tolerance: Tolerance as in ``closeness.TOLERANCE``.
-        materials: Named materials of both robots.
+        robots: Both robots, for named materials.
     """
     yield from _compare_inertials(a, b, tolerance)
-    yield from _compare_shapes("visual", a.visuals, b.visuals, b, tolerance, materials)
-    yield from _compare_shapes("collision", a.collisions, b.collisions, b, tolerance, materials)
+    yield from _compare_shapes("visual", a.visuals, b.visuals, b, tolerance, robots)
+    yield from _compare_shapes("collision", a.collisions, b.collisions, b, tolerance, robots)
 
 
 def _compare_inertials(a: Link, b: Link, tolerance: float) -> Iterator[Change]:
@@ -93,7 +94,7 @@ def _compare_shapes(
     b: Sequence[Visual] | Sequence[Collision],
     two: Link,
     tolerance: float,
-    materials: tuple[Materials, Materials],
+    robots: tuple[Robot, Robot],
 ) -> Iterator[Change]:
     """Match visuals or collisions (equal, same name, same type, then by order) and compare them."""
     left: list[Shape] = list(a)
@@ -101,7 +102,7 @@ def _compare_shapes(
     pairs: list[tuple[Shape, Shape]] = []
 
     def equal(x: Shape, y: Shape) -> bool:
-        return next(_compare_shape(kind, "", x, y, two, tolerance, materials), None) is None
+        return next(_compare_shape(kind, "", x, y, two, tolerance, robots), None) is None
 
     for same in (equal, _has_same_name, _has_same_type, _is_any):
         for x in list(left):
@@ -114,7 +115,7 @@ def _compare_shapes(
     for x, y in pairs:
         number = next(i for i, shape in enumerate(b, 1) if shape is y)
         yield from _compare_shape(
-            kind, f" {number}" if several else "", x, y, two, tolerance, materials
+            kind, f" {number}" if several else "", x, y, two, tolerance, robots
         )
     for x in left:
         yield Change("link", two.name, f"{kind} removed", describe_shape(x.geometry), place=x.place)
@@ -143,7 +144,7 @@ def _compare_shape(
     b: Shape,
     link: Link,
     tolerance: float,
-    materials: tuple[Materials, Materials],
+    robots: tuple[Robot, Robot],
 ) -> Iterator[Change]:
     before, after = describe_shape(a.geometry), describe_shape(b.geometry)
     same = before.keys() == after.keys() and all(
@@ -160,7 +161,7 @@ def _compare_shape(
         facts = describe_pose(one), describe_pose(two)
         yield Change("link", link.name, what, *facts, "", format_motion(one, two), b.place)
     if isinstance(a, Visual) and isinstance(b, Visual):
-        old, new = _look(a.material, materials[0]), _look(b.material, materials[1])
+        old, new = _get_look(robots[0], a.material), _get_look(robots[1], b.material)
         if old != new:
             yield Change("link", link.name, f"{kind}{number} material", old, new, place=b.place)
 
@@ -190,10 +191,9 @@ def describe_pose(pose: Pose) -> dict[str, Any]:
     return {"xyz": pose.translation, "rpy": rpy_from_rotation(pose.rotation)}
 
 
-def _look(material: Material | None, named: Materials) -> dict[str, Any] | None:
+def _get_look(robot: Robot, own: Material | None) -> dict[str, Any] | None:
     """Return color and texture of a visual, resolving a named material."""
+    material = resolve_material(robot, own) or own
     if material is None:
         return None
-    if material.color is None and material.texture is None:
-        material = named.get(material.name, material)
     return {"rgba": material.color, "texture": material.texture}

@@ -8,11 +8,11 @@ from pathlib import Path
 from ..errors import UrdftoolError
 from ..model.appearance import (
     APPEARANCE,
-    find_unknown_material,
+    find_unknown_script,
     get_appearance,
-    resolve_material,
 )
-from ..model.elements import Link, Material, Robot, Visual
+from ..model.elements import Link, Robot, Visual
+from ..model.materials import resolve_material
 from ..model.settings import Settings
 from .difference import Comparison, Difference
 from .pair import Pair, locate
@@ -49,7 +49,7 @@ def compare_looks(
     robots = pair.a.robot, pair.b.robot
     sides = list(zip(robots, links, visuals, strict=True))
     names = links[0].name, links[1].name
-    scripts = [get_script(link, visual) for _, link, visual in sides]
+    scripts = [find_unknown_script(link, visual) for _, link, visual in sides]
     if any(scripts):
         if set(pair.formats) <= set(_FORMATS):
             comparison.record_parts("looks", scripts)
@@ -97,14 +97,9 @@ def _get_settings(pair: Pair, robot: Robot, link: Link, visual: Visual) -> Setti
     return found
 
 
-def get_script(link: Link, visual: Visual) -> str:
-    """Return the name of a material whose color is not known; empty for none."""
-    return visual.script or find_unknown_material(link)
-
-
 def _find_image(robot: Robot, visual: Visual) -> Path | None:
     """Return the image of a visual; None if there is none, or its file does not exist."""
-    material: Material | None = resolve_material(robot, visual.material)
+    material = resolve_material(robot, visual.material)
     if material is None or not material.texture or robot.source is None:
         return None
     try:

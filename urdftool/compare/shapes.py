@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..mechanics.reference import Array, get_origin_matrix
+from ..model.appearance import find_unknown_script
 from ..model.elements import (
     Box,
     Capsule,
@@ -24,16 +25,22 @@ from ..model.elements import (
     Sphere,
     Visual,
 )
-from ..model.gazebo_colors import get_rgba
 from ..model.gltf_axes import is_gltf
+from ..model.materials import find_gazebo_material, find_shown_material
 from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import describe_pose, format_vector, invert, measure_largest
-from .looks import compare_looks, get_script
+from .looks import compare_looks
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
 from .settings import compare_surfaces
+
+Rgba = tuple[float, ...]
+
+
+_UNCOLORED = {"mjcf": (0.5, 0.5, 0.5, 1.0)}
+"""What a reader finds as color of a visual without one, by format; MuJoCo's XML reference."""
 
 
 class Placed(NamedTuple):
@@ -379,21 +386,27 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
         for robot, placed in zip(robots, (x, y), strict=True)
     ):
         return False
-    colors = [
-        (_find_gazebo_color(placed) if "sdf" in state.pair.formats else None)
-        or _find_color(robot, placed.shape)
+    shown = [
+        _find_material(state.pair, robot, placed)
         for robot, placed in zip(robots, (x, y), strict=True)
     ]
-    if colors[0] is None or colors[1] is None:
+    if any(one is not None and one.texture for one in shown):
         return False
-    amount = float(np.abs(np.array(colors[0]) - np.array(colors[1])).max())
+    colors = [None if one is None else one.color for one in shown]
+    plain = [
+        one is None or one == _UNCOLORED.get(robot.format)
+        for robot, one in zip(robots, colors, strict=True)
+    ]
+    if None in colors and all(plain):
+        return False
+    amount, texts = _measure_colors(*colors)
     state.comparison.add(
         Difference(
             "colors",
             "link",
             (x.link.name, y.link.name),
             f"color of {_describe_what('visual', x)}",
-            (format_vector(np.array(colors[0])), format_vector(np.array(colors[1]))),
+            texts,
             "",
             amount,
             (locate(x.shape, x.link), locate(y.shape, y.link)),
@@ -402,32 +415,23 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
     return True
 
 
+def _measure_colors(one: Rgba | None, two: Rgba | None) -> tuple[float, tuple[str, str]]:
+    """Return the largest difference of two colors, infinite if one is none, and both as text."""
+    texts = ["none" if rgba is None else format_vector(np.array(rgba)) for rgba in (one, two)]
+    if one is None or two is None:
+        return float("inf"), (texts[0], texts[1])
+    return float(np.abs(np.array(one) - np.array(two)).max()), (texts[0], texts[1])
+
+
+def _find_material(pair: Pair, robot: Robot, placed: Placed) -> Material | None:
+    """Return the color or image of a visual: that of Gazebo first if one robot is an SDF."""
+    visual = placed.shape
+    if not isinstance(visual, Visual):
+        return None
+    found = find_gazebo_material(placed.link, visual) if "sdf" in pair.formats else None
+    return found or find_shown_material(robot, placed.link, visual)
+
+
 def _has_script(placed: Placed) -> bool:
     """Tell whether a script that only Gazebo Classic has says the color of a visual."""
-    return isinstance(placed.shape, Visual) and bool(get_script(placed.link, placed.shape))
-
-
-def _find_gazebo_color(placed: Placed) -> tuple[float, ...] | None:
-    """Return the color that Gazebo shows instead of that of URDF; None without one."""
-    diffuse = placed.shape.appearance.get("diffuse") if isinstance(placed.shape, Visual) else None
-    if diffuse is not None and isinstance(diffuse.content, tuple):
-        return diffuse.content
-    return get_rgba(placed.link.gazebo_material)
-
-
-def _find_color(robot: Robot, shape: Visual | Collision) -> tuple[float, ...] | None:
-    """Return the color of a visual, also of one that names a material; None with a texture."""
-    material = shape.material if isinstance(shape, Visual) else None
-    if material is None:
-        return None
-    named: list[Material] = [material]
-    named += [m for m in robot.materials if m.name == material.name]
-    named += [
-        v.material
-        for link in robot.links
-        for v in link.visuals
-        if v.material is not None and v.material.name == material.name and material.name
-    ]
-    if any(m.texture for m in named[:1]):
-        return None
-    return next((m.color for m in named if m.color is not None), None)
+    return isinstance(placed.shape, Visual) and bool(find_unknown_script(placed.link, placed.shape))

@@ -27,8 +27,9 @@ from ..model.elements import (
     Visual,
 )
 from ..model.elements import Mesh as MeshGeometry
+from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose
-from .materials import PLAIN, Materials, Rgba, clamp_color
+from .materials import PLAIN, Rgba, Tints, clamp_color
 from .normals import compute_corner_normals
 from .raster import Floats, Indices
 from .texture import Texels, read_texture
@@ -68,7 +69,7 @@ class Gathering:
     """State of reading a robot's geometry: each file is read once; problems are collected."""
 
     robot: Robot
-    materials: Materials
+    tints: Tints
     images: list[Texels] = field(default_factory=list)
     problems: dict[str, UrdftoolError] = field(default_factory=dict)
     image_rows: dict[object, int] = field(default_factory=dict)
@@ -269,12 +270,12 @@ def _color_surface(
         surface.colors = np.tile(np.array(color), (count, 1))
         surface.image = np.full(count, -1, dtype=np.int64)
         return surface
-    material = gathering.materials.find_material(shape)
+    material = resolve_material(gathering.robot, shape.material)
     bare = ~surface.colored
     if not bare.any():
         return surface
     if material is None:
-        if (tint := gathering.materials.tint(shape)) != PLAIN:
+        if (tint := gathering.tints.get_tint(shape)) != PLAIN:
             surface.colors = surface.colors.copy()
             surface.colors[bare] = tint
         return surface

@@ -1,8 +1,9 @@
-"""Resolution of a visual's ``<material>`` to a color or image."""
+"""Colors of visuals that have none."""
 
 from __future__ import annotations
 
-from ..model.elements import Material, Robot, Visual
+from ..model.elements import Robot, Visual
+from ..model.materials import resolve_material
 
 Rgba = tuple[float, float, float, float]
 
@@ -21,40 +22,23 @@ TINTS: tuple[Rgba, ...] = (
 """Colors that distinguish the links of a robot that defines no colors."""
 
 
-class Materials:
-    """Materials of a robot, by name."""
+class Tints:
+    """Colors of visuals without one: by link if the robot defines no colors."""
 
     def __init__(self, robot: Robot) -> None:
-        """Index the definitions; the first definition of a name counts, on any level.
-
-        urdfdom, from which RViz reads materials, does the same.
-        """
-        self._defined: dict[str, Material] = {}
-        for material in (
-            *robot.materials,
-            *(visual.material for link in robot.links for visual in link.visuals),
-        ):
-            if material is not None and material.name and (material.color or material.texture):
-                self._defined.setdefault(material.name, material)
+        """Choose a tint for each link with visuals."""
         shown = [link for link in robot.links if link.visuals]
-        plain = not any(self.find_material(visual) for link in shown for visual in link.visuals)
+        visuals = [visual for link in shown for visual in link.visuals]
+        plain = not any(resolve_material(robot, visual.material) for visual in visuals)
         self._tints = {
             id(visual): TINTS[number % len(TINTS)]
             for number, link in enumerate(shown if plain and len(shown) > 1 else [])
             for visual in link.visuals
         }
 
-    def tint(self, visual: Visual) -> Rgba:
-        """Return a color for a visual without one: by link if the robot defines no colors."""
+    def get_tint(self, visual: Visual) -> Rgba:
+        """Return the color of a visual without one."""
         return self._tints.get(id(visual), PLAIN)
-
-    def find_material(self, visual: Visual) -> Material | None:
-        """Return the material with the color or image of a visual; None if it has neither."""
-        material = visual.material
-        if material is None:
-            return None
-        found = self._defined.get(material.name, material)
-        return found if found.color or found.texture else None
 
 
 def clamp_color(rgba: Rgba) -> Rgba:

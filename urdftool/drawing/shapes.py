@@ -15,7 +15,7 @@ from ..model.elements import Mesh as MeshGeometry
 from ..model.pose import Pose
 from .detail import Detail
 from .load_geometry import LARGEST, Gathering, Surface, read_surface
-from .materials import Materials, Rgba
+from .materials import Rgba, Tints
 from .normals import compute_corner_normals
 from .points import transform_points
 from .raster import Floats, Indices
@@ -135,7 +135,7 @@ def read_robot_shapes(
     """
     if show not in SHOWS:
         raise ValueError(f"show must be one of {', '.join(SHOWS)}, not {show!r}")
-    gathering = Gathering(robot, Materials(robot))
+    gathering = Gathering(robot, Tints(robot))
     selected = list(_list_selected(robot, show))
     if pixels is not None and robot.source is not None:
         gathering.read = Detail(robot, selected, pixels).read

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import MeshError, UrdftoolError
-from ..model.elements import Collision, Material, Mesh, Robot, Visual
+from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.kinematics import add_mimic_positions, check_positions, link_poses
+from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose
 from ..model.shapes import (
     Box,
@@ -62,7 +63,9 @@ def make_scene(
         link = robot.link[name]
         shapes: Sequence[Visual | Collision] = link.collisions if collision else link.visuals
         for number, shape in enumerate(shapes):
-            rgba = _find_color(robot, shape.material) if isinstance(shape, Visual) else None
+            own = shape.material if isinstance(shape, Visual) else None
+            material = resolve_material(robot, own)
+            rgba = None if material is None else material.color
             matrix = make_matrix(make_pose(shape.origin))
             for part, geometry in enumerate(_make_shapes(robot, shape.geometry, rgba, loaded)):
                 title = f"{name}/{number}.{part}"
@@ -158,11 +161,3 @@ def _get_size(shape: Geometry | None) -> tuple[str, tuple[float, ...]] | None:
         return "ellipsoid", shape.radii
     assert shape is None or isinstance(shape, (Mesh, Plane, UnknownShape))
     return None
-
-
-def _find_color(robot: Robot, material: Material | None) -> tuple[float, ...] | None:
-    """Return the color of a material, which may refer to one of the robot by name."""
-    if material is None or material.color is not None:
-        return None if material is None else material.color
-    named = (one.color for one in robot.materials if one.name == material.name)
-    return next((color for color in named if color is not None), None)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..source.document import Element
 from .gazebo_colors import COLORS, Color
+from .materials import resolve_material
 from .settings import Setting, Settings, Value, get_text, read_sdf_settings
 
 if TYPE_CHECKING:
@@ -80,9 +81,10 @@ def _find_block_script(elements: Sequence[Element]) -> str:
     return "" if not names or names[-1] in COLORS else names[-1]
 
 
-def find_unknown_material(link: Link) -> str:
-    """Return the material that blocks name for a link if Gazebo Classic has none of that name."""
-    return "" if link.gazebo_material in COLORS else link.gazebo_material
+def find_unknown_script(link: Link, visual: Visual) -> str:
+    """Return the script of a visual that says an unknown color; empty for none."""
+    named = "" if link.gazebo_material in COLORS else link.gazebo_material
+    return visual.script or named
 
 
 def read_sdf_appearance(element: Element) -> Settings:
@@ -120,17 +122,6 @@ def get_appearance(robot: Robot, link: Link, visual: Visual) -> Settings:
     if color is not None:
         return convert_color(visual, color) | visual.appearance
     return convert_material(resolve_material(robot, visual.material)) | visual.appearance
-
-
-def resolve_material(robot: Robot, own: Material | None) -> Material | None:
-    """Return the material of a visual: its own if it has a color or texture, else by name."""
-    if own is None or own.color is not None or own.texture is not None:
-        return own
-    named: Sequence[Material | None] = robot.materials
-    for other in (*named, *(v.material for link in robot.links for v in link.visuals)):
-        if other is not None and other.name == own.name and (other.color or other.texture):
-            return other
-    return None
 
 
 def convert_material(own: Material | None) -> Settings:

@@ -6,7 +6,9 @@ from collections.abc import Callable, Container, Iterator
 from typing import NamedTuple
 
 from ...diagnostic import Severity
-from ...model.elements import Robot
+from ...model.appearance import find_unknown_script
+from ...model.elements import Material, Mesh, Robot, Visual
+from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting, list_settings
 from ..written import Written
@@ -80,6 +82,43 @@ def report_unwritten_settings(
                 name=name,
                 severity=Severity.WARNING if rows is ALL_OF_LINKS else Severity.INFO,
             )
+
+
+def report_unknown_colors(robot: Robot, written: Written) -> None:
+    """Report scripts of Gazebo that color visuals, once a link, and undefined materials.
+
+    Args:
+        robot: The source.
+        written: The export, which receives the losses.
+    """
+    for link in robot.links:
+        scripts: set[str] = set()
+        for visual in link.visuals:
+            shown, material = find_shown_material(robot, link, visual), visual.material
+            script = find_unknown_script(link, visual)
+            if script and script not in scripts:
+                why = f"material '{script}' of link '{link.name}' is a script of Gazebo"
+                _report_color(written, script, why, visual, shown)
+            elif shown is None and not script and material is not None and material.name:
+                why = f"material '{material.name}' is not defined"
+                _report_color(written, material.name, why, visual, shown)
+            scripts.add(script)
+
+
+def _report_color(
+    written: Written, name: str, why: str, visual: Visual, shown: Material | None
+) -> None:
+    """Report a material whose color is unknown, and what is written for it."""
+    kept = "the visual has no color"
+    if shown is not None:
+        kept = "the color of the visual's own material is kept"
+    elif isinstance(visual.geometry, Mesh):
+        kept = "only colors in the mesh file are kept"
+    severity = Severity.WARNING if shown is None else Severity.INFO
+    place = visual.place if visual.material is None else visual.material.place
+    written.report_loss(
+        "material", f"{why}; {kept}", place, kind="material", name=name, severity=severity
+    )
 
 
 def _list_kinds(robot: Robot) -> Iterator[_Kind]:

@@ -33,7 +33,7 @@ def list_visual_geoms(
         for index, (geom, piece) in enumerate(_list_geoms(link, visual, assets, written)):
             _set_name(geom, link, visual, names, index)
             geom.set("class", "visual")
-            materials.set_material(geom, visual, link.name, piece)
+            materials.set_material(geom, visual, link, piece)
             yield geom
 
 

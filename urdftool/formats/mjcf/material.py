@@ -8,8 +8,8 @@ from pathlib import Path
 from lxml import etree
 
 from ...errors import SourceError
-from ...model.elements import Material, Robot, Visual
-from ...model.gazebo_colors import get_rgba
+from ...model.elements import Link, Material, Robot, Visual
+from ...model.materials import find_shown_material
 from ..common.naming import UniqueNames, replace_file_name
 from ..written import Written
 from .convert import Image, Rgba
@@ -26,16 +26,9 @@ class Materials:
     """
 
     def __init__(self, robot: Robot, written: Written, mesh_dir: str) -> None:
-        """Index the definitions; the first definition of a name counts."""
+        """Begin with no materials."""
         self._written = written
         self._folder = mesh_dir
-        self._defined: dict[str, Material] = {}
-        for material in (
-            *robot.materials,
-            *(visual.material for link in robot.links for visual in link.visuals),
-        ):
-            if material is not None and (material.color or material.texture):
-                self._defined.setdefault(material.name, material)
         self._robot = robot
         self._names = UniqueNames()
         self._files = UniqueNames(fold=True)
@@ -49,7 +42,7 @@ class Materials:
         return any(self._textures.values())
 
     def set_material(
-        self, geom: etree._Element, visual: Visual, link: str, piece: MeshPiece | None
+        self, geom: etree._Element, visual: Visual, link: Link, piece: MeshPiece | None
     ) -> None:
         """Set the material or color of a geom.
 
@@ -64,12 +57,10 @@ class Materials:
         if piece is not None and piece.rgba is not None:
             geom.set("rgba", format_numbers_text(piece.rgba))
             return
-        material = self._make_definition(visual)
+        material = find_shown_material(self._robot, link, visual)
         if material is None:
-            color = get_rgba(self._robot.link[link].gazebo_material)
-            if color is not None:
-                geom.set("rgba", format_numbers_text(color))
-        elif material.name or material.texture:
+            return
+        if material.name or material.texture:
             name = self._get_material(
                 material.name, material.color, self._get_image(material), visual
             )
@@ -90,21 +81,6 @@ class Materials:
 
     def _report_image_loss(self, message: str, visual: Visual, name: str) -> None:
         self._written.report_loss("texture", message, visual.place, kind="material", name=name)
-
-    def _make_definition(self, visual: Visual) -> Material | None:
-        material = visual.material
-        if material is None or material.color or material.texture:
-            return material
-        found = self._defined.get(material.name) if material.name else None
-        if found is None:
-            self._written.report_loss(
-                "material",
-                f"material '{material.name}' is not defined; the visual has no color",
-                material.place,
-                kind="material",
-                name=material.name,
-            )
-        return found
 
     def _get_image(self, material: Material) -> Path | None:
         """Return the path of a material's texture; None if it does not exist."""

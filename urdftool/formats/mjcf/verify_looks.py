@@ -16,8 +16,8 @@ from ...compare.links import describe_shape
 from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
-from ...model.elements import Capsule, Geometry, Link, Material, Mesh, Robot, Visual
-from ...model.gazebo_colors import get_rgba
+from ...model.elements import Capsule, Geometry, Link, Mesh, Robot, Visual
+from ...model.materials import find_shown_material
 from ..common.losses import DeclaredLosses, list_look_names
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
@@ -121,10 +121,9 @@ def _has_size(geometry: Geometry | None) -> bool:
 
 def _get_own(robot: Robot, link: Link, visual: Visual) -> Look:
     """Return the appearance of a visual by its material, or by Gazebo's if it has none."""
-    material = _get_defined(robot, visual.material)
+    material = find_shown_material(robot, link, visual)
     if material is None:
-        color = get_rgba(link.gazebo_material) if visual.material is None else None
-        return Look(color or GREY)
+        return Look(GREY)
     if material.texture and robot.source is not None:
         try:
             path = robot.source.resolve(material.texture)
@@ -133,17 +132,6 @@ def _get_own(robot: Robot, link: Link, visual: Visual) -> Look:
         if path is not None and os.path.isfile(path):
             return Look(WHITE, Path(path))
     return Look(material.color or GREY)
-
-
-def _get_defined(robot: Robot, material: Material | None) -> Material | None:
-    """Return a material with a color or an image: itself, or the first of its name that has one."""
-    if material is None:
-        return None
-    named = [v.material for link in robot.links for v in link.visuals]
-    for one in (material, *robot.materials, *named):
-        if one is not None and one.name == material.name and (one.color or one.texture):
-            return one
-    return None
 
 
 def _get_part_image(part: Part) -> Image | None:

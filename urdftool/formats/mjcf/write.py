@@ -15,7 +15,7 @@ from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
 from ..common.directory import mark
 from ..common.naming import replace_file_name
-from ..common.unexpressed import report_unexpressed
+from ..common.unexpressed import report_unexpressed, report_unknown_colors
 from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .meshes import create_mesh_assets
@@ -58,6 +58,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     model = get_model_name(robot)
     written = Written(options.file or f"{model}.xml")
     report_unexpressed(robot, written, expressed=EXPRESSED)
+    report_unknown_colors(robot, written)
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ...model.appearance import APPEARANCE, convert_color, convert_material, resolve_material
+from ...model.appearance import APPEARANCE, convert_color, convert_material
 from ...model.block_elements import list_part_elements
 from ...model.elements import Link, Material, Visual
 from ...model.gazebo_colors import COLORS, PICTURED
+from ...model.materials import resolve_material
 from ...model.settings import Settings, get_text
 from ...source.document import Element
 from .copied_elements import copy_raw_element

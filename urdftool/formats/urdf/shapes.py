@@ -22,6 +22,7 @@ from ...model.elements import (
     Sphere,
     Visual,
 )
+from ...model.materials import resolve_material
 from ...model.pose import Pose, get_origin_at, make_pose
 from ...model.shapes import get_shape_name
 from ..written import Written
@@ -114,17 +115,8 @@ def _add_material(
     robot: Robot, meshes: MeshFiles, parent: etree._Element, material: Material
 ) -> None:
     """Add a material with its own color or texture; one by name is resolved."""
-    color, texture = material.color, material.texture
-    if color is None and texture is None:
-        named = [m for m in robot.materials if m.name == material.name]
-        named += [
-            v.material
-            for link in robot.links
-            for v in link.visuals
-            if v.material is not None and v.material.name == material.name
-        ]
-        full = next((m for m in named if m.color is not None or m.texture), None)
-        color, texture = (None, None) if full is None else (full.color, full.texture)
+    full = resolve_material(robot, material)
+    color, texture = (None, None) if full is None else (full.color, full.texture)
     place = None if texture is None else meshes.get_place(texture)
     if color is None and place is None:
         return

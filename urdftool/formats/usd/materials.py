@@ -8,7 +8,8 @@ from pathlib import Path
 from pxr import Gf, Sdf, Usd, UsdShade
 
 from ...geometry.color import convert_to_linear
-from ...model.elements import Material, Robot, Visual
+from ...model.elements import Link, Material, Robot, Visual
+from ...model.materials import find_shown_material
 from ..common.assets import find_file
 from ..common.naming import UniqueNames, replace_file_name
 from ..written import Written
@@ -54,31 +55,14 @@ class MaterialWriter:
     robot: Robot
     written: Written
     prefix: str = "./"
-    _defined: dict[str, Material] = field(default_factory=dict)
     _paths: dict[tuple[Sdf.Path, Look], Sdf.Path] = field(default_factory=dict)
     _names: dict[Sdf.Path, UniqueNames] = field(default_factory=dict)
     _files: dict[Image, str] = field(default_factory=dict)
     _file_names: UniqueNames = field(default_factory=lambda: UniqueNames(fold=True))
 
-    def __post_init__(self) -> None:
-        """Collect the materials that have a color or texture, by name."""
-        visuals = (v.material for link in self.robot.links for v in link.visuals)
-        for material in (*self.robot.materials, *visuals):
-            if material is not None and (material.color or material.texture):
-                self._defined.setdefault(material.name, material)
-
-    def look_of(self, visual: Visual) -> Look | None:
+    def find_look(self, link: Link, visual: Visual) -> Look | None:
         """Return the appearance that the description gives a visual; None without one."""
-        material = visual.material
-        if material is not None and not (material.color or material.texture):
-            found = self._defined.get(material.name) if material.name else None
-            if found is None:
-                self._report(
-                    "material",
-                    f"material '{material.name}' is not defined; the visual has no color",
-                    material,
-                )
-            material = found
+        material = find_shown_material(self.robot, link, visual)
         if material is None:
             return None
         image = find_file(self.robot, material.texture) if material.texture else None

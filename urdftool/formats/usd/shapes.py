@@ -132,7 +132,7 @@ class ShapeWriter:
         if shape.name:
             prim.SetCustomDataByKey("urdf:shape", shape.name)
         if isinstance(shape, Visual):
-            self._bind_material(prim, shape)
+            self._bind_material(prim, link, shape)
         elif not isinstance(geometry, Mesh):
             with self.links.builder.edit_layer(PHYSICS):
                 make_collider(prim)
@@ -155,9 +155,9 @@ class ShapeWriter:
             return write_triangles(stage, path, *tessellate("ellipsoid", geometry.radii, 48))
         return _create_primitive(stage, path, geometry)
 
-    def _bind_material(self, prim: Usd.Prim, visual: Visual) -> None:
+    def _bind_material(self, prim: Usd.Prim, link: Link, visual: Visual) -> None:
         """Bind the material of a visual; colors in a mesh file take precedence, as in RViz."""
-        look = self.materials.look_of(visual)
+        look = self.materials.find_look(link, visual)
         if look is None:
             return
         if look.image is not None and not isinstance(visual.geometry, Mesh):

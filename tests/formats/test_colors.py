@@ -1,0 +1,97 @@
+"""Colors of visuals in every format: of the material, of its first definition, of Gazebo."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import urdftool
+from urdftool.model.materials import find_shown_material
+
+RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
+
+ROBOT = """<robot name="r">
+  {top}
+  <link name="base">
+    <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <visual><geometry><box size="1 1 1"/></geometry>{material}</visual>
+  </link>
+  {block}
+</robot>"""
+
+PAINT = '<material name="paint"><color rgba="{} 0 {} 1"/></material>'
+RED_PAINT, BLUE_PAINT = PAINT.format(1, 0), PAINT.format(0, 1)
+
+
+def load(tmp_path: Path, *, top: str = "", material: str = "", said: str = "") -> urdftool.Robot:
+    """Read a robot of one link; ``said`` is its material in a block of Gazebo."""
+    block = f'<gazebo reference="base"><material>{said}</material></gazebo>' if said else ""
+    path = tmp_path / "r.urdf"
+    path.write_text(ROBOT.format(top=top, material=material, block=block), "utf-8")
+    return urdftool.load(path)
+
+
+CASES = [
+    ({"material": RED_PAINT}, RED),
+    ({"top": RED_PAINT, "material": '<material name="paint"/>'}, RED),
+    ({"top": RED_PAINT, "material": BLUE_PAINT}, RED),
+    ({"said": "Gazebo/Blue"}, BLUE),
+    ({"material": RED_PAINT, "said": "Gazebo/Blue"}, RED),
+    ({"material": '<material name="missing"/>', "said": "Gazebo/Blue"}, BLUE),
+    ({"said": "Shop/Blue"}, None),
+]
+
+
+@pytest.mark.parametrize(("robot", "color"), CASES)
+def test_one_color_in_the_model_and_the_exports(
+    tmp_path: Path, robot: dict[str, str], color: tuple[float, ...] | None
+) -> None:
+    """Show in MJCF and USD the color that the model has."""
+    read = load(tmp_path, **robot)
+    link = read.link["base"]
+    shown = find_shown_material(read, link, link.visuals[0])
+    assert (None if shown is None else shown.color) == color
+    for name in ("mjcf", "usd"):
+        pytest.importorskip({"mjcf": "mujoco", "usd": "pxr"}[name])
+        target = tmp_path / name
+        getattr(urdftool, f"export_{name}")(read, target)
+        back = urdftool.load(next(target.glob("r.*")))
+        there = back.link["base"]
+        found = find_shown_material(back, there, there.visuals[0])
+        plain = (0.5, 0.5, 0.5, 1.0) if name == "mjcf" else None
+        rgba = plain if found is None else found.color
+        assert rgba == (plain if color is None else pytest.approx(color, abs=4e-3))
+
+
+LOST = [
+    ({"said": "Shop/Blue"}, "is a script of Gazebo; the visual has no color", "warning"),
+    ({"said": "Shop/Blue", "material": RED_PAINT}, "own material is kept", "info"),
+    ({"material": '<material name="missing"/>'}, "'missing' is not defined", "warning"),
+]
+
+
+@pytest.mark.parametrize("name", ["mjcf", "usd"])
+@pytest.mark.parametrize(("robot", "message", "severity"), LOST)
+def test_unknown_colors_are_reported(
+    tmp_path: Path, name: str, robot: dict[str, str], message: str, severity: str
+) -> None:
+    """Report once what is not written, and what is written instead."""
+    pytest.importorskip({"mjcf": "mujoco", "usd": "pxr"}[name])
+    exported = getattr(urdftool, f"export_{name}")(load(tmp_path, **robot), tmp_path / name)
+    [loss] = [one for one in exported.losses if one.code == "lossy-material"]
+    assert message in loss.message
+    assert loss.severity.name.lower() == severity
+
+
+@pytest.mark.parametrize("robot", [{"material": RED_PAINT}, {"said": "Gazebo/Blue"}])
+def test_a_color_that_is_gone_is_a_difference(tmp_path: Path, robot: dict[str, str]) -> None:
+    """Compare a robot with one whose visual has no color."""
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    one, two = load(tmp_path / "a", **robot), load(tmp_path / "b")
+    pytest.importorskip("pxr")
+    urdftool.export_usd(two, tmp_path / "usd")
+    back = urdftool.load(next((tmp_path / "usd").glob("r.*")))
+    agreement = urdftool.verify(one, back, only=["colors"])
+    assert not agreement.is_equal
