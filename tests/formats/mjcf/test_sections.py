@@ -149,11 +149,11 @@ def test_materials(write):
     written = export(write("r.urdf", text))
     model = tree(written)
     assert [(m.get("name"), m.get("rgba")) for m in model.iter("material")] == [
-        ("blue", "0 0 1 1"), ("blue_1", "0 0 0.5 1"), ("gray50", "0.5 0.5 0.5 1"),
+        ("blue", "0 0 1 1"), ("gray50", "0.5 0.5 0.5 1"),
     ]  # fmt: skip
     looks = [(g.get("material"), g.get("rgba")) for g in model.find("worldbody").iter("geom")]
     assert looks == [
-        ("blue", None), (None, None), ("blue_1", None), ("gray50", None), ("gray50", None),
+        ("blue", None), (None, None), ("blue", None), ("gray50", None), ("gray50", None),
         (None, "0.1 0.2 0.3 1"),
     ]  # fmt: skip
     assert "lossy-material" in rules(written)
