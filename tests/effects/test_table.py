@@ -39,7 +39,7 @@ NOT_RUN = {
     *("rviz", "moveit", "robot_state_publisher", "tf2", "image_geometry", "ros2_control"),
     *("controller_manager", "gz_ros2_control", "gazebo_ros_control", "gazebo_ros"),
     *("joint_trajectory_controller", "ros2 run … -p robot_description:=…", "colcon"),
-    "isaac",
+    *("isaac", "ros2 launch"),
 }
 
 

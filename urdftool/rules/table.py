@@ -234,6 +234,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "gazebo-path-not-exported",
             "wrong-package-in-uri",
         ),
+        "launch_files": ("undeclared-launch-dependency",),
         "xacro_calls": ("obsolete-cli-option",),
     },
     "gazebo": {
@@ -548,6 +549,7 @@ FIXES: dict[str, FixTraits] = {
     "directory-not-installed": FixTraits(UNSAFE),
     "gazebo-path-not-exported": FixTraits(BOTH),
     "wrong-package-in-uri": FixTraits(UNSAFE),
+    "undeclared-launch-dependency": FixTraits(SAFE),
     "obsolete-cli-option": FixTraits(SAFE),
     "missing-gazebo-tags": FixTraits(UNSAFE),
     "missing-gazebo-material": FixTraits(SAFE),

@@ -1,4 +1,4 @@
 """Rules on the ROS package of a description."""
 
-FILES = ("resolution", "manifest", "xacro_calls")
+FILES = ("resolution", "manifest", "launch_files", "xacro_calls")
 """Files with rules, in reading order."""

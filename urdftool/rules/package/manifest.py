@@ -9,20 +9,17 @@ from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...model.elements import Link, Robot
-from ...source.comments import blank_cmake_comments, remove_comments
+from ...source.comments import blank_cmake_comments
 from ...source.description import Description
-from ...source.document import Document, Element
+from ...source.document import Element
 from ...source.location import Place
-from ...source.nearby_files import read_optional_document, read_optional_file
-from ...workspace import Workspace, memoize_by_workspace
+from ...source.nearby_files import read_optional_file
+from ...workspace import Workspace
 from ..fix import (
-    Change,
     FixContext,
     Proposal,
     Span,
     append_child,
-    insert_after,
-    prepend_child,
     safe,
     substitute,
     unsafe,
@@ -30,28 +27,22 @@ from ..fix import (
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import fold, quote
-from .dependencies import find_dependency_chain
+from .dependencies import (
+    add_dependency,
+    find_dependency_chain,
+    get_dependencies,
+    get_run_tag,
+    parse_own_manifest,
+    read_manifest_text,
+    read_package_text,
+)
 from .resolution import is_in_own_package
 
-_DEPEND = re.compile(r"<(?:\w+_)?depend\b[^<>]*>\s*([\w-]+)\s*</")
 _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
 
 
 _PACKAGE = re.compile(r"[a-z][a-z0-9_-]*")
 """Names of ROS packages: https://www.ros.org/reps/rep-0144.html; hyphens are used as well."""
-
-
-def _read_manifest(workspace: Workspace, folder: Path) -> str:
-    return remove_comments(_read_text(workspace, folder / "package.xml"))
-
-
-@memoize_by_workspace
-def _read_text(workspace: Workspace, path: Path) -> str:
-    """Read a file of the package; empty if it cannot be read."""
-    try:
-        return workspace.read_text(path)
-    except OSError:
-        return ""
 
 
 @rule(
@@ -72,7 +63,7 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
     own = description.packages.own
     if own is None or _is_in_tests(description, own[1]):
         return
-    declared = _get_dependencies(description.workspace, own[1])
+    declared = get_dependencies(description.workspace, own[1])
     for name, subject, at in _find_used_packages(robot, description, own):
         if _is_misnamed(name, description):
             continue  # package-not-found reports it
@@ -104,7 +95,7 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
     that would create a circle.
     """
     name: str = problem.data["package"]
-    manifest = _parse_manifest(context)
+    manifest = parse_own_manifest(context)
     own, packages = context.description.packages.own, context.description.packages
     if manifest is None or own is None or not re.fullmatch(r"[\w-]+", name):
         return None
@@ -114,33 +105,8 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
         return None
     if find_dependency_chain(name, own[0], packages, conditional=True):
         return None
-    tag = _get_run_tag(manifest.root)
-    return safe(f"add <{tag}>{name}</{tag}> to package.xml", _add_dependency(manifest.root, name))
-
-
-def _parse_manifest(context: FixContext) -> Document | None:
-    own = context.description.packages.own
-    found = (
-        read_optional_document(context.workspace, own[1] / "package.xml")
-        if own is not None
-        else None
-    )
-    return found if found is not None and found.root.tag == "package" else None
-
-
-def _get_run_tag(package: Element) -> str:
-    """Get the tag of run dependencies, which depends on the format of the manifest."""
-    return "run_depend" if (package.get("format") or "1").strip() == "1" else "exec_depend"
-
-
-def _add_dependency(package: Element, name: str) -> Change:
-    """Add a dependency after others of the same kind, or in the required order."""
-    tag = _get_run_tag(package)
-    line = f"<{tag}>{name}</{tag}>"
-    others = [child for child in package.children if child.tag not in ("export", "test_depend")]
-    likes = [child for child in others if child.tag in (tag, "depend")]
-    behind = likes or others
-    return insert_after(behind[-1], line) if behind else prepend_child(package, line)
+    tag = get_run_tag(manifest.root)
+    return safe(f"add <{tag}>{name}</{tag}> to package.xml", add_dependency(manifest.root, name))
 
 
 @rule(
@@ -160,7 +126,7 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
     own = description.packages.own
     if own is None or _is_in_tests(description, own[1]):
         return
-    declared = _get_dependencies(description.workspace, own[1])
+    declared = get_dependencies(description.workspace, own[1])
     for name, subject, at in _find_used_packages(robot, description, own):
         way = find_dependency_chain(name, own[0], description.packages)
         if not way:
@@ -188,11 +154,6 @@ def _is_in_tests(description: Description, folder: Path) -> bool:
     real_path = description.workspace.resolve_links
     relative = Path(os.path.relpath(real_path(description.packages.file), real_path(folder)))
     return not {"test", "tests"}.isdisjoint(relative.parts[:-1])
-
-
-def _get_dependencies(workspace: Workspace, folder: Path) -> set[str]:
-    """Get the dependencies in a package's manifest."""
-    return set(_DEPEND.findall(_read_manifest(workspace, folder)))
 
 
 def _find_used_packages(
@@ -254,7 +215,7 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     own = description.packages.own
     if own is None:
         return
-    text = _read_text(description.workspace, own[1] / "CMakeLists.txt")
+    text = read_package_text(description.workspace, own[1] / "CMakeLists.txt")
     if not text:
         return
     text = re.sub(r"#[^\n]*", "", text)
@@ -345,7 +306,7 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
     launch file, must add the package to them.
     """
     own = description.packages.own
-    if own is None or "model_path" in _read_manifest(description.workspace, own[1]):
+    if own is None or "model_path" in read_manifest_text(description.workspace, own[1]):
         return
     if _launch_sets_path(description.workspace, own[1]):
         return
@@ -365,7 +326,7 @@ def _launch_sets_path(workspace: Workspace, package: Path) -> bool:
     """Tell whether a launch file or hook of the package sets the model path of Gazebo."""
     for folder in ("launch", "hooks", "env-hooks"):
         for path in workspace.list_matches(package / folder, "*")[:50]:
-            text = _read_text(workspace, path) if workspace.is_file(path) else ""
+            text = read_package_text(workspace, path) if workspace.is_file(path) else ""
             if "RESOURCE_PATH" in text or "MODEL_PATH" in text:
                 return True
     return False
@@ -381,7 +342,7 @@ def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
     With catkin the export requires a dependency on gazebo_ros, so the fix is unsafe if the package
     has none.
     """
-    manifest = _parse_manifest(context)
+    manifest = parse_own_manifest(context)
     if manifest is None:
         return None
     root, export = manifest.root, manifest.root.find_child("export")
@@ -394,7 +355,7 @@ def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
         return safe("export the path in package.xml", change)
     return unsafe(
         "export the path in package.xml, and depend on gazebo_ros",
-        _add_dependency(root, "gazebo_ros"),
+        add_dependency(root, "gazebo_ros"),
         change,
     )
 
