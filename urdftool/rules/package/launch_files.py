@@ -118,19 +118,20 @@ def _list_imports(file: SourceFile) -> list[tuple[str, Place]]:
     for line in file.data.splitlines(keepends=True):
         begins.append(begins[-1] + len(line))
     optional = {id(inner) for node in ast.walk(tree) for inner in _list_optional(node)}
-    return [
-        (name, Place(file, _locate(begins, node), _locate(begins, node, end=True)))
-        for node in ast.walk(tree)
-        if id(node) not in optional
-        for name in _list_modules(node)
-    ]
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom) and id(node) not in optional:
+            start = _locate(begins, node.lineno, node.col_offset)
+            place = Place(file, start, _locate(begins, node.end_lineno, node.end_col_offset))
+            found += [(name, place) for name in _list_modules(node)]
+    return found
 
 
-def _list_modules(node: ast.AST) -> Iterable[str]:
+def _list_modules(node: ast.Import | ast.ImportFrom) -> Iterable[str]:
     """Return the top-level modules that a statement imports."""
     if isinstance(node, ast.Import):
         return [alias.name.partition(".")[0] for alias in node.names]
-    if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+    if node.level == 0 and node.module:
         return [node.module.partition(".")[0]]
     return []
 
@@ -150,11 +151,9 @@ def _catches_imports(handler: ast.ExceptHandler) -> bool:
     )
 
 
-def _locate(begins: list[int], node: ast.AST, *, end: bool = False) -> int:
-    """Return the byte at which a statement begins or ends, from the first bytes of lines."""
-    if end:
-        return begins[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined]
-    return begins[node.lineno - 1] + node.col_offset  # type: ignore[attr-defined]
+def _locate(begins: list[int], line: int | None, column: int | None) -> int:
+    """Return the byte of a place in Python, from the first bytes of lines."""
+    return begins[(line or 1) - 1] + (column or 0)
 
 
 def _is_package(name: str, description: Description) -> bool:
