@@ -77,7 +77,9 @@ def bodies(count):
     [
         pytest.param(bodies(300), id="300 bodies"),
         pytest.param((l_profile()[0], l_profile()[1][:-1]), id="open"),
-        pytest.param((l_profile()[0], l_profile()[1][:, ::-1]), id="inverted"),
+        pytest.param(
+            (l_profile()[0], l_profile()[1][:, ::-1]), id="inverted", marks=pytest.mark.slow
+        ),
         pytest.param(
             (
                 np.concatenate([l_profile()[0], l_profile()[0] + [0.2, 0.05, 0]]),
@@ -91,6 +93,7 @@ def bodies(count):
                 np.concatenate([l_profile()[1], noisy("box", (0.1, 0.1, 0.3))[1] + 12]),
             ),
             id="through itself",
+            marks=pytest.mark.slow,
         ),
     ],
 )

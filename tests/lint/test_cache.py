@@ -51,7 +51,8 @@ def no_check(monkeypatch):
 
 @pytest.mark.parametrize("style", ["full", "concise", "json", "sarif", "github", "junit", "html"])
 def test_a_report_that_was_kept_says_the_same(lint, no_check, style):
-    words = [ARM, FIXTURES / "robots", "--format", style, "--exit-zero"]
+    folder = FIXTURES / "robots" if style == "full" else ARM.parent
+    words = [ARM, folder, "--format", style, "--exit-zero"]
     plain = lint(*words, "--no-cache")
     assert lint(*words) == plain
     no_check()

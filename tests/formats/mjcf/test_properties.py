@@ -72,12 +72,7 @@ def at_random(random, odd):
     return robot(*parts)
 
 
-@pytest.mark.parametrize("odd", [False, True])
-@given(seed=st.integers(0, 2**32 - 1))
-@settings(
-    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-def test_a_random_robot_is_itself(write, odd, seed):
+def check_a_random_robot(write, odd, seed):
     random = np.random.default_rng(seed)
     found = load(write("r.urdf", at_random(random, odd)))
     base = ("fixed", "free")[int(random.integers(2))]
@@ -91,3 +86,23 @@ def test_a_random_robot_is_itself(write, odd, seed):
         assert {check.verdict for check in same_robot} <= WITHOUT_DIFFERENCE, format_check_table(
             checks
         )
+
+
+def random_robots(count):
+    """Settings and seeds of a test of random robots."""
+    checks = [HealthCheck.function_scoped_fixture]
+    made = settings(max_examples=count, deadline=None, suppress_health_check=checks)
+    return lambda test: made(given(seed=st.integers(0, 2**32 - 1))(test))
+
+
+@pytest.mark.parametrize("odd", [False, True])
+@random_robots(8)
+def test_a_random_robot_is_itself(write, odd, seed):
+    check_a_random_robot(write, odd, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("odd", [False, True])
+@random_robots(100)
+def test_many_random_robots_are_themselves(write, odd, seed):
+    check_a_random_robot(write, odd, seed)
