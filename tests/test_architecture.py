@@ -76,7 +76,7 @@ BELOW = {
     ),
     "fmt": ("lint", "source", *BASE),
     "server": (
-        *("fmt", "formats", "inertia", "lint", "rules", "finding", "model", "source"),
+        *("edit", "fmt", "formats", "inertia", "lint", "rules", "finding", "model", "source"),
         *("configuration", *BASE),
     ),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),

@@ -72,6 +72,12 @@ class Client:
 
     def ask(self, method, **params):
         """Return the answer of a request."""
+        answer = self.request(method, **params)
+        assert "error" not in answer, answer
+        return answer["result"]
+
+    def request(self, method, **params):
+        """Return the whole message that answers a request, which may be an error."""
         self.number += 1
         number = self.number
         self._send(id=number, method=method, params=params)
@@ -83,8 +89,7 @@ class Client:
             return bool(found)
 
         self.wait(answered)
-        assert "error" not in found[0], found[0]
-        return found[0]["result"]
+        return found[0]
 
     def wait(self, until):
         """Handle messages until one fulfils a condition."""

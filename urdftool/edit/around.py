@@ -11,7 +11,7 @@ from ..model.numbers import number
 from ..rules.control.controller_files import get_package
 from ..rules.moveit.semantic import find_references
 from ..source.document import parse, read_file
-from ..source.edit import Edit, apply
+from ..source.edit import Edit
 from ..source.location import SourceFile
 from ..source.packages import shorten_path
 from ..source.yaml_tree import Node, list_scalars, parse_yaml
@@ -28,9 +28,9 @@ _SUFFIXES = (".yaml", ".yml")
 class YamlDraft(TextDraft):
     """A YAML file with changes that are not made yet."""
 
-    def make_bytes(self) -> bytes:
-        """Return the bytes of the file with all changes."""
-        return apply(self.file, self.edits)
+    def list_edits(self) -> list[Edit]:
+        """Return all changes as edits of the file."""
+        return self.edits
 
     def set_scalar(self, node: Node, text: str) -> None:
         """Replace a scalar; its quotes stay."""

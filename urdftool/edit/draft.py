@@ -103,10 +103,14 @@ class TextDraft:
         at = line if not data[line:end].strip() else end
         self.edits.append(Edit(at, at, text if at == line else self.source.line_end + text))
 
+    def list_edits(self) -> list[Edit]:
+        """Return all changes as edits of the file."""
+        edits = [make_removal(self.source, element) for element in self.removed.values()]
+        return _drop_nested([*edits, *self.edits, *self._make_attributes()])
+
     def make_bytes(self) -> bytes:
         """Return the bytes of the file with all changes."""
-        edits = [make_removal(self.source, element) for element in self.removed.values()]
-        return apply(self.file, _drop_nested([*edits, *self.edits, *self._make_attributes()]))
+        return apply(self.file, self.list_edits())
 
     def _make_attributes(self) -> list[Edit]:
         made = []

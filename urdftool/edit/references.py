@@ -50,41 +50,62 @@ def list_others(root: Element) -> Iterator[Element]:
             yield from (e for e in block.children if e.tag in ("actuator", "sensor", "gpio"))
 
 
-def rename(draft: Draft, names: Names) -> None:
-    """Change names with all references in the description."""
+class NameChange(NamedTuple):
+    """A name in a description that changes.
+
+    Attributes:
+        element: The element.
+        attribute: The attribute; empty for the text of the element.
+        name: The new name.
+    """
+
+    element: Element
+    attribute: str
+    name: str
+
+
+def list_changes(root: Element, names: Names) -> list[NameChange]:
+    """List the names to change in a description: definitions and known references."""
+    found: dict[tuple[int, str], NameChange] = {}
     for listed, new in (
-        (list_link_references(draft.root), names.links),
-        (list_joint_references(draft.root), names.joints),
+        (list_link_references(root), names.links),
+        (list_joint_references(root), names.joints),
     ):
         for element, attribute, name in listed:
-            if name not in new:
-                continue
-            if attribute:
-                draft.set(element, attribute, new[name])
-            elif not _is_text_set(draft, element):
-                draft.set_text(element, new[name])
-    _rename_in_blocks(draft, names)
-    for element in list_others(draft.root):
+            key = id(element), attribute
+            if name in new and (attribute or key not in found):
+                found[key] = NameChange(element, attribute, new[name])
+    for change in _list_block_changes(root, names):
+        found.setdefault((id(change.element), change.attribute), change)
+    for element in list_others(root):
         if (name := element.get("name") or "") in names.others:
-            draft.set(element, "name", names.others[name])
-    for element in draft.root.walk():
+            found[id(element), "name"] = NameChange(element, "name", names.others[name])
+    for element in root.walk():
         if element.tag == "material" and (name := element.get("name") or "") in names.materials:
             if element.parent is not None and element.parent.tag in ("robot", "visual"):
-                draft.set(element, "name", names.materials[name])
+                found[id(element), "name"] = NameChange(element, "name", names.materials[name])
+    return list(found.values())
 
 
-def _rename_in_blocks(draft: Draft, names: Names) -> None:
-    """Change attributes and texts of blocks for simulators that are the name of a link or joint."""
+def _list_block_changes(root: Element, names: Names) -> Iterator[NameChange]:
+    """Yield attributes and texts of blocks for simulators that are the name of a link or joint."""
     new = {**names.joints, **names.links}
-    for element in (
-        e for block in draft.root.children if block.tag in _BLOCKS for e in block.walk()
-    ):
+    for element in (e for block in root.children if block.tag in _BLOCKS for e in block.walk()):
         for attribute, value in element.attributes.items():
-            if value in new and (element.start, attribute) not in draft.values:
-                draft.set(element, attribute, new[value])
+            if value in new:
+                yield NameChange(element, attribute, new[value])
         text = element.text.strip()
-        if text in new and not element.children and not _is_text_set(draft, element):
-            draft.set_text(element, new[text])
+        if text in new and not element.children:
+            yield NameChange(element, "", new[text])
+
+
+def rename(draft: Draft, names: Names) -> None:
+    """Change names with all references in the description."""
+    for element, attribute, name in list_changes(draft.root, names):
+        if attribute:
+            draft.set(element, attribute, name)
+        else:
+            draft.set_text(element, name)
 
 
 def _is_text_set(draft: Draft, element: Element) -> bool:

@@ -62,9 +62,12 @@ class Checks:
         return robots
 
     def read(self, path: str) -> None:
-        """Read the robots that a file belongs to, without a rule."""
+        """Read the robots that a file belongs to, without a rule, unless they were read."""
         nothing = Settings(select=())
         for robot in self._list_robots(path):
+            state = self.knowledge.states.get(robot)
+            if state is not None and state.version == self.knowledge.version:
+                continue
             self._run(
                 robot, lambda errors: None, replace(self._make_options(robot), settings=nothing)
             )

@@ -7,6 +7,7 @@ from typing import Any, BinaryIO
 
 from lsprotocol import types as lsp
 from pygls import uris
+from pygls.exceptions import JsonRpcException
 
 from .protocol import RobotServer, ServerSettings
 
@@ -32,6 +33,7 @@ def add_features(server: RobotServer) -> None:
     _add_actions(server)
     _add_reading(server)
     _add_completion(server)
+    _add_renaming(server)
 
 
 def _add_documents(server: RobotServer) -> None:
@@ -158,6 +160,24 @@ def _add_completion(server: RobotServer) -> None:
         found = await _ask(ls, "completion", params, snippets=_has_snippets(ls)) or []
         items = ls.converter.structure(found, list[lsp.CompletionItem])
         return lsp.CompletionList(is_incomplete=False, items=items)
+
+
+def _add_renaming(server: RobotServer) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+    async def prepare(
+        ls: RobotServer, params: lsp.PrepareRenameParams
+    ) -> lsp.PrepareRenamePlaceholder | None:
+        found = await _ask(ls, "prepare-rename", params)
+        return ls.converter.structure(found, lsp.PrepareRenamePlaceholder) if found else None
+
+    @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+    async def rename(ls: RobotServer, params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
+        found = await _ask(ls, "rename", params, name=params.new_name)
+        if found is None:
+            return None
+        if "refused" in found:
+            raise JsonRpcException(found["refused"], lsp.LSPErrorCodes.RequestFailed.value)
+        return ls.make_workspace_edit(found["edits"])
 
 
 def _has_snippets(ls: RobotServer) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -57,6 +57,7 @@ class Knowledge:
         encoding: Unit of columns of the editor.
         states: State by resolved path of each checked robot.
         version: Number of changes of documents and files.
+        read_robots: Reads the robots of a file, if that was not done since the last change.
     """
 
     def __init__(self) -> None:
@@ -71,6 +72,7 @@ class Knowledge:
         self._base = Workspace()
         self._repositories: dict[str, Repository] = {}
         self._workspace: Workspace | None = None
+        self.read_robots: Callable[[str], None] = lambda path: None
         self._words: dict[str, tuple[bytes, WordTable | None]] = {}
 
     # Documents and settings ----------------------------------------------------------------
@@ -126,6 +128,18 @@ class Knowledge:
         if self._workspace is None:
             self._workspace = self._base.get_with_overlay(self._texts)
         return self._workspace
+
+    def make_workspace(self, contents: Mapping[str, bytes]) -> Workspace:
+        """Return access to files with other contents, by resolved path, of some of them."""
+        return self._base.get_with_overlay({**self._texts, **contents})
+
+    def is_in_workspace(self, path: str) -> bool:
+        """Tell whether a file is in a folder of the workspace, or in the project of a document."""
+        real = os.path.realpath(path)
+        folders = [os.path.realpath(folder) for folder in self._folders]
+        projects = [find_project(one, self._base) for one in self._texts]
+        folders += [os.path.realpath(one) for one in projects if one is not None]
+        return real in self._texts or any(real.startswith(one + os.sep) for one in folders)
 
     def is_open(self, real: str) -> bool:
         """Tell whether a resolved path is an open document."""
@@ -275,6 +289,11 @@ class Knowledge:
     def list_descriptions(self, path: str) -> list[tuple[Description, Robot]]:
         """Return descriptions and robots that a file belongs to, for each set of arguments."""
         return [pair for state in self.list_states(path) for pair in state.descriptions]
+
+    def read_descriptions(self, path: str) -> list[tuple[Description, Robot]]:
+        """Read the robots of a file where necessary, and return them."""
+        self.read_robots(path)
+        return self.list_descriptions(path)
 
 
 def _encode(text: str) -> bytes:

@@ -39,13 +39,14 @@ class Names:
     """Names in the files that the robots of a file have.
 
     Attributes:
+        knowledge: Open documents and robots.
         tables: Names of each file, by resolved path.
         descriptions: Description and robot of each set of arguments.
     """
 
     def __init__(self, knowledge: Knowledge, path: str) -> None:
         """Index the names of the robots that a file belongs to."""
-        self._knowledge, self._path = knowledge, make_path(path)
+        self.knowledge, self._path = knowledge, make_path(path)
         self.tables: dict[str, WordTable] = {}
         for one in knowledge.list_connected(path):
             table = knowledge.get_words(one)
@@ -66,7 +67,7 @@ class Names:
     def _is_present(self, file: SourceFile) -> bool:
         """Tell whether a file that was read is as it is now."""
         table = self.tables.get(make_path(file.path))
-        return table is not None and self._knowledge.read(file.path).data == file.data
+        return table is not None and self.knowledge.read(file.path).data == file.data
 
     def _add_instances(self, description: Description, robot: Robot) -> None:
         """Index the elements of a robot by the element of the source."""
@@ -108,7 +109,7 @@ class Names:
         for description, _ in self.descriptions:
             yield description.packages
         if not self.descriptions:
-            yield self._knowledge.make_packages(self._path)
+            yield self.knowledge.make_packages(self._path)
 
     # Values --------------------------------------------------------------------------------
 
@@ -212,6 +213,18 @@ class Names:
                 if one.kind == "material" and one.is_definition:
                     if values.intersection(self.get_values(one) or [one.name]):
                         yield one
+
+    def list_computed_calls(self, definitions: list[Word]) -> Iterator[Word]:
+        """Yield the names in calls of some macros that compute which macro they call."""
+        sites = {
+            (make_path(one.element.file.path), one.element.start)
+            for one in definitions
+            if one.kind == "macro"
+        }
+        for (path, start), macros in self._macros.items():
+            for word in self.tables[path].words if sites.intersection(macros) else ():
+                if word.element.start == start and word.kind == "macro" and "$" in word.name:
+                    yield word
 
     # References ----------------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ from .formatting import format_document
 from .hover import describe_position
 from .knowledge import Knowledge
 from .navigation import list_definitions, list_references
+from .rename import prepare_rename, rename
 from .symbols import list_symbols
 
 Emit = Callable[[Any], None]
@@ -24,7 +25,9 @@ _QUESTIONS: dict[str, Question] = {
     "fix-all": list_safe_edits,
     "format": format_document,
     "hover": describe_position,
+    "prepare-rename": prepare_rename,
     "references": list_references,
+    "rename": rename,
     "symbols": list_symbols,
 }
 
@@ -35,6 +38,7 @@ class Session:
     def __init__(self) -> None:
         """Create a session without documents."""
         self.knowledge = Knowledge()
+        self.knowledge.read_robots = self._read_robots
 
     def set_document(self, path: str, text: str | None) -> None:
         """Store the text of an open document; None for one that was closed."""
