@@ -26,7 +26,7 @@ MOST_ITEMS = 500
 
 _PROPERTY, _CLASS, _FUNCTION, _VARIABLE, _FILE, _FOLDER = 10, 7, 3, 6, 17, 19
 _MODULE, _ENUM, _EVENT = 9, 20, 23  # CompletionItemKind; source: the protocol, 3.17
-_SNIPPET = 2  # InsertTextFormat
+_SNIPPET = 2  # InsertTextFormat; source: the protocol, 3.17
 _EXPRESSION = re.compile(r"\$\{[^}]*?([A-Za-z_][\w.]*)?\Z")
 _EXTENSION = re.compile(r"\$\(([^)\s]*)(\s+)?([^)\s]*)\Z")
 _COMMANDS = {
