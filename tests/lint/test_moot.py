@@ -152,3 +152,11 @@ def test_a_remark_waits_until_a_reader_gets_as_far(write):
     assert "implausible-velocity" in reported("b")
     assert "implausible-velocity" not in reported("nobody"), "no reader loads the robot"
     assert "implausible-velocity" in reported("nobody", select=["joint"])
+
+
+def test_a_rejection_is_at_the_finding_that_the_reader_rejects(urdftool, write):
+    """MuJoCo accepts a root without inertia, which it fixes, and rejects a moving link."""
+    links = LINK.format("base", 0), LINK.format("arm", 0)
+    path = write("r.urdf", robot(links[0], "\n", links[1], JOINT.format("j", "base", "arm", LIMIT)))
+    lines = urdftool("lint", path).out.splitlines()
+    assert "mujoco rejects the robot: zero-inertia (r.urdf:2)" in lines

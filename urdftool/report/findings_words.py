@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ..control_characters import escape_controls
@@ -102,15 +102,23 @@ def list_rejections(outcome: Outcome) -> Iterator[str]:
             together.setdefault(rules, []).append(reader)
         for rules, readers in together.items():
             verb = "rejects" if len(readers) == 1 else "reject"
-            yield f"{', '.join(readers)} {verb} the robot: {_name_lines(outcome, rules)}"
+            yield f"{', '.join(readers)} {verb} the robot: {_name_lines(outcome, rules, readers)}"
 
 
-def _name_lines(outcome: Outcome, rules: Iterable[str], shown: int = 3) -> str:
-    """Name rules with the line of their first finding."""
+def _name_lines(
+    outcome: Outcome, rules: Iterable[str], readers: Sequence[str], shown: int = 3
+) -> str:
+    """Name rules with the line of their first finding, of those that affect the readers if any."""
+    findings = sorted(outcome.findings, key=lambda found: not _affects(found, readers))
     places = {
-        f.code: f"{os.path.basename(f.location.path)}:{f.location.line}"
-        for f in reversed(outcome.findings)
+        f.code: f"{os.path.basename(f.location.path)}:{f.location.line}" for f in reversed(findings)
     }
     names = [f"{rule} ({places[rule]})" if rule in places else rule for rule in rules]
     more = f" and {len(names) - shown} more" if len(names) > shown else ""
     return ", ".join(names[:shown]) + more
+
+
+def _affects(finding: Finding, readers: Sequence[str]) -> bool:
+    """Tell whether a finding has an effect in one of the readers."""
+    named = {reader for key in finding.effects for reader in key.split(", ")}
+    return not named.isdisjoint(readers)
