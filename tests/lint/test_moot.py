@@ -158,5 +158,5 @@ def test_a_rejection_is_at_the_finding_that_the_reader_rejects(urdftool, write):
     """MuJoCo accepts a root without inertia, which it fixes, and rejects a moving link."""
     links = LINK.format("base", 0), LINK.format("arm", 0)
     path = write("r.urdf", robot(links[0], "\n", links[1], JOINT.format("j", "base", "arm", LIMIT)))
-    lines = urdftool("lint", path).out.splitlines()
+    lines = urdftool("lint", path).err.splitlines()
     assert "mujoco rejects the robot: zero-inertia (r.urdf:2)" in lines
