@@ -255,19 +255,19 @@ class _Completion:
 
     def _list_parts(self, kinds: Iterable[WordKind]) -> Iterator[Item]:
         """Yield links, joints and materials: as this file writes them, then those of robots."""
-        wanted = {kind for kind in kinds if kind in ("link", "joint", "material")}
-        wanted |= {"link", "joint"} if "part" in kinds else set()
+        part_kinds = {kind for kind in kinds if kind in ("link", "joint", "material")}
+        part_kinds |= {"link", "joint"} if "part" in kinds else set()
         path = self.names.get_path()
         for word in self.names.tables[path].words if path in self.names.tables else ():
-            if word.kind in wanted and word.is_definition:
+            if word.kind in part_kinds and word.is_definition:
                 yield Item(word.name, _EVENT, f"{word.kind} in this file")
         for description, robot in self.names.descriptions:
             name = os.path.basename(description.path)
-            if "link" in wanted:
+            if "link" in part_kinds:
                 yield from (Item(link, _EVENT, f"link of {name}") for link in robot.link)
-            if "joint" in wanted:
+            if "joint" in part_kinds:
                 yield from (Item(joint, _EVENT, f"joint of {name}") for joint in robot.joint)
-        if "material" in wanted:
+        if "material" in part_kinds:
             for word in self._list_definitions("material"):
                 yield Item(word.name, _EVENT, f"material, {_format_place(word)}")
 

@@ -98,8 +98,8 @@ def _add_actions(server: RobotServer) -> None:
 
 def _is_included(kind: object, other: str) -> bool:
     """Tell whether a kind of action that an editor asks for includes another."""
-    asked = str(getattr(kind, "value", kind))
-    return other == asked or other.startswith(asked + ".") or not asked
+    kind_name = str(getattr(kind, "value", kind))
+    return other == kind_name or other.startswith(kind_name + ".") or not kind_name
 
 
 def _make_action(

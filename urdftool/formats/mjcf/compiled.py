@@ -60,8 +60,8 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
     import warnings
 
     mujoco = import_mujoco_module()
-    said: list[str] = []
-    mujoco.set_mju_user_warning(said.append)  # else MuJoCo writes a log file
+    texts: list[str] = []
+    mujoco.set_mju_user_warning(texts.append)  # else MuJoCo writes a log file
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -75,8 +75,8 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
         raise OutputError(
             f"MuJoCo does not compile the export, so nothing is written: {reason}", path=path.name
         ) from None
-    said += [str(warning.message) for warning in caught]
-    return model, list(dict.fromkeys(" ".join(text.split()) for text in said))
+    texts += [str(warning.message) for warning in caught]
+    return model, list(dict.fromkeys(" ".join(text.split()) for text in texts))
 
 
 def compile_copy(written: Written) -> None:

@@ -49,7 +49,7 @@ def fuse_links(
         written: Receives a note with the number of merged links.
     """
     kept = _get_kept(sections)
-    apart = _get_apart(sections.get("contact"))
+    exclusions = _get_exclusions(sections.get("contact"))
     sites = UniqueNames(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
     owner: dict[str, str] = {}
     contacts: dict[str, set[str]] = {}
@@ -65,8 +65,8 @@ def fuse_links(
         if body.getparent() is not bodies[top]:
             continue
         if _collides(body):
-            own = apart.get(body.get("name", ""), set())
-            of_top = apart.get(bodies[top].get("name", ""), set())
+            own = exclusions.get(body.get("name", ""), set())
+            of_top = exclusions.get(bodies[top].get("name", ""), set())
             first = contacts.setdefault(top, of_top if _collides(bodies[top]) else own)
             if first != own:
                 continue  # a merged body would exclude contacts that one of the links has
@@ -127,7 +127,7 @@ def _get_kept(sections: Mapping[str, etree._Element]) -> set[str]:
     return names
 
 
-def _get_apart(contact: etree._Element | None) -> dict[str, set[str]]:
+def _get_exclusions(contact: etree._Element | None) -> dict[str, set[str]]:
     """Return for each body in an exclusion the names of its partners."""
     found: dict[str, set[str]] = {}
     for exclude in contact if contact is not None else ():

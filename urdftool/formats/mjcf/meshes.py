@@ -139,13 +139,13 @@ def _cut(
 ) -> None:
     """Replace collision meshes that are not convex by their convex decomposition."""
     places = {path: _make_mesh(shape) for path, collides, shape in uses if collides}
-    wanted = [
+    uncut = [
         path
         for path in places
         if (path, True) in made and not made[path, True].thick
         if (ratio := made[path, True].hull) is None or ratio > HULL
     ]
-    for path, result in cutter(wanted).items() if wanted else ():
+    for path, result in cutter(uncut).items() if uncut else ():
         old = made[path, True]
         if isinstance(result, Cut):
             pieces = [Piece(write_obj_bytes(*piece)) for piece in result.pieces]

@@ -88,8 +88,8 @@ def _compile(
 
     import mujoco  # type: ignore[import-untyped,unused-ignore]
 
-    said: list[str] = []
-    mujoco.set_mju_user_warning(said.append)  # else MuJoCo writes a log file
+    texts: list[str] = []
+    mujoco.set_mju_user_warning(texts.append)  # else MuJoCo writes a log file
     try:
         with warnings.catch_warnings(record=True) as caught, open_no_files():
             warnings.simplefilter("always")
@@ -104,15 +104,15 @@ def _compile(
         reason = " ".join(_LINE.sub("", str(error)).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):
             reason = reason.replace(name, paths.get(name, name))
-        return Compiled("", {}, [], said, reason, int(line[1]) if line else 0)
-    said += [str(warning.message) for warning in caught]
+        return Compiled("", {}, [], texts, reason, int(line[1]) if line else 0)
+    texts += [str(warning.message) for warning in caught]
     rows = {kind: read(spec, model, mujoco) for kind, read in _READERS.items()}
     for row in (*rows["mesh"], *rows["material"]):
         for name in {"file", "texture"} & row.keys():
             row[name] = paths.get(row[name], "")
     names = [key.name for key in spec.keys]
     keys = [(names[i], model.key_qpos[i].tolist()) for i in range(model.nkey)]
-    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(said)))
+    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(texts)))
 
 
 def _keep_all(spec: Any) -> None:

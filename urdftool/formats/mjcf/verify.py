@@ -62,19 +62,19 @@ def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]
         if not options.fuse:
             return verify(robot, written, model, again, options)
         whole = replace(options, fuse=False)
-        apart = write(robot, whole)
-        with copy_export(apart) as place:
-            checks = verify(robot, apart, place / apart.main, apart, whole, stepped=model)
-            merged = _check_fused(robot, apart, place / apart.main, model)
+        unfused = write(robot, whole)
+        with copy_export(unfused) as place:
+            checks = verify(robot, unfused, place / unfused.main, unfused, whole, stepped=model)
+            merged = _check_fused(robot, unfused, place / unfused.main, model)
     repeat = _check_repeats(written, again)
     return [*(repeat if check.name == repeat.name else check for check in checks), merged]
 
 
-def _check_fused(robot: Robot, apart: Written, whole: Path, merged: Path) -> Check:
+def _check_fused(robot: Robot, unfused: Written, whole: Path, merged: Path) -> Check:
     """Compare the model with merged links with the model of all links."""
     robot, _ = add_world(robot)
     mechanics = Mechanics(robot)
-    plain, fused = (Compiled(path, mechanics.root, apart.renamed) for path in (whole, merged))
+    plain, fused = (Compiled(path, mechanics.root, unfused.renamed) for path in (whole, merged))
     links = [link.name for link in robot.links]
     return fuse_check(links, plain, fused, list(_list_configurations(mechanics, plain)))
 

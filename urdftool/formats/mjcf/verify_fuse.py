@@ -155,9 +155,9 @@ def _get_unlike(one: Array, other: Array) -> float:
         return math.inf
     left, worst = list(range(len(other))), 0.0
     for row in one:
-        apart = abs(other[left] - row).max(axis=1)
-        nearest = int(apart.argmin())
-        worst = max(worst, float(apart[nearest]))
+        distances = abs(other[left] - row).max(axis=1)
+        nearest = int(distances.argmin())
+        worst = max(worst, float(distances[nearest]))
         del left[nearest]
     return worst
 

@@ -67,15 +67,15 @@ def _add_sensor(model: Node, t: Translation, element: Element) -> None:
     made = add(node, "sensor", name=_choose_free_name(node, element), type=kind.type)
     _add_pose(made, element)
     add(made, "always_on", "true")
-    said = {child.tag: child.text.strip() for child in element.children}
+    texts = {child.tag: child.text.strip() for child in element.children}
     for table, word in ((kind.noises, "stddev"), (kind.offsets, "mean")):
         for parameter, places in table.items():
-            _set_noise(made, places, word, said.get(parameter, ""))
+            _set_noise(made, places, word, texts.get(parameter, ""))
     if get_library(element) in SENSOR_PLUGINS:
         convert_sensor_plugin(made, t, part, element)
     if isinstance(part, Link):
         move_to_owner(made, t, part)
-    left = [tag for tag in said if tag not in _CARRIED | {*kind.noises, *kind.offsets}]
+    left = [tag for tag in texts if tag not in _CARRIED | {*kind.noises, *kind.offsets}]
     if left:
         text = f"plugin '{get_library(element)}' is sensor '{made.get('name')}' in gz; it has no "
         t.report_loss("plugin", text + ", ".join(dict.fromkeys(left)), element, part)

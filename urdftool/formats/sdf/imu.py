@@ -24,14 +24,14 @@ def write_imu_noise(made: Node, sensor: Element) -> None:
         return
     kind = noise.find_child("type")
     for old, new in KINDS.items():
-        said = noise.find_child(old)
-        for axis in "xyz" if said is not None else "":
+        old_noise = noise.find_child(old)
+        for axis in "xyz" if old_noise is not None else "":
             node = get_or_create(holder, f"{new}/{axis}")
-            if said is None or node.find("noise") is not None:
+            if old_noise is None or node.find("noise") is not None:
                 continue
             one = add(node, "noise", type=kind.text.strip() if kind is not None else "gaussian")
             for name in _NUMBERS:
-                value = said.find_child(name)
+                value = old_noise.find_child(name)
                 if value is not None and number(value.text.strip()) is not None:
                     add(one, name, value.text.strip())
 

@@ -177,10 +177,10 @@ def _add_mimic(axis: Node, t: Translation, part: Joint) -> None:
 
 def _report_unspoken(node: Node, t: Translation, part: Joint) -> None:
     """Keep safety controller and calibration as comments, and report them."""
-    for what, said in (("safety", part.safety_controller), ("calibration", part.calibration)):
-        if said is None:
+    for what, dropped in (("safety", part.safety_controller), ("calibration", part.calibration)):
+        if dropped is None:
             continue
-        element = said.element
+        element = dropped.element
         text = " ".join(f'{k}="{v}"' for k, v in element.attributes.items())
         append_comment(node, f"{element.tag} {text}")
         t.report_loss(
@@ -190,7 +190,7 @@ def _report_unspoken(node: Node, t: Translation, part: Joint) -> None:
                 "a "
                 "comment"
             ),
-            said,
+            dropped,
             part,
             severity=Severity.INFO,
         )

@@ -28,8 +28,8 @@ SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
 def add_material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     """Add the material of a visual, and its transparency."""
-    said = [e for e in list_part_elements(t.robot, link) if e.tag == "material"]
-    if said and _from_gazebo(node, t, link, part, said[-1]):
+    blocks = [e for e in list_part_elements(t.robot, link) if e.tag == "material"]
+    if blocks and _from_gazebo(node, t, link, part, blocks[-1]):
         return
     _report_script(t, link, part)
     own = resolve_material(t.robot, part.material)
@@ -90,14 +90,14 @@ def _add_texture(made: Node, t: Translation, link: Link, own: Material, filename
     add(script, "name", name)
 
 
-def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Element) -> bool:
+def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, block: Element) -> bool:
     """Add the material of a ``<gazebo>`` block; return False if the target does not know it."""
-    if said.children:
+    if block.children:
         made = add(node, "material")
-        for child in said.children:
+        for child in block.children:
             copy_raw_element(made, t, child, link)
         return True
-    name = get_text(said)
+    name = get_text(block)
     if not name:
         return False
     if t.options.classic:
@@ -110,14 +110,14 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if color is None:
         if first:
             text = f"material '{name}' of link '{link.name}' is a script, which gz cannot run"
-            t.report_loss("material", f"{text}; the URDF color is kept", said, link)
+            t.report_loss("material", f"{text}; the URDF color is kept", block, link)
         return False
     if first and name not in PICTURED and part.material is not None:
         text = f"link '{link.name}' has the color of '{name}' instead of its URDF color"
-        t.report_note("material", f"{text}; gz cannot run the script of that name", said, link)
+        t.report_note("material", f"{text}; gz cannot run the script of that name", block, link)
     if first and name in PICTURED:
         text = f"material '{name}' of link '{link.name}' has an image; only its color is exported"
-        t.report_loss("material", text, said, link)
+        t.report_loss("material", text, block, link)
     settings = convert_color(part, color)
     write_settings(get_or_create(node, "material"), settings, _OF_MATERIALS)
     write_settings(node, settings, _OF_VISUALS)

@@ -106,8 +106,8 @@ def _offset(made: Node, t: Translation) -> None:
 
 def _add_system(node: Node, t: Translation, element: Element, system: System) -> None:
     made = add(node, "plugin", **get_system_name(t, system.word, system.name))
-    said, left = convert_parameters(element, system)
-    for tag, value in said:
+    converted, left = convert_parameters(element, system)
+    for tag, value in converted:
         if isinstance(value, str):
             add(made, tag, t.names.get_joint(value) if "joint" in tag else value)
         else:
@@ -139,14 +139,14 @@ def _convert_control(node: Node, t: Translation, element: Element) -> None:
         elif child.tag in ("parameters", "ros", "controller_manager_name", "robot_param",
                            "robot_param_node", "hold_joints"):  # fmt: skip
             append_copy(made, child)
-    said = bool(t.robot.ros2_controls)
+    has_control = bool(t.robot.ros2_controls)
     needs = (
         ""
-        if said
+        if has_control
         else "; it requires a <ros2_control> block in robot_description, which is missing"
     )
     text = f"plugin '{get_library(element)}' is '{names['filename']}' in gz{needs}"
-    (t.report_note if said else t.report_loss)("plugin", text, element)
+    (t.report_note if has_control else t.report_loss)("plugin", text, element)
 
 
 def _convert_mimic(node: Node, t: Translation, element: Element) -> None:

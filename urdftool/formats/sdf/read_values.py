@@ -35,9 +35,9 @@ def read_numbers(element: Element, count: int) -> tuple[float, ...]:
     except ValueError:
         values = ()
     if len(values) != count or any(map(math.isnan, values)):
-        wanted = "a number" if count == 1 else f"{count} numbers"
+        numbers = "a number" if count == 1 else f"{count} numbers"
         raise ModelError(
-            f"<{element.tag}> is '{' '.join(words)}'; {wanted} required", at=element.place
+            f"<{element.tag}> is '{' '.join(words)}'; {numbers} required", at=element.place
         )
     if element.tag not in _MAY_BE_INFINITE and any(abs(value) > LARGEST for value in values):
         text = f"<{element.tag}> is '{' '.join(words)}', above {LARGEST:g}"

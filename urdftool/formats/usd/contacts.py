@@ -46,9 +46,9 @@ def is_self_colliding(robot: Robot, options: Options) -> bool:
     """Tell whether links of the robot collide with each other in the stage."""
     if options.self_collision is not None:
         return options.self_collision
-    asked = (robot.settings, *(link.settings for link in robot.links))
-    wanted = any(is_set(settings, "self_collide") for settings in asked)
-    return options.srdf is not None or bool(robot.exclusions) or wanted
+    levels = (robot.settings, *(link.settings for link in robot.links))
+    has_self_collision = any(is_set(settings, "self_collide") for settings in levels)
+    return options.srdf is not None or bool(robot.exclusions) or has_self_collision
 
 
 def list_overlaps(

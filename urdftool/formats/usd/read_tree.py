@@ -254,9 +254,9 @@ def _make_joint(
     prim, written = edge.prim, context.get_written(edge.prim)
     joint = Joint(written, _take_name(_get_joint_name(prim), taken), edge.kind.type)
     parent, at = edge.first, context.shifts[edge.first]
-    wanted = prim.GetCustomDataByKey("urdf:parent")
+    parent_name = prim.GetCustomDataByKey("urdf:parent")
     for path, (body, pose) in frames.items():
-        if body == edge.first and context.names[path] == wanted:
+        if body == edge.first and context.names[path] == parent_name:
             parent, at = path, pose
     joint.parent, joint.child = context.names.get(parent, ""), context.names[edge.second]
     child = _compute_child_pose(context, edge) @ context.shifts[edge.second]

@@ -33,13 +33,15 @@ def compare_home(path: Path, robot: Robot, home: Mapping[str, float]) -> Check:
             prim.IsA(UsdPhysics.RevoluteJoint) or prim.IsA(UsdPhysics.PrismaticJoint)
         ):
             continue
-        wanted = home.get(joint.name, 0.0)
+        expected = home.get(joint.name, 0.0)
         for text, value in _list_positions(prim).items():
-            error = abs(value - wanted) / max(1.0, abs(wanted))
+            error = abs(value - expected) / max(1.0, abs(expected))
             check.compare(error, f"joint '{joint.name}': {text}")
         lower, upper = get_limits(joint)
         if lower <= upper and joint.mimic is None:
-            check.compare(max(lower - wanted, wanted - upper, 0.0), f"joint '{joint.name}': limits")
+            check.compare(
+                max(lower - expected, expected - upper, 0.0), f"joint '{joint.name}': limits"
+            )
     return check
 
 

@@ -56,8 +56,8 @@ def compare_elements(pair: Pair) -> Check:
         about = f"<{element.tag}> of '{name}'" if name else f"<{element.tag}>"
         known = pair.declared.has_for(BLOCKS, name)
         alike = [one for one in left if one[0] == owner and one[1].tag == element.tag]
-        wanted = get_facts(element, without=("pose",))
-        alike.sort(key=lambda one: _get_unlike(one[1], wanted))
+        expected_facts = get_facts(element, without=("pose",))
+        alike.sort(key=lambda one: _get_unlike(one[1], expected_facts))
         if not alike:
             check.compare(
                 np.inf,
@@ -67,7 +67,7 @@ def compare_elements(pair: Pair) -> Check:
             continue
         left.remove(alike[0])
         found = get_facts(alike[0][1], without=("pose",))
-        compare_facts(check, about, found, wanted, known=known)
+        compare_facts(check, about, found, expected_facts, known=known)
         _compare_pose(pair, check, about, owner, name, alike[0][1], element, known)
     for owner, element in left:
         check.compare(np.inf, f"<{element.tag}> of '{owner}' is not in the description")
@@ -77,9 +77,9 @@ def compare_elements(pair: Pair) -> Check:
     return check
 
 
-def _get_unlike(element: Any, wanted: Facts) -> int:
+def _get_unlike(element: Any, expected_facts: Facts) -> int:
     found = get_facts(element, without=("pose",))
-    return sum(found.get(path) != value for path, value in wanted.items())
+    return sum(found.get(path) != value for path, value in expected_facts.items())
 
 
 def _list_written(pair: Pair) -> Iterator[tuple[str, Any]]:
@@ -156,12 +156,12 @@ def _compare_loops(pair: Pair, check: Check) -> None:
             check.compare(np.inf, f"joint '{name}' of a loop is missing", known=known)
             continue
         made = elements[names[0]]
-        wanted = get_facts(block, without=("parent", "child"))
+        expected_facts = get_facts(block, without=("parent", "child"))
         compare_facts(
             check,
             f"joint '{name}' of a loop",
             get_facts(made, without=("parent", "child")),
-            wanted,
+            expected_facts,
             known=known,
         )
         if made.get("type") != block.get("type"):

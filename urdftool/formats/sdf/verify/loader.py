@@ -29,17 +29,17 @@ def run_loads(robot: Robot, options: Options, place: Path) -> Check | None:
     for tool in _TOOLS:
         if shutil.which(tool) is None:
             continue
-        said = _ask(tool, place)
-        if said is None:
+        output = _ask(tool, place)
+        if output is None:
             continue
         check = Check(f"{tool} sdf", "loads without error or warning", 0.0)
-        older = _TOO_NEW.search(said)
+        older = _TOO_NEW.search(output)
         if older and older[1] in VERSIONS[options.target]:
             check.what += f", at {older[1]}, the newest it reads"
-            said = _ask_older(tool, robot, replace(options, version=older[1], file="model.sdf"))
+            output = _ask_older(tool, robot, replace(options, version=older[1], file="model.sdf"))
         elif older:
             return None
-        check.differing = _collect_complaints(said or "")
+        check.differing = _collect_complaints(output or "")
         return check
     return None
 
@@ -57,10 +57,10 @@ def _ask(tool: str, place: Path) -> str | None:
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         return f"Error: {error}"
-    said = done.stdout + done.stderr
-    if "cannot find any available" in said or "unrecognized command" in said.lower():
+    output = done.stdout + done.stderr
+    if "cannot find any available" in output or "unrecognized command" in output.lower():
         return None
-    return said if done.returncode == 0 else f"{said}\nError: exit code {done.returncode}"
+    return output if done.returncode == 0 else f"{output}\nError: exit code {done.returncode}"
 
 
 def _ask_older(tool: str, robot: Robot, options: Options) -> str | None:
@@ -72,8 +72,8 @@ def _ask_older(tool: str, robot: Robot, options: Options) -> str | None:
         return _ask(tool, place)
 
 
-def _collect_complaints(said: str) -> list[str]:
-    lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in said.splitlines()]
+def _collect_complaints(output: str) -> list[str]:
+    lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in output.splitlines()]
     return [
         line
         for line in lines

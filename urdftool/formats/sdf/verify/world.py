@@ -63,9 +63,9 @@ def compare_world(pair: Pair, place: Path) -> Check:
 def _compare_systems(pair: Pair, world: ET.Element, check: Check) -> None:
     libraries = [plugin.get("filename") or "" for plugin in world.findall("plugin")]
     kinds = {sensor.get("type") or "" for sensor in pair.where.model.iter("sensor")}
-    wanted = {"physics", *(WORDS[kind] for kind in kinds & WORDS.keys())}
+    systems = {"physics", *(WORDS[kind] for kind in kinds & WORDS.keys())}
     if any(part in kind for kind in kinds - WORDS.keys() for part in RENDERING):
-        wanted.add("sensors")
-    for word in sorted(wanted):
+        systems.add("sensors")
+    for word in sorted(systems):
         if not any(library.endswith(f"-{word}-system") for library in libraries):
             check.compare(np.inf, f"the system '{word}' is missing")
