@@ -1,4 +1,8 @@
-"""The README of wheel and sdist: its links and pictures lead to the site, not into a checkout."""
+"""Parts of wheel and sdist that are not files of the package.
+
+The links and pictures of the README lead to the site, not into a checkout. A wheel has the JSON
+schemas; an editable installation reads those of the checkout.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 LINK = re.compile(r"\]\((?!https?:)([^)\s]+)\)")
@@ -33,3 +38,12 @@ class ReadmeHook(MetadataHookInterface):
         text = (Path(self.root) / "README.md").read_text("utf-8")
         site = metadata["urls"]["Documentation"]
         metadata["readme"] = {"content-type": "text/markdown", "text": on_the_site(text, site)}
+
+
+class SchemaHook(BuildHookInterface[Any]):
+    """Called by hatchling."""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Add the schemas."""
+        if version != "editable":
+            build_data["force_include"]["docs/schemas"] = "urdftool/schemas"

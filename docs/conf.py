@@ -22,7 +22,7 @@ MENU = {
     "Commands": (
         *(f"commands/{name}" for name in ("expand", "lint", "inertia", "collision", "graph")),
         *(f"commands/{name}" for name in ("info", "diff", "verify", "view", "simulate")),
-        *(f"commands/{name}" for name in ("srdf", "fmt", "server")),
+        *(f"commands/{name}" for name in ("srdf", "fmt", "server", "schema")),
         *(f"commands/{name}" for name in ("bundle", "edit", "export", "cmake-dir")),
     ),
     "Operations": (
@@ -30,7 +30,8 @@ MENU = {
         *(f"edit/{name}" for name in ("zero", "sign", "cut", "round")),
     ),
     "How-to": (
-        *("adopting", "editors", "building", "howto/two-wheels", "howto/cad-to-simulation"),
+        *("adopting", "editors", "agents", "building"),
+        *("howto/two-wheels", "howto/cad-to-simulation"),
         *("howto/collision-fleet", "howto/classic-to-gz", "howto/mujoco-scene"),
         *("howto/mujoco-to-ros", "howto/moveit-without-ros", "howto/untrusted-input"),
     ),

@@ -48,6 +48,7 @@ def test_the_wheel_has_the_package_and_nothing_else(wheel):
     [
         *("/man1/urdftool.1", "completions/urdftool", "site-functions/_urdftool", "LICENSE"),
         *("data/share/urdftool/cmake/urdftoolConfig.cmake", "urdftool/cmake/urdftoolConfig.cmake"),
+        *("urdftool/schemas/lint.json", "share/urdftool/skills/urdftool/SKILL.md"),
     ],
 )
 def test_it_brings_manual_completions_functions_of_cmake_and_licence(wheel, ending):

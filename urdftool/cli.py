@@ -27,7 +27,7 @@ from .terminal import install, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "verify", "view"),
-    *("simulate", "srdf", "bundle", "edit", "export", "fmt", "server", "cmake-dir"),
+    *("simulate", "srdf", "bundle", "edit", "export", "fmt", "server", "schema", "cmake-dir"),
 )
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"

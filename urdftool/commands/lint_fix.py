@@ -67,8 +67,19 @@ def fix_files(
     _report_broken_fixes(console, done)
     code = 0 if diff else _write(console, done, reports, options)
     _report_unfixed(console, done.reports, kinds)
-    if diff:
+    if output.style == "json":
+        from ..report.fixes_json import build_fixes_record
+
+        output.fixes = build_fixes_record(
+            done, unsafe=kinds.unsafe, meshes=kinds.meshes, written=not diff
+        )
+    if diff and output.style != "json":
         return _show(console, done, output)
+    if diff:
+        _report_count(console, "Would fix", done)
+        whole = add_skipped_parts(done.reports, output.paths)
+        failure = report(console, whole, settings, output)
+        return failure if failure > 1 else int(bool(done.made) and not output.exit_zero)
     _report_count(console, "Fixed", done)
     _report_files(console, done, files)
     if "-" in files:

@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -40,6 +40,7 @@ class OutputOptions:
         arguments: Names of the xacro arguments of the command line.
         draw: Function that returns the pictures of a page, or the reason for each missing one.
         ending: Function that returns the last line for the reports of a run.
+        fixes: Record of the applied and refused fixes; None without ``--fix``.
         junit: Additional JUnit XML file; None for none.
     """
 
@@ -56,6 +57,7 @@ class OutputOptions:
     arguments: Sequence[str] = ()
     draw: Callable[[Outcome], Mapping[str, bytes | str]] | None = None
     ending: Callable[[Sequence[Report]], str] | None = None
+    fixes: Mapping[str, Any] | None = None
     junit: str | None = None
 
 
@@ -91,6 +93,7 @@ def report(
         statistics=output.statistics,
         whole=output.whole or to_file or (style == "concise" and not at_terminal),
         pictures=output.draw(outcome) if output.draw is not None and style == "html" else {},
+        fixes=output.fixes,
     )
     if output.to_stderr:
         click.echo(text, err=True, nl=False)

@@ -30,6 +30,24 @@ MAX_ROUNDS = 200
 """Number of rounds of fixes, so that two fixes that undo each other end. Chosen, no source."""
 
 
+class AppliedFix(NamedTuple):
+    """Applied fix.
+
+    Attributes:
+        finding: The finding, with its fix.
+        round: Number of its round, from 1; the places of its edits are those before the round.
+    """
+
+    finding: Finding
+    round: int
+
+    @property
+    def paths(self) -> set[str]:
+        """Paths of the files that it changed."""
+        assert self.finding.fix is not None
+        return self.finding.fix.paths
+
+
 @dataclass
 class FixResult:
     """Descriptions with fixes applied.
@@ -41,7 +59,9 @@ class FixResult:
         applied: Number of applied fixes by rule.
         broken: Reason for reverted fixes, by rule.
         unmade: Reason for fixes that need a file that cannot be computed, by rule.
-        made: Rule and changed files of each applied fix.
+        made: The applied fixes.
+        reverted: Findings whose fixes were not applied, with what would be worse.
+        unwritten: Fixes that were made, but whose files could not be written.
         groups: Sets of files that are written together or not at all.
     """
 
@@ -51,17 +71,18 @@ class FixResult:
     applied: Counter[str] = field(default_factory=Counter)
     broken: dict[str, str] = field(default_factory=dict)
     unmade: dict[str, str] = field(default_factory=dict)
-    made: list[tuple[str, set[str]]] = field(default_factory=list)
+    made: list[AppliedFix] = field(default_factory=list)
+    reverted: list[tuple[Finding, Wrong]] = field(default_factory=list)
+    unwritten: list[AppliedFix] = field(default_factory=list)
     groups: list[set[str]] = field(default_factory=list)
 
     def drop(self, paths: set[str]) -> None:
         """Discard the changes of files that are not written, and the count of their fixes."""
         for path in paths:
             del self.before[path], self.after[path]
-        for rule, where in self.made:
-            if not where.isdisjoint(paths):
-                self.applied[rule] -= 1
-        self.applied = +self.applied
+        self.unwritten += [one for one in self.made if not one.paths.isdisjoint(paths)]
+        self.made = [one for one in self.made if one.paths.isdisjoint(paths)]
+        self.applied = Counter(one.finding.code for one in self.made)
 
 
 @dataclass
@@ -121,11 +142,11 @@ def apply_fixes(
     """
     result = FixResult(list(reports))
     banned, doubted = set[Key](), set[Key]()
-    for _ in range(MAX_ROUNDS):
+    for number in range(1, MAX_ROUNDS + 1):
         chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
         if not chosen:
             break
-        _Round(result, options, banned, doubted).prove(chosen)
+        _Round(result, options, banned, doubted, number).prove(chosen)
     result.groups = _get_groups(result)
     return result
 
@@ -183,9 +204,15 @@ class _Round:
     """Fixes of one selection; their spans refer to the bytes before the first of them."""
 
     def __init__(
-        self, result: FixResult, options: Options, banned: set[Key], doubted: set[Key]
+        self,
+        result: FixResult,
+        options: Options,
+        banned: set[Key],
+        doubted: set[Key],
+        number: int,
     ) -> None:
-        """Create a round with no fix applied."""
+        """Create a round, by its number, with no fix applied."""
+        self.number = number
         self.result = result
         self.options = options
         self.banned = banned
@@ -262,6 +289,7 @@ class _Round:
             finding = chosen[0].finding
             self.banned.add(get_key(finding))
             self.doubted.add(get_likeness(finding))
+            self.result.reverted.append((finding, wrong))
             kind = self.result.unmade if wrong.of_a_file else self.result.broken
             kind.setdefault(finding.code, f"{finding.location}: {wrong.text}")
             return
@@ -306,7 +334,7 @@ class _Round:
             result.reports[number] = report
             self._index(number, report)
         result.applied.update(one.finding.code for one in some)
-        result.made += [(one.finding.code, one.paths) for one in some]
+        result.made += [AppliedFix(one.finding, self.number) for one in some]
         self.kept += some
         return None
 
@@ -372,7 +400,7 @@ def _get_groups(result: FixResult) -> list[set[str]]:
     """Return the changed files, grouped by descriptions and fixes that they share."""
     group = {path: {path} for path in result.after}
     linked = [set(report.files) for report in result.reports]
-    for paths in (*linked, *(where for _, where in result.made)):
+    for paths in (*linked, *(one.paths for one in result.made)):
         met = [group[path] for path in paths if path in group]
         whole = max(met, key=len, default=set[str]())
         for one in met:

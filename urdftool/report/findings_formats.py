@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
+from typing import Any
 
 from ..diagnostic import Severity
 from ..lint.outcome import Outcome
@@ -20,6 +21,7 @@ def as_text(
     statistics: bool = False,
     whole: bool = True,
     pictures: Mapping[str, bytes | str] = MappingProxyType({}),
+    fixes: Mapping[str, Any] | None = None,
 ) -> str:
     """Format a run.
 
@@ -32,6 +34,7 @@ def as_text(
         whole: Whether ``full`` and ``concise`` list every finding, or at most a screen for each
             family of rules.
         pictures: PNG files of robots for ``html``, by path, or the reason why there is none.
+        fixes: Record of the applied and refused fixes, for ``json``.
     """
     if statistics:
         return _format_joined(count_by_rule(outcome))
@@ -42,15 +45,17 @@ def as_text(
 
         text = to_html(outcome, pictures)
     else:
-        text = _format_in_style(outcome, style, fail_on)
+        text = _format_in_style(outcome, style, fail_on, fixes)
     return text.encode("utf-8", "backslashreplace").decode()  # file names may contain any bytes
 
 
-def _format_in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:
+def _format_in_style(
+    outcome: Outcome, style: str, fail_on: Severity, fixes: Mapping[str, Any] | None
+) -> str:
     if style == "json":
         from .findings_json import to_json
 
-        return to_json(outcome)
+        return to_json(outcome, fixes)
     if style == "sarif":
         from .findings_sarif import to_sarif
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..diagnostic import Fix, Severity
@@ -13,8 +13,8 @@ from ..lint.outcome import Outcome
 from .json_text import format_json, replace_non_finite
 
 
-def to_json(outcome: Outcome) -> str:
-    """Format a run as one object."""
+def to_json(outcome: Outcome, fixes: Mapping[str, Any] | None = None) -> str:
+    """Format a run as one object, with the record of its fixes if it had any to make."""
     reports, findings = outcome.reports, outcome.findings
     counts = {severity: sum(f.severity is severity for f in findings) for severity in Severity}
     table: dict[str, Any] = {
@@ -41,6 +41,8 @@ def to_json(outcome: Outcome) -> str:
         ]
     if outcome.known:
         table["summary"]["baselined"] = len(outcome.known)
+    if fixes is not None:
+        table["fixes"] = dict(fixes)
     return format_json(table, 1) + "\n"
 
 
