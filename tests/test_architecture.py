@@ -395,6 +395,7 @@ OPENERS = {
     "report/findings_html.py": OWN,
     "viewer/server.py": OWN,
     "report/rule_pages.py": OWN,
+    "report/schemas.py": OWN,
     "rules/file_rewrites.py": "the workspace materializes the path",
     "rules/mesh/files.py": "the workspace materializes the path",
     "simulation/engines/mujoco/scene.py": TEMPORARY,

@@ -21,10 +21,10 @@ def command(words: tuple[str, ...]) -> int:
         urdftool schema lint
         urdftool schema inertia robot --write
     """  # noqa: D301 -- click reads the escape
-    from ..report.schemas import find_schema, find_schemas, read_title
+    from ..report.schemas import find_schema, find_schemas, read_schema, read_title
 
     if words:
-        click.echo(find_schema(words).read_text("utf-8"), nl=False)
+        click.echo(read_schema(find_schema(words)), nl=False)
         return 0
     schemas = find_schemas()
     width = max(map(len, schemas), default=0)

@@ -22,9 +22,14 @@ def find_schemas() -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.json"))}
 
 
+def read_schema(path: Path) -> str:
+    """Return the text of a schema."""
+    return path.read_text("utf-8")
+
+
 def read_title(path: Path) -> str:
     """Return the command line whose output a schema describes."""
-    return str(json.loads(path.read_text("utf-8"))["title"])
+    return str(json.loads(read_schema(path))["title"])
 
 
 def find_schema(words: Sequence[str]) -> Path:
