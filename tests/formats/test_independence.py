@@ -24,7 +24,14 @@ OPEN = (
     *("common.actuator_config", "common.force_fallbacks"),
     *("sdf.options", "sdf.write", "sdf.verify", "sdf.read"),
     *("usd.options", "usd.verify", "usd.read", "reading", "common.srdf"),
-    *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
+    *(
+        "mjcf.options",
+        "mjcf.write",
+        "mjcf.compiled",
+        "mjcf.copied",
+        "mjcf.declared_losses",
+        "mjcf.verify",
+    ),
     "usd.declared_losses",
     "mjcf.read",
 )

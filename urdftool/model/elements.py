@@ -36,6 +36,7 @@ from .mechanism import (
     Light,
     MountedPlugin,
     MountedSensor,
+    NativeElement,
 )
 from .part import ZERO as ZERO
 from .part import Origin as Origin
@@ -336,6 +337,7 @@ class Robot(RobotConversions, Part):
         settings: Settings of ``settings.OF_ROBOT``.
         world: Settings of the world around it, of ``settings.OF_WORLD``.
         rejected_settings: Elements of settings whose text is not a value.
+        native: Elements that a writer of the format of its source copies.
         unread: What the robot does not hold of its source, once for each kind.
         source: Description from which it was read; None if it was read from a bare element.
         memo: Values shared by several rules, computed once.
@@ -363,6 +365,7 @@ class Robot(RobotConversions, Part):
     world: Settings = field(default_factory=dict)
     rejected_settings: list[Rejected] = field(default_factory=list)
     format: str = "urdf"
+    native: Sequence[NativeElement] = field(default=(), repr=False)
     unread: Sequence[Finding] = field(default=(), repr=False)
     source: Description | None = field(default=None, repr=False)
     memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)

@@ -197,3 +197,28 @@ class MountedPlugin(Part):
     library: str = ""
     owner: str = ""
     settings: Settings = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class NativeElement(Part):
+    """Element of a format that a writer of the same format copies, with what compiles from it.
+
+    Attributes:
+        section: Tag of the section that contains it; ``default``; or empty for attributes of a part
+            that the robot has.
+        tag: Its tag.
+        attributes: Its attributes as written.
+        children: Its child elements.
+        values: Values that the format's library computes of it, by name.
+    """
+
+    section: str = ""
+    tag: str = ""
+    attributes: dict[str, str] = field(default_factory=dict)
+    children: list[NativeElement] = field(default_factory=list)
+    values: dict[str, tuple[float, ...]] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """Return its name; empty without one."""
+        return self.attributes.get("name", "")

@@ -196,11 +196,13 @@ def test_what_the_model_lacks_is_reported_once_each(mechanism):
     assert found == {
         "unread-actuator": ("warning", 1),
         "unread-coupling": ("warning", 1),
+        "unread-display-attribute": ("info", 1),
         "unread-hidden-geom": ("info", 1),
         "unread-light": ("info", 1),
         "unread-mesh": ("warning", 1),
         "unread-scenery": ("info", 1),
         "unread-sensor": ("info", 1),
+        "unread-setting": ("warning", 1),
         "unread-tendon": ("warning", 1),
     }
     tendon = next(loss for loss in mechanism.losses if loss.code == "unread-tendon")

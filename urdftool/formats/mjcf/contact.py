@@ -29,7 +29,7 @@ def plan_exclusions(
     """
     given = [(pair.link, pair.other) for pair in structure.robot.exclusions]
     joined = []
-    if exclude != "none":
+    if exclude != "none" and structure.robot.format != "mjcf":  # which has its own pairs
         given += _pair_beside_the_world(structure)
         joined = [(loop.parent, loop.child) for loop in list_loops(structure)]
     filtered = set(map(frozenset, given))

@@ -50,7 +50,9 @@ EXCUSES = (
     Excuse(("loops",), frozenset(LOOPS)),
     Excuse(
         ("configurations",),
-        frozenset(("lossy-home", "lossy-limit-inverted", "lossy-mimic")),
+        frozenset(
+            ("lossy-home", "lossy-limit-inverted", "lossy-mimic", "lossy-mujoco-element"),
+        ),
         "robot",
     ),
 )

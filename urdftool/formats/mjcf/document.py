@@ -14,7 +14,7 @@ from .body import Bodies
 
 ORDER = (
     "compiler", "option", "size", "visual", "statistic", "default", "asset", "worldbody",
-    "contact", "equality", "actuator", "sensor", "keyframe", "custom",
+    "contact", "tendon", "equality", "actuator", "sensor", "keyframe", "custom",
 )  # fmt: skip
 
 # order of the attributes of an element

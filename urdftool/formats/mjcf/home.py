@@ -30,10 +30,11 @@ class Home:
 
 
 def place_home(structure: Structure, boxes: ShapeBoxes, positions: dict[str, float]) -> Home:
-    """Place a robot with a free root on the floor at z = 0; a fixed one keeps its pose.
+    """Place a robot with a free root on the floor at z = 0.
 
-    A floating joint below a world root counts as a floating base: the bodies that it carries are
-    lifted if they would reach below the floor.
+    A fixed root, and that of an MJCF, keeps its pose. A floating joint below a world root
+    counts as a floating base: the bodies that it carries are lifted if they would reach below the
+    floor.
 
     Args:
         structure: The kinematic tree.
@@ -42,7 +43,7 @@ def place_home(structure: Structure, boxes: ShapeBoxes, positions: dict[str, flo
     """
     root = make_pose(get_robot_origin(structure.robot))
     pose, start = root, root
-    if structure.free:
+    if structure.free and structure.robot.format != "mjcf":  # whose author chose the height
         pose = lift_to_floor(structure, boxes, positions, root)
         start = lift_to_floor(structure, boxes, structure.locked, root)
     poses = link_poses(structure.robot, positions)

@@ -16,6 +16,7 @@ from ..written import Written
 from .actuator import build_actuator_section
 from .body import build_body_tree, fill_bodies
 from .contact import build_contact_section
+from .copied import has_copied_actuators
 from .defaults import build_default_section
 from .digits import format_numbers_text, number_text
 from .document import assemble, report_losses
@@ -30,6 +31,7 @@ from .joint import PLANAR_SUFFIXES
 from .material import Materials
 from .meshes import Assets
 from .mounted import put_mounted
+from .native import add_native
 from .options import Options
 from .plan import Plan
 from .sensor import build_sensor_section
@@ -71,10 +73,12 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     _report_controller_losses(robot, written)
     apply_extension(robot, sections, written)
     create_share_colors(world, materials.elements)
-    sections["default"] = build_default_section(plan.name, world, actuators)
+    shared = None if has_copied_actuators(robot, options) else actuators
+    sections["default"] = build_default_section(plan.name, world, shared)
     sections["asset"] = _build_asset(assets, materials)
     if options.fuse:
         fuse_links(structure, bodies, sections, plan.masses, written)
+    add_native(structure, options, sections, written)
     report_losses(written.losses, bodies)
     return assemble(plan.name, sections)
 

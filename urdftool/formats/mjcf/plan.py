@@ -27,6 +27,7 @@ from ..common.standing_pose import choose_standing_positions, report_support
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
+from .copied import has_copied_home, has_copies
 from .gazebo import USUAL_FRICTION
 from .home import Home, place_home
 from .inertials import compute_inertials
@@ -35,6 +36,7 @@ from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
 from .loops import plan_closures
 from .options import Options
+from .read_extras import REFERENCE
 from .sensor import plan_sensors
 from .structure import WORLD, ZERO_AXIS, Structure, create_structure
 
@@ -123,7 +125,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         base=None if structure.in_world else _plan_base(robot, home, is_free=free),
         joint_actuators=actuators,
         exclusions=plan_exclusions(structure, srdf.disabled if srdf else (), options.exclude),
-        configurations=[Configuration(None, "home", _list_single(structure, positions))],
+        configurations=_list_configurations(structure, positions, options),
         world=_choose_world(structure) | robot.world | _set_timestep(options),
     )
     structure = replace(structure, robot=planned)
@@ -161,6 +163,20 @@ def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
     return joints
 
 
+def _list_configurations(
+    structure: Structure, positions: Mapping[str, float], options: Options
+) -> list[Configuration]:
+    """Return the configurations of the model: ``home``, and those of the keys of an MJCF."""
+    robot = structure.robot
+    copied = [one for one in robot.configurations if one.name != REFERENCE]
+    if not has_copies(robot, "keyframe"):
+        copied = []
+    if has_copied_home(robot, options):
+        return copied
+    own = Configuration(None, "home", _list_single(structure, positions))
+    return [*(one for one in copied if one.name != own.name), own]
+
+
 def _set_timestep(options: Options) -> Settings:
     """Return the setting of the time step that the user chose."""
     return {} if options.timestep is None else {"timestep": Value(None, options.timestep)}
@@ -189,7 +205,7 @@ def _set_priority(link: Link, source: str) -> Link:
     MuJoCo uses the larger friction of two geoms unless one has priority, Gazebo the smaller.
     """
     if source == "mjcf":
-        return link
+        return _name_collisions(link)
     made: dict[int, Settings] = {}
     for surface in (link.surface, *(shape.surface for shape in link.collisions)):
         friction = get_number(surface, "friction")
@@ -202,6 +218,16 @@ def _set_priority(link: Link, source: str) -> Link:
         surface=made[id(link.surface)],
         collisions=[replace(c, surface=made[id(c.surface)]) for c in link.collisions],
     )
+
+
+def _name_collisions(link: Link) -> Link:
+    """Return a link whose visuals leave their names to collisions, which pairs and sensors name."""
+    touching = {shape.name for shape in link.collisions if shape.name}
+    visuals = [
+        replace(shape, name=f"{shape.name}_visual") if shape.name in touching else shape
+        for shape in link.visuals
+    ]
+    return replace(link, visuals=visuals)
 
 
 def _choose_world(structure: Structure) -> Settings:

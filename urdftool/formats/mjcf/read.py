@@ -34,6 +34,7 @@ from .read_compile import LIMITS, Compiled, compile_text, import_library
 from .read_context import Context
 from .read_extras import add_extras
 from .read_files import check_files
+from .read_native import add_native
 from .read_shapes import add_shapes
 from .read_text import Expanded, expand
 from .read_tree import add_tree
@@ -76,6 +77,7 @@ def read(
     add_tree(context, robot)
     add_shapes(context, robot)
     add_extras(context, robot)
+    add_native(context, robot)
     for warning in compiled.warnings:
         losses.add("warning", f"MuJoCo warns: {warning}", "", written.place, Severity.INFO)
     for place in expanded.surplus:

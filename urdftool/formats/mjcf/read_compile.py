@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ...dependencies import Dependencies
@@ -17,6 +17,7 @@ from ...limited import Limits, open_no_files
 from ...model.settings import SURFACE_OF_MUJOCO
 from ...workspace import Workspace
 from .read_assets import read_assets
+from .read_native_table import KINDS
 
 Row = dict[str, Any]
 
@@ -40,6 +41,7 @@ class Compiled:
         rows: Rows of values by kind; their order is that of the compiled model.
         keys: Name and generalized positions of each keyframe.
         warnings: Warnings of the compiler.
+        values: Values of the elements of each section of ``KINDS``, in their order.
         error: Reason why it does not compile; empty if it does.
         error_line: Line of the error; 0 if unknown.
         error_file: Name of the file that cannot be read.
@@ -49,6 +51,7 @@ class Compiled:
     rows: dict[str, list[Row]]
     keys: list[tuple[str, list[float]]]
     warnings: list[str]
+    values: dict[str, list[dict[str, tuple[float, ...]]]] = field(default_factory=dict)
     error: str = ""
     error_line: int = 0
     error_file: str = ""
@@ -76,7 +79,7 @@ def compile_text(
     try:
         assets = read_assets(paths, folder, view)
     except SourceError as error:
-        missing = Compiled("", {}, [], [], error.message, error_file=error.data["name"])
+        missing = Compiled("", {}, [], [], error=error.message, error_file=error.data["name"])
         return missing, view.dependencies
     return _compile(text, models, assets, paths), view.dependencies
 
@@ -104,7 +107,7 @@ def _compile(
         reason = " ".join(_LINE.sub("", str(error)).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):
             reason = reason.replace(name, paths.get(name, name))
-        return Compiled("", {}, [], texts, reason, int(line[1]) if line else 0)
+        return Compiled("", {}, [], texts, {}, reason, int(line[1]) if line else 0)
     texts += [str(warning.message) for warning in caught]
     rows = {kind: read(spec, model, mujoco) for kind, read in _READERS.items()}
     for row in (*rows["mesh"], *rows["material"]):
@@ -112,7 +115,25 @@ def _compile(
             row[name] = paths.get(row[name], "")
     names = [key.name for key in spec.keys]
     keys = [(names[i], model.key_qpos[i].tolist()) for i in range(model.nkey)]
-    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(texts)))
+    values = {tag: _list_numbers_of(spec, model, *kind) for tag, kind in KINDS.items()}
+    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(texts)), values)
+
+
+_PLACES = re.compile(r"(id|adr|num|geom[12]|plugin|signature|length0|acc0|weight0)$")
+"""Fields of MuJoCo's model that are numbers or hashes of other elements, or computed of joints."""
+
+
+def _list_numbers_of(
+    spec: Any, model: Any, prefix: str, elements: str
+) -> list[dict[str, tuple[float, ...]]]:
+    """Return all values of each element of a kind, by the names of MuJoCo's fields."""
+    count = len(getattr(spec, elements))
+    names = [n for n in dir(model) if n.startswith(f"{prefix}_") and not _PLACES.search(n)]
+    fields = {name: getattr(model, name) for name in names}
+    return [
+        {n: tuple(map(float, v[i].ravel())) for n, v in fields.items() if len(v) == count}
+        for i in range(count)
+    ]
 
 
 def _keep_all(spec: Any) -> None:

@@ -34,6 +34,10 @@ _LEFT_OUT = {
 }
 
 
+REFERENCE = "qpos0"
+"""Name of the configuration of a model whose joints do not start at zero."""
+
+
 def add_extras(context: Context, robot: Robot) -> None:
     """Add everything but bodies, joints and geoms."""
     for kind, (text, severity) in _LEFT_OUT.items():
@@ -269,7 +273,7 @@ def _add_configurations(context: Context, robot: Robot) -> None:
     if any(reference for _, _, reference in joints):
         drawn = {name: reference for name, _, reference in joints if reference}
         written = Written(context.expanded.root.place)
-        robot.configurations.append(Configuration(written, "qpos0", drawn))
+        robot.configurations.append(Configuration(written, REFERENCE, drawn))
     for number, (name, positions) in enumerate(context.compiled.keys):
         default = elements[number] if number < len(elements) else context.expanded.root
         element = named.get(name, default) if name else default

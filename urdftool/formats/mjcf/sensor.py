@@ -48,6 +48,11 @@ _EXPRESSED = (
 """Parameters that a sensor's type, site or number of rays expresses, or that change no value."""
 
 
+def _compute_ratio(size: tuple[int, int] | None) -> float:
+    """Return height over width of an image; 1 for one without a size."""
+    return 1.0 if size is None else size[1] / size[0]
+
+
 @dataclass
 class SensorPlan:
     """Sensors of a model.
@@ -90,7 +95,9 @@ class _Planner:
 
     def add_camera(self, camera: Camera) -> None:
         """Add a camera; one that sees too wide is reported."""
-        vertical, size = camera.vertical_fov, camera.resolution or CAMERA_SIZE
+        vertical, size = camera.vertical_fov, camera.resolution
+        if size is None and self.robot.format != "mjcf":
+            size = CAMERA_SIZE
         if vertical is None:
             across = get_number(camera.settings, "field of view") or 0.0
             self.written.report_loss(
@@ -101,7 +108,7 @@ class _Planner:
                 kind="sensor",
                 name=camera.name,
             )
-            vertical = 2 * math.atan(math.tan(WIDEST / 2) * size[1] / size[0])
+            vertical = 2 * math.atan(math.tan(WIDEST / 2) * _compute_ratio(size))
         name = self._cameras.take(camera.name or "camera")
         self.plan.cameras.append(
             Camera(camera.provenance, name, camera.link, camera.origin, vertical, size)

@@ -24,8 +24,10 @@ from ...model.kinematics import get_limits
 from ...model.load import read_again
 from ...model.world import add_world
 from ..common.losses import DeclaredLosses, name_links
+from ..reading import Reading
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
+from .copied import has_copied_home, list_copied, list_uncopied
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
 from .options import Options
 from .read import read
@@ -34,6 +36,7 @@ from .verify_fuse import fuse_check
 from .verify_home import check_home
 from .verify_looks import check_material
 from .verify_meshes import SourceMeshes
+from .verify_native import check_native
 from .verify_runs import check_runs
 from .verify_scene import check_scene
 from .write import write
@@ -113,12 +116,16 @@ def verify(
     robot, _ = add_world(read_again(robot))
     assert again.planned is not None
     expected = _make_expected(robot, again.planned)
-    checks = [*_compare_read(expected, written, model)]
+    reading = read(model)
+    checks = [*_compare_read(expected, written, reading)]
+    declared = DeclaredLosses.from_findings(written.losses)
+    if robot.native:
+        checks.append(check_native(robot, reading.robot, declared, options))
     checks += _compare_compiled(robot, expected, written, model, options)
     checks.append(
         check_runs(
             stepped or model,
-            DeclaredLosses.from_findings(written.losses),
+            declared,
             excluded=options.exclude == "touching",
         )
     )
@@ -169,11 +176,11 @@ def _make_joint(joint: Joint, source: Robot) -> Joint:
     return replace(origin, dynamics=joint.dynamics, limit=limit)
 
 
-def _compare_read(expected: Robot, written: Written, model: Path) -> list[Check]:
+def _compare_read(expected: Robot, written: Written, reading: Reading) -> list[Check]:
     """Compare the robot that is read from the file."""
-    reading = read(model)
     losses = list(name_links(expected, written.losses))
-    claims = Claims(losses, written.renamed, EXCUSES, reading.losses)
+    unread = list(list_uncopied(reading.robot, reading.losses))
+    claims = Claims(losses, written.renamed, EXCUSES, unread)
     return prove(expected, reading.robot, claims, rows=_choose_rows())
 
 
@@ -200,8 +207,13 @@ def _compare_compiled(
     yield from _compare_dynamics(mechanics, compiled, configurations, declared)
     yield _check_centroid(mechanics, compiled, configurations, declared)
     yield _check_efforts(expected, compiled, declared)
-    yield check_defaults(compiled)
-    yield check_home(expected, compiled)
+    yield check_defaults(compiled, list_copied(robot))
+    yield check_home(
+        expected,
+        compiled,
+        on_floor=robot.format != "mjcf",
+        is_copied=has_copied_home(robot, options),
+    )
     yield check_material(robot, SourceMeshes(robot), compiled, declared)
     for warning in compiled.warnings:
         clean.compare(math.inf, warning, known=declared.has_any("lossy-massless"))

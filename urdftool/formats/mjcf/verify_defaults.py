@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 
@@ -28,23 +29,28 @@ NONE = ("tendon", "flex", "plugin", "mocap", "pair")
 """Kinds of objects that an export never has."""
 
 
-def check_defaults(compiled: Compiled) -> Check:
-    """Compare the fields that an export does not write with those of a plain model."""
+def check_defaults(compiled: Compiled, copied: Collection[str] = ()) -> Check:
+    """Compare the fields that an export does not write with those of a plain model.
+
+    Args:
+        compiled: The model.
+        copied: Kinds of elements, or of their attributes, that are copied from the source.
+    """
     check = Check("defaults", "materials, sensors and equalities, where nothing is written", EXACT)
     model, plain = compiled.model, compiled.get_reference()
     for kind, names in FIELDS.items():
         for name in names:
             values = getattr(model, f"{kind}_{name}", None)
             usual = getattr(plain, f"{kind}_{name}", None)
-            if values is None or usual is None or not len(values):
+            if kind in copied or values is None or usual is None or not len(values):
                 continue
             default = usual[0] if len(usual) else np.zeros_like(values[0])
             off = float(np.max(abs(np.subtract(values, default))))
             check.compare(off, f"{name} of a {KINDS[kind]}")
     for kind in NONE:
-        if getattr(model, f"n{kind}", 0):
+        if kind not in copied and getattr(model, f"n{kind}", None):
             check.compare(math.inf, f"a {kind}")
-    for number in range(model.neq):
+    for number in range(model.neq) if "eq" not in copied else ():
         soft = *model.eq_solref[number], *model.eq_solimp[number]
         check.compare(float(abs(np.subtract(soft, STIFF)).max()), f"softness of equality {number}")
     _compare_free_joints(compiled, check)

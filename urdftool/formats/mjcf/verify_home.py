@@ -19,12 +19,20 @@ the bounding box of a mesh with many points is not exact.
 """
 
 
-def check_home(robot: Robot, compiled: Compiled) -> Check:
+_OF_JOINTS = (0, 1)
+"""``mjtTrn`` of actuators of joints."""
+
+
+def check_home(
+    robot: Robot, compiled: Compiled, *, on_floor: bool = True, is_copied: bool = False
+) -> Check:
     """Compare the initial pose, and the key ``home`` with limits, controls and the floor.
 
     Args:
         robot: The robot that the file must hold, with its base.
         compiled: The model.
+        on_floor: Whether the export places a free root on the floor.
+        is_copied: Whether the key ``home`` is that of the source.
     """
     check = Check("home", "pose of the root, floor, limits, controls", EXACT)
     model = compiled.model
@@ -32,11 +40,13 @@ def check_home(robot: Robot, compiled: Compiled) -> Check:
     if key < 0:
         check.compare(math.inf, "there is no key 'home'")
     compiled.set_pose({})
-    _compare_root(robot, compiled, check)
-    if key < 0:
+    _compare_root(robot, compiled, check, on_floor=on_floor)
+    if key < 0 or is_copied:
         return check
     positions = compiled.get_positions_of_key(key)
     for index in range(model.nu):
+        if model.actuator_trntype[index] not in _OF_JOINTS:
+            continue
         driven = compiled.name("JOINT", int(model.actuator_trnid[index][0]))
         serves = float(model.actuator_biasprm[index][1]) != 0  # position feedback: a position servo
         off = abs(float(model.key_ctrl[key][index]) - serves * positions.get(driven, 0.0))
@@ -44,11 +54,11 @@ def check_home(robot: Robot, compiled: Compiled) -> Check:
     if np.any(model.key_qvel[key]) or np.any(model.key_act[key]):
         check.compare(math.inf, "the robot moves")
     compiled.set_pose_at_key(key)
-    _compare_root(robot, compiled, check)
+    _compare_root(robot, compiled, check, on_floor=on_floor)
     return check
 
 
-def _compare_root(robot: Robot, compiled: Compiled, check: Check) -> None:
+def _compare_root(robot: Robot, compiled: Compiled, check: Check, *, on_floor: bool) -> None:
     """Compare the pose of the root; a free root stands on the floor."""
     root = robot.tree.roots[0].name
     body = compiled.get_body(root)
@@ -60,7 +70,7 @@ def _compare_root(robot: Robot, compiled: Compiled, check: Check) -> None:
     expected = get_origin_matrix(None if robot.base is None else robot.base.origin)
     found = np.array(compiled.data.xpos[body])
     low, size = get_lowest_point(compiled)
-    count = 2 if is_free and math.isfinite(low) else 3
+    count = 2 if is_free and on_floor and math.isfinite(low) else 3
     off = float(abs(found[:count] - expected[:count, 3]).max())
     check.compare(off, "the root is at another pose")
     if count == 2:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostic import Severity
@@ -18,10 +19,12 @@ from ..common.naming import replace_file_name
 from ..common.unexpressed import report_unexpressed, report_unknown_colors
 from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
+from .copied import has_copies, list_uncopied
 from .meshes import create_mesh_assets
 from .model import build_model_text
 from .options import Options
 from .plan import convert_parts, make_plan
+from .read_extras import REFERENCE
 from .scene import create_scene_file
 from .structure import Structure
 
@@ -57,7 +60,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     robot, world = report_taken_world(robot)
     model = get_model_name(robot)
     written = Written(options.file or f"{model}.xml")
-    report_unexpressed(robot, written, expressed=EXPRESSED)
+    _report_unexpressed(robot, written)
     report_unknown_colors(robot, written)
     written.losses += world if options.force else []
     found = [
@@ -86,6 +89,15 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     files.update(sorted(written.files.items()))
     written.files = files
     return written
+
+
+def _report_unexpressed(robot: Robot, written: Written) -> None:
+    """Report what the reader left out and no element of the export has."""
+    expressed: tuple[str, ...] = EXPRESSED
+    if has_copies(robot, "keyframe") and not any(c.name == REFERENCE for c in robot.configurations):
+        expressed = (*EXPRESSED, "configuration")
+    rest = replace(robot, unread=tuple(list_uncopied(robot, robot.unread)))
+    report_unexpressed(rest, written, expressed=expressed)
 
 
 def get_model_name(robot: Robot) -> str:

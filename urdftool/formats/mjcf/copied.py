@@ -1,0 +1,62 @@
+"""What an export of an MJCF copies of its source, and what reading it does not lose for that."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ...finding import Finding
+from ...model.elements import Robot
+from ..common.drive_choice import AUTO
+from .options import Options
+from .read_native_table import KINDS
+
+_PREFIX = {"camera": "cam", "material": "mat", "body": "mocap"}
+"""Prefix of the fields of MuJoCo's model of parts."""
+
+_UNREAD = {
+    "tendon": ("tendon",),
+    "actuator": ("actuator", "gain", "activation"),
+    "equality": ("coupling", *(f"equality-{kind}" for kind in ("tendon", "flex", "flexvert"))),
+    "sensor": ("sensor",),
+    "contact": ("contact-pair",),
+    "custom": ("custom",),
+    "keyframe": ("keyframe",),
+    "": ("camera-mode", "mocap"),
+}
+"""Codes of what the reader leaves out, and an export copies, by section."""
+
+
+def has_copies(robot: Robot, section: str) -> bool:
+    """Tell whether an export copies the elements of a section."""
+    return any(element.section == section for element in robot.native)
+
+
+def has_copied_actuators(robot: Robot, options: Options) -> bool:
+    """Tell whether an export copies the actuators of its source."""
+    return options.actuators in AUTO and has_copies(robot, "actuator")
+
+
+def list_copied(robot: Robot) -> set[str]:
+    """Return the kinds of MuJoCo's model that copied elements of a robot are of."""
+    kinds = {KINDS[e.section][0] for e in robot.native if e.section in KINDS}
+    return kinds | {_PREFIX[e.tag] for e in robot.native if e.tag in _PREFIX and not e.section}
+
+
+def has_copied_home(robot: Robot, options: Options) -> bool:
+    """Tell whether an export copies the key ``home`` of its source."""
+    if options.pose or options.state or options.srdf is not None:
+        return False
+    return any(e.section == "keyframe" and e.name == "home" for e in robot.native)
+
+
+def list_uncopied(robot: Robot, unread: Iterable[Finding]) -> Iterator[Finding]:
+    """Yield what the reader left out and an export does not copy."""
+    codes = {
+        f"unread-{code}"
+        for section, codes in _UNREAD.items()
+        if not section or has_copies(robot, section)
+        for code in codes
+    }
+    if robot.format == "mjcf":
+        codes |= {"unread-setting", "unread-display"}
+    yield from (finding for finding in unread if finding.code not in codes)

@@ -1,0 +1,247 @@
+"""Elements and attributes of MJCF that an export to MJCF copies, and those that are not read.
+
+Each attribute that ``read_native_table.py`` does not list as read is either copied or reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ...diagnostic import Severity
+from ...model.elements import Robot
+from ...model.mechanism import NativeElement
+from ...model.provenance import Written
+from ...model.settings import OF_WORLD
+from ...source.document import Element, parse
+from ...source.location import SourceFile
+from .read_compile import Row
+from .read_context import Context
+from .read_defaults import Defaults
+from .read_native_table import CLASSES, COPIED, KINDS, MERGED, PARTS, READ, READ_IN
+from .read_tree import VELOCITY
+
+_CREATING = frozenset(("attach", "replicate", "composite", "flexcomp"))
+"""Elements that create elements of other sections, with names of their own."""
+
+_OF_EXPORT = "robot_name"
+"""Name of the text in ``<custom>`` that an export writes."""
+
+
+@dataclass
+class _Text:
+    """The text for MuJoCo, parsed.
+
+    Attributes:
+        roots: Root of the model, and of each that it attaches.
+        lines: Element by its line.
+    """
+
+    roots: list[Element]
+    lines: dict[int, Element]
+
+
+def add_native(context: Context, robot: Robot) -> None:
+    """Add the elements that an export copies, and report what is not read."""
+    text = _parse_text(context)
+    robot.native = [*_list_sections(context, text), *_list_parts(context, text)]
+    for root in text.roots:
+        for section in root.children:
+            if section.tag in COPIED:
+                _report_section(context, section)
+
+
+def _parse_text(context: Context) -> _Text:
+    expanded = context.expanded
+    texts = [expanded.text.encode(), *expanded.models.values()]
+    text = _Text([], {})
+    for data in texts:
+        blank = len(data) - len(data.lstrip(b"\n"))
+        root = parse(SourceFile("", data.lstrip(b"\n"))).root
+        text.roots.append(root)
+        for element in _list_all(root):
+            text.lines[_get_line(element) + blank] = element
+    return text
+
+
+def _list_all(root: Element) -> Iterator[Element]:
+    todo = [root]
+    while todo:
+        element = todo.pop()
+        yield element
+        todo += element.children
+
+
+def _get_place(context: Context, element: Element) -> Written:
+    """Return the place in the source of an element of the text of the main model."""
+    return Written(context.expanded.get_element_at(_get_line(element)).place)
+
+
+def _get_line(element: Element) -> int:
+    return element.file.position(element.start)[0]
+
+
+def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
+    """Yield the elements of the sections that are copied, and their default classes."""
+    if any(element.tag in _CREATING for element in text.lines.values()):
+        return
+    has_reference = any(row["ref"] for row in context.list_rows("joint"))
+    for tag in COPIED:
+        made = [
+            _make_native(context, tag, element)
+            for section in text.roots[0].children
+            if section.tag == tag
+            for element in (section.children if tag not in MERGED else [section])
+            if tag != "contact" or element.tag == "pair"
+        ]
+        if has_reference and _is_at_reference(tag, made):
+            continue
+        values = context.compiled.values.get(tag, [])
+        if tag in KINDS and len(made) == len(values):
+            for element, value in zip(made, values, strict=True):
+                element.values = value
+        if tag not in KINDS or len(made) == len(values):
+            yield from made
+    for child in text.roots[0].children:
+        found = _prune(context, child) if child.tag == "default" else None
+        if found is not None:
+            yield found
+
+
+def _is_at_reference(tag: str, made: list[NativeElement]) -> bool:
+    """Tell whether elements need the positions at which joints start, where the robot has zero."""
+    return tag == "equality" or any("qpos" not in e.attributes for e in made if e.tag == "key")
+
+
+def _make_native(context: Context, section: str, element: Element) -> NativeElement:
+    """Return an element with its children."""
+    children = [_make_native(context, section, child) for child in element.children]
+    written = _get_place(context, element)
+    attributes = element.attributes
+    if section in MERGED:  # its values name no file, and the text for MuJoCo lacks some
+        attributes = context.expanded.get_element_at(_get_line(element)).attributes
+    return NativeElement(written, section, element.tag, dict(attributes), children)
+
+
+def _prune(context: Context, element: Element) -> NativeElement | None:
+    """Return a default class with what concerns copied elements; None without such."""
+    children = []
+    for child in element.children:
+        if child.tag == "default":
+            inner = _prune(context, child)
+            children += [] if inner is None else [inner]
+        elif child.tag in CLASSES:
+            children.append(_make_native(context, "default", child))
+    if not children and not element.get("class"):
+        return None
+    written = _get_place(context, element)
+    return NativeElement(written, "default", "default", dict(element.attributes), children)
+
+
+def _list_parts(context: Context, text: _Text) -> Iterator[NativeElement]:
+    """Yield the copied attributes of bodies, joints and others; report those that are not read."""
+    defaults = [Defaults(root) for root in text.roots]
+    for tag, (moving, shown) in PARTS.items():
+        for number, row in enumerate(context.compiled.rows.get(tag, ())):
+            element, name = text.lines.get(row["line"]), _get_name(context, tag, number, row)
+            if element is None or element.tag != tag or not _is_of_robot(context, tag, number, row):
+                continue
+            root = next(one for one in defaults if one.root is _get_root(element))
+            attributes = root.resolve(element)
+            written = context.get_place(row)
+            kept = {a: v for a, v in attributes.items() if a in (*moving, *shown)}
+            if kept and name:
+                yield NativeElement(written, "", tag, {"name": name, **kept})
+            for attribute in _list_unread(context, tag, row, attributes):
+                code = "setting" if attribute in moving else "display"
+                code = code if attribute in kept and name else "attribute"
+                _report(context, code, f"{attribute} of <{tag}> {row['name']}".strip(), written)
+
+
+def _list_unread(context: Context, tag: str, row: Row, attributes: dict[str, str]) -> Iterator[str]:
+    """Yield the attributes of a part that the robot does not hold."""
+    yield from sorted(attributes.keys() - set(READ[tag]))
+    if tag == "geom" and row["group"] > _LAST_GROUP:
+        yield "group"
+    if tag == "joint" and "springref" in attributes and not row["stiffness"]:
+        yield "springref"
+    low, high = row.get("actfrcrange", (0.0, 0.0))
+    if tag == "joint" and low != -high:
+        text = "bounds of the force at a joint that are not symmetric are read as the smaller"
+        context.losses.add("force-range", text, row["name"], context.get_place(row).place)
+
+
+def _get_root(element: Element) -> Element:
+    while element.parent is not None:
+        element = element.parent
+    return element
+
+
+def _get_name(context: Context, tag: str, number: int, row: Row) -> str:
+    """Return the name that a part has in the robot."""
+    names = {"body": context.links, "joint": context.joints}.get(tag)
+    return str(row["name"]) if names is None else names[number]
+
+
+def _is_of_robot(context: Context, tag: str, number: int, row: Row) -> bool:
+    """Tell whether a part is one of a link."""
+    if tag == "body":
+        return bool(context.links[number])
+    return "bodyid" not in row or context.has_link(row)
+
+
+_TEXTS = {
+    "attribute": ("attributes are not read", Severity.WARNING),
+    "setting": ("settings that only MuJoCo has are not read", Severity.WARNING),
+    "display": ("attributes for display and users are not read", Severity.INFO),
+    "custom": ("numbers, texts and tuples of <custom> are not read", Severity.INFO),
+    "keyframe": ("only joint positions of keyframes are read", Severity.INFO),
+}
+_LAST_GROUP = 3
+"""Group of collisions by convention; those above it are for the user."""
+
+_SHOWN_ONLY = frozenset(("springref", "group", "user", "material", "rgba", "width", "objtype"))
+
+
+def _report(context: Context, code: str, name: str, written: Written) -> None:
+    what, severity = _TEXTS[code]
+    if code == "attribute" and name.split()[0] in _SHOWN_ONLY:
+        severity = Severity.INFO
+        code, what = "display-attribute", "attributes for display and users are not read"
+    context.losses.add(code, what, name, written.place, severity)
+
+
+def _report_section(context: Context, section: Element) -> None:
+    """Report what the robot does not hold of a section that an export to MJCF copies."""
+    if section.tag in MERGED:
+        _report_merged(context, section)
+        return
+    for element in section.children:
+        written = _get_place(context, element)
+        if section.tag == "custom":
+            name = element.get("name") or ""
+            if not name.endswith(VELOCITY) and name != _OF_EXPORT:
+                _report(context, "custom", name, written)
+            continue
+        read = READ_IN.get(section.tag)
+        if read is None or element.tag == "pair":
+            continue  # reported as a whole
+        for attribute in element.attributes.keys() - read:
+            code = "keyframe" if section.tag == "keyframe" else "setting"
+            code = "display" if attribute in _SHOWN_ONLY else code
+            name = f"{attribute} of <{element.tag}> {element.get('name') or ''}".strip()
+            _report(context, code, name, written)
+
+
+_OPTIONS = frozenset(row.mjcf.partition(" ")[2] for row in OF_WORLD)
+
+
+def _report_merged(context: Context, section: Element) -> None:
+    written = _get_place(context, section)
+    if section.tag == "size":
+        return  # memory and numbers of elements
+    if section.tag == "option":
+        for attribute in section.attributes.keys() - _OPTIONS:
+            _report(context, "setting", f"{attribute} of <option>", written)
+        return
+    _report(context, "display", f"<{section.tag}>", written)

@@ -1,0 +1,107 @@
+"""Elements and attributes of MJCF: those that the robot holds, and those that an export copies."""
+
+from __future__ import annotations
+
+_PLACED = ("pos", "quat", "euler", "axisangle", "xyaxes", "zaxis", "fromto")
+
+KINDS = {
+    "tendon": ("tendon", "tendons"),
+    "actuator": ("actuator", "actuators"),
+    "equality": ("eq", "equalities"),
+    "sensor": ("sensor", "sensors"),
+    "contact": ("pair", "pairs"),
+}
+"""Prefix of the fields of MuJoCo's model and list of ``MjSpec`` of the sections that are copied."""
+
+MERGED = ("size", "statistic", "visual", "option")
+"""Sections whose attributes are added to those of an export."""
+
+COPIED = (*KINDS, "custom", "keyframe", *MERGED)
+"""Sections whose elements are copied."""
+
+ACTUATORS = frozenset((
+    "general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle",
+    "adhesion", "dcmotor", "plugin",
+))  # fmt: skip
+"""Elements of ``<actuator>`` and of default classes."""
+
+CLASSES = ACTUATORS | {"tendon", "equality", "pair"}
+"""Elements of default classes of copied elements."""
+
+REFERENCES = {
+    "joint": ("joint", "joint1", "joint2", "jointinparent"),
+    "body": ("body", "body1", "body2", "subtree1", "subtree2"),
+    "site": ("site", "site1", "site2", "refsite", "slidersite", "cranksite", "sidesite"),
+    "geom": ("geom", "geom1", "geom2"),
+    "camera": ("camera",),
+    "tendon": ("tendon", "tendon1", "tendon2"),
+    "actuator": ("actuator",),
+    "material": ("material",),
+    "mesh": ("mesh",),
+    "plugin": ("instance", "plugin"),
+    "flex": ("flex",),
+    "sensor": (),
+    "key": (),
+}
+"""Attributes that name an element of a kind."""
+
+OBJECTS = {"objname": "objtype", "refname": "reftype"}
+"""Attributes that name an element, and those that name its kind."""
+
+_SENSOR = ("name", "objtype", "objname", "site", "joint", "body", "geom", "camera", "actuator",
+           "tendon", "jointinparent")  # fmt: skip
+_ACTUATOR = (
+    *("name", "class", "joint", "jointinparent", "gear", "ctrlrange", "ctrllimited", "forcerange"),
+    *("forcelimited", "kp", "kv", "dampratio", "inheritrange", "gainprm", "biasprm", "gaintype"),
+    *("biastype", "timeconst"),
+)
+
+READ_IN = {
+    "actuator": frozenset(_ACTUATOR),
+    "sensor": frozenset(_SENSOR),
+    "equality": frozenset((
+        "name", "class", "body1", "body2", "site1", "site2", "anchor", "relpose", "active",
+        "joint1", "joint2", "polycoef",
+    )),
+    "keyframe": frozenset(("name", "qpos")),
+    "contact": frozenset(("name", "body1", "body2")),
+}  # fmt: skip
+"""Attributes that the robot holds of the elements of a section; other sections it lacks."""
+
+READ = {
+    "body": (*_PLACED, "name", "childclass", "mocap", "gravcomp"),
+    "joint": (
+        *("name", "class", "type", "pos", "axis", "range", "limited", "damping", "frictionloss"),
+        *("stiffness", "springref", "springdamper", "armature", "ref", "margin", "solreflimit"),
+        *("solimplimit", "solreffriction", "solimpfriction", "actuatorfrcrange"),
+        *("actuatorfrclimited", "actuatorgravcomp", "align"),
+    ),
+    "geom": (
+        *_PLACED,
+        *("name", "class", "type", "size", "mass", "density", "mesh", "material", "rgba"),
+        *("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin"),
+        *("gap", "group", "priority", "fluidshape", "fluidcoef", "shellinertia", "fitscale"),
+        *("hfield", "adhesion"),
+    ),
+    "site": (*_PLACED, "name", "class"),
+    "camera": (*_PLACED, "name", "class", "fovy", "resolution", "mode", "target"),
+    "light": (
+        *("name", "class", "pos", "dir", "type", "directional", "diffuse", "specular", "cutoff"),
+        *("castshadow", "mode", "target"),
+    ),
+    "material": ("name", "class", "rgba", "texture"),
+}
+"""Attributes that the robot holds, or that take effect in others that it holds."""
+
+PARTS = {
+    "body": (("sleep", "user"), ()),
+    "joint": ((), ("group", "user")),
+    "freejoint": ((), ("group", "user")),
+    "geom": ((), ()),
+    "site": ((), ("group", "size", "type", "rgba", "user")),
+    "camera": ((), ("mode", "target", "ipd", "projection", "user")),
+    "light": ((), ("mode", "target", "attenuation", "exponent", "ambient", "active", "intensity",
+                   "range", "bulbradius")),
+    "material": ((), ("specular", "shininess", "emission", "reflectance", "metallic", "roughness")),
+}  # fmt: skip
+"""Attributes of parts that an export copies: those that affect motion, and those that do not."""
