@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -23,12 +23,13 @@ from .options import (
 
 if TYPE_CHECKING:
     from ..workspace import Workspace
+    from .lint_watch import CheckFiles
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 _WITH_FIXES = ("full", "json", "sarif", "html")
 LEVELS = ("error", "warning", "info")
 _GROUPS = {
-    "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
+    "What to do": "fix diff unsafe_fixes fix_meshes watch explain list_rules",
     "Rules": "select extend_select ignore target baseline write_baseline",
     "Output": "style whole output_file junit statistics fail_on exit_zero",
     "Input": "no_expand list_robots changed_since",
@@ -122,11 +123,42 @@ _GROUPS = {
     metavar="REV",
     help="Check only robots to which files belong that changed since a revision of git.",
 )
+@click.option(
+    "--watch", is_flag=True, help="Report again when a file of a robot changes, until Ctrl-C."
+)
 @click.option("--list-rules", is_flag=True, help="Print all rules and exit.")
 @add_gltf_option
 @add_package_options
 @click.pass_obj
-def command(
+def command(console: Console, /, watch: bool, **given: Any) -> int:
+    """Check robot descriptions for errors, and report each finding at its line.
+
+    PATH is a file (URDF, xacro, SDF, MJCF or USD), a folder with files of the first four, or '-'
+    (standard input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with
+    commas.
+
+    \b
+        urdftool lint arm.urdf.xacro prefix:=left_
+        urdftool lint src/ --target gz --format concise
+        urdftool lint src/ --fix
+        urdftool lint --explain zero-axis
+
+    A comment <!-- urdftool-ignore[RULE] reason --> suppresses a rule on its line or in the next
+    element.
+
+    Exit code 1: findings of severity --fail-on or above that are not in the baseline (with --fix:
+    findings that remain; with --diff: something would be fixed). Exit code 2, with all options: a
+    robot could not be read or expanded, and was not checked.
+    """  # noqa: D301 -- click reads the escape
+    if not watch:
+        return _lint(console, **given)
+    from .lint_watch import watch_files
+
+    paths, _ = split_arguments(given["words"])
+    return watch_files(console, paths, given, lambda check: _lint(console, **given, check=check))
+
+
+def _lint(
     console: Console,
     words: tuple[str, ...],
     select: tuple[str, ...],
@@ -156,26 +188,9 @@ def command(
     changed_since: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
+    check: CheckFiles | None = None,
 ) -> int:
-    """Check robot descriptions for errors, and report each finding at its line.
-
-    PATH is a file (URDF, xacro, SDF, MJCF or USD), a folder with files of the first four, or '-'
-    (standard input). RULES are names, patterns ('mesh-*') or families ('inertia') of rules, with
-    commas.
-
-    \b
-        urdftool lint arm.urdf.xacro prefix:=left_
-        urdftool lint src/ --target gz --format concise
-        urdftool lint src/ --fix
-        urdftool lint --explain zero-axis
-
-    A comment <!-- urdftool-ignore[RULE] reason --> suppresses a rule on its line or in the next
-    element.
-
-    Exit code 1: findings of severity --fail-on or above that are not in the baseline (with --fix:
-    findings that remain; with --diff: something would be fixed). Exit code 2, with all options: a
-    robot could not be read or expanded, and was not checked.
-    """  # noqa: D301 -- click reads the escape
+    """Check descriptions with the options of the command line, and return the exit code."""
     from ..formats.detect import read_other_format
     from ..formats.search import find_other_descriptions
     from ..lint.discover import explain_nothing_found
@@ -254,7 +269,7 @@ def command(
             console, files, options, settings, output, jobs=jobs, kinds=kinds, diff=diff
         )
     belonging = {file for real in found.robots for file in found.list_files(real)}
-    reports = add_skipped_parts(check_files(files, options, jobs), paths, belonging)
+    reports = add_skipped_parts((check or check_files)(files, options, jobs), paths, belonging)
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]
     skipped += [Report(path, skipped=why, stopped=why) for path, why in other.not_checked.items()]
     return report(console, [*reports, *skipped, *excluded], settings, output)
