@@ -1,17 +1,17 @@
 """``python -m measure.precision``: draw findings of real robots, for a person to judge.
 
-    python -m measure.precision [--by finding|rule] [--only robots] [--seed N] [--count N]
+    python -m measure.precision [--by finding|rule] [--only robots] [--seed N] [--count N] [FOLDER…]
     python -m measure.precision --page
 
 The first prints JSON lines, the second writes the page.
 
-The descriptions of example-robot-data, pybullet_data and the corpus, where they are installed, are
-checked with the defaults. Findings are drawn from all, or from the rules in turn, at most one of a
-robot and rule. ``--only robots`` leaves out what ``robots.py`` knows to be no robot: inputs of
-tests of parsers, steps of lessons, and objects without a moving joint. A verdict is a line as
-drawn with ``verdict`` (useful, noise or wrong) and ``reason``, written by somebody who read the
-finding beside the source and, where it speaks of a reader, asked that reader. They are kept in
-``verdicts.jsonl``.
+The descriptions of example-robot-data, pybullet_data and the corpus, where they are installed, or
+those below the folders are checked with the defaults. Findings are drawn from all, or from the
+rules in turn, at most one of a robot and rule. ``--only robots`` leaves out what ``robots.py``
+knows to be no robot: inputs of tests of parsers, steps of lessons, and objects without a moving
+joint. A verdict is a line as drawn with ``verdict`` (useful, noise or wrong) and ``reason``,
+written by somebody who read the finding beside the source and, where it speaks of a reader, asked
+that reader. They are kept in ``verdicts.jsonl``.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ from urdftool.lint.discover import find_descriptions
 from urdftool.lint.group import group
 from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
+from urdftool.lint.repository import find_robots
 
 PAGE = ROOT / "docs" / "lint-precision.md"
 KEPT = Path(__file__).with_name("verdicts.jsonl")
@@ -77,17 +78,54 @@ def descriptions(only_robots: bool = False) -> dict[str, str]:
     return found
 
 
+def descriptions_below(folders: list[str], only_robots: bool = False) -> dict[str, str]:
+    """Find the robots of folders as ``lint FOLDER`` does, by their name from the folder's on.
+
+    Args:
+        folders: Folders, such as unpacked packages.
+        only_robots: Whether to leave out what is not a robot.
+    """
+    found: dict[str, str] = {}
+    for folder in map(Path, folders):
+        robots = find_robots([str(folder)], workspace=Options().workspace).robots.values()
+        for path in sorted(robot.path for robot in robots):
+            found[f"{folder.name}/{Path(path).relative_to(folder)}"] = path
+    if only_robots:
+        found = {name: path for name, path in found.items() if is_robot(name, path)}
+    return found
+
+
 def draw(
-    seed: int, count: int, by: str = "finding", only_robots: bool = False
+    seed: int,
+    count: int,
+    by: str = "finding",
+    only_robots: bool = False,
+    folders: list[str] | None = None,
 ) -> list[dict[str, Any]]:
     """Draw findings as ``lint`` prints them, the same for the same seed, rules and robots."""
-    named = descriptions(only_robots)
-    sample = f"{by} {seed}, robots" if only_robots else f"{by} {seed}"
+    named = descriptions_below(folders, only_robots) if folders else descriptions(only_robots)
+    sample = f"{by} {seed}{', packages' if folders else ''}{', robots' if only_robots else ''}"
+    return choose(sample, collect(named), named, random.Random(seed), count)
+
+
+def collect(named: dict[str, str]) -> list[tuple[str, Finding]]:
+    """Check descriptions, and return their findings as ``lint`` groups them, with the names."""
     found: list[tuple[str, Finding]] = []
     reports = check_files(list(named.values()), Options())
     for name, report in zip(named, reports, strict=True):
         found += [(name, finding) for finding in group(report.findings)]
-    chance = random.Random(seed)
+    return found
+
+
+def choose(
+    sample: str,
+    found: list[tuple[str, Finding]],
+    named: dict[str, str],
+    chance: random.Random,
+    count: int,
+) -> list[dict[str, Any]]:
+    """Choose findings of a sample whose name says how: ``finding …`` or ``rule …``."""
+    by = sample.partition(" ")[0]
     found = list(_by_rule(found, chance) if by == "rule" else chance.sample(found, len(found)))
     firsts = {(finding.code, name): finding for name, finding in reversed(found)}
     drawn = [(name, f) for name, f in found if firsts[f.code, name] is f][:count]
@@ -195,12 +233,13 @@ def main(words: list[str]) -> int:
     parser.add_argument("--by", choices=("finding", "rule"), default="finding")
     parser.add_argument("--only", choices=("robots",), help="leave out tests, lessons, objects")
     parser.add_argument("--page", action="store_true", help="write docs/lint-precision.md")
+    parser.add_argument("folders", nargs="*", help="draw from the robots below these folders")
     arguments = parser.parse_args(words)
     if arguments.page:
         PAGE.write_text(page(judged()), "utf-8")
         return 0
     only_robots = arguments.only == "robots"
-    for row in draw(arguments.seed, arguments.count, arguments.by, only_robots):
+    for row in draw(arguments.seed, arguments.count, arguments.by, only_robots, arguments.folders):
         print(json.dumps(row, ensure_ascii=False))
     return 0
 
