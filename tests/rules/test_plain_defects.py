@@ -155,3 +155,23 @@ def test_a_package_with_the_same_ending_is_not_suggested(tmp_path):
 def test_a_mass_many_times_that_of_the_mirror_image_is_a_warning(tmp_path, mass, found):
     right = (inertial(0.0017 * mass, mass), *WHOLE[1:])
     assert find(tmp_path, "left-right-asymmetry", *legs(*right)) == [("right_leg", found)]
+
+
+@pytest.mark.parametrize("sensor", [0.001, 0.5])
+@pytest.mark.parametrize(
+    ("inside", "rule"), [((), "missing-inertial"), ((inertial(0, 0),), "zero-mass")]
+)
+def test_a_sensor_is_not_the_mass_of_a_trunk(tmp_path, inside, rule, sensor):
+    """A trunk of 27 liters without mass and a sensor: 1 g is less than the air in it."""
+    trunk = (*inside, shape("visual", size=0.3), shape("collision", size=0.3))
+    parts = [link("trunk", *trunk), link("imu", inertial(1e-7, sensor), shape("visual", size=0.01))]
+    parts += [
+        joint("imu", "fixed", "trunk"),
+        link("leg", *WHOLE),
+        joint("leg", "revolute", "trunk"),
+    ]
+    found = find(tmp_path, rule, *parts)
+    if sensor == 0.001:
+        assert found == [("trunk", "warning")]
+    else:
+        assert ("trunk", "warning") not in found

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..source.document import Element
@@ -347,6 +349,39 @@ def _collect_remappings(element: Element) -> dict[str, str]:
         for e in (*ros.list_children("remapping"), *ros.list_children("argument"))
     )
     return {old.strip(): new.strip() for old, arrow, new in pairs if arrow}
+
+
+class ClassicParameter(NamedTuple):
+    """A parameter that a system of gz does not read.
+
+    Attributes:
+        element: The parameter as written.
+        name: The name that the system reads.
+        text: The value that the system requires for the same behavior.
+    """
+
+    element: Element
+    name: str
+    text: str
+
+
+def find_classic_parameters(plugin: Element) -> Iterator[ClassicParameter]:
+    """Yield the parameters of a gz plugin that only its counterpart of Gazebo Classic reads.
+
+    A parameter whose new name is there too is left out.
+    """
+    library = re.sub(r"^(ignition-gazebo|gz-sim)\d*-", "gz-sim-", get_library(plugin))
+    systems = [one for ones in SYSTEM_PLUGINS.values() for one in ones if get_file(one) == library]
+    names = {old: one for one in systems for old in one.parameters}
+    read = {new for one in systems for new in one.parameters.values()}
+    there = {child.tag for child in plugin.children}
+    for child in plugin.children:
+        if child.tag not in names or child.tag in read or child.children:
+            continue
+        system = names[child.tag]
+        name, texts = system.parameters[child.tag], _collect_texts(system, child)
+        if len(texts) == 1 and name not in there:
+            yield ClassicParameter(child, name, texts[0])
 
 
 def get_file(system: System) -> str:

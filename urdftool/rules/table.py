@@ -283,6 +283,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "plugin-unknown-entity",
             "duplicate-plugin-name",
         ),
+        "classic_parameters": ("classic-parameter-in-gz",),
         "drives": ("drive-size-mismatch", "drive-direction-mismatch"),
     },
     "control": {
@@ -422,6 +423,7 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "gazebo.sensors": ("gazebo",),
     "gazebo.sensor_values": ("gazebo",),
     "gazebo.plugins": ("plugin",),
+    "gazebo.classic_parameters": ("plugin",),
     "gazebo.drives": ("plugin", "ros2_control", "transmission"),
     "control.transmissions": ("transmission", "plugin"),
     "control.transmission_joints": ("transmission", "plugin"),
@@ -584,6 +586,7 @@ FIXES: dict[str, FixTraits] = {
     "plugin-class-mismatch": FixTraits(SAFE),
     "plugin-unknown-entity": FixTraits(UNSAFE),
     "duplicate-plugin-name": FixTraits(UNSAFE),
+    "classic-parameter-in-gz": FixTraits(UNSAFE),
     "transmission-unknown-joint": FixTraits(UNSAFE),
     "unprefixed-hardware-interface": FixTraits(SAFE),
     "missing-hardware-interface": FixTraits(UNSAFE),

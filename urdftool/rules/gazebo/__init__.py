@@ -11,6 +11,7 @@ FILES = (
     "sensors",
     "sensor_values",
     "plugins",
+    "classic_parameters",
     "drives",
 )
 """Files with rules, in reading order."""

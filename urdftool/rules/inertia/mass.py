@@ -16,6 +16,7 @@ from ..mesh.link_extents import LinkExtents, get_extents
 from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import join_some
 from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
+from .light_body import find_light_body
 from .solids import compute_volume
 from .tensors import has_written_inertial
 
@@ -45,7 +46,9 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 
     A moving body must have a mass. Gazebo removes one without mass and its descendants, MuJoCo
     rejects the file, PyBullet never moves it. The mass of the whole rigid body counts: a link of
-    mass 0 that is fixed to a link with mass is merged into it and keeps its geometry.
+    mass 0 that is fixed to a link with mass is merged into it and keeps its geometry. A mass that
+    is less than that of air of the link's size is not that of the body: a trunk of mass 0 with a
+    sensor of 1 g.
 
     A root of mass 0 makes a model static in PyBullet; Gazebo rejects it. For a robot with moving
     joints it is an info. If the mass is 0 and the inertia is not, Gazebo and pinocchio add the
@@ -64,6 +67,16 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         joint = robot.tree.get_parent_joint(links[0].name)
         mass = link.inertial.find_child_xml("mass")
         at = mass.locate_attribute("value") if mass is not None else None
+        if light := find_light_body(robot, link, links):
+            yield Problem(
+                link,
+                f"mass of link '{link.name}' is 0, and the links fixed to it {light.describe()}; "
+                "write its mass",
+                at=at,
+                effects=() if joint is not None else _AS_ROOT[1:],
+                alike="light",
+            )
+            continue
         if compute_mass(links) > 0:
             tensor = link.inertial.inertia
             if tensor is not None and any(tensor.six):

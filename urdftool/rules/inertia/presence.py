@@ -32,6 +32,7 @@ from ..rule import (
 from ..symmetry import find_twin
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
+from .light_body import find_light_body
 from .solids import DENSITY, compute_volume
 from .tensors import has_written_inertial
 
@@ -67,8 +68,9 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     A body without mass cannot be accelerated, and each simulator substitutes something different:
     Gazebo removes the body and its descendants, PyBullet assumes 1 kg, MuJoCo computes a mass from
     the collision geometry at the density of water. If a fixed joint attaches the link to one with
-    a mass, it is only an info, unless the link of the other side has one, and except for PyBullet
-    and MuJoCo, which substitute a mass there too.
+    a mass, it is only an info, unless the link of the other side has one, or that mass is less
+    than that of air of the link's size, and except for PyBullet and MuJoCo, which substitute a mass
+    there too.
     Frames without geometry need none, although PyBullet gives them 1 kg. A marker below 1 g at
     the density of water is an info where MuJoCo substitutes the mass.
     """
@@ -84,9 +86,10 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         if "inertial" in find_misspelled_children(link.xml).values():
             continue
         if tops is None:
-            found = find_rigid_bodies(robot).values()
-            tops = {one.name: links[0] for links in found for one in links}
-            heavy = {one.name for links in found if compute_mass(links) > 0 for one in links}
+            bodies = find_rigid_bodies(robot).values()
+            body = {one.name: links for links in bodies for one in links}
+            tops = {name: links[0] for name, links in body.items()}
+            heavy = {name for name, links in body.items() if compute_mass(links) > 0}
         joint = robot.tree.get_parent_joint(tops.get(link.name, link).name)
         moves = joint is not None and not joint.is_fixed
         held = is_fixed_to_world(robot, link)
@@ -112,6 +115,10 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 outcome, severity = "half", WARNING
                 so = f", but its mirror image '{twin.name}' has one"
                 several = ", but their mirror images have one"
+            elif light := find_light_body(robot, link, body[link.name]):
+                outcome, severity = "light", WARNING
+                so = f", and the links fixed to it {light.describe()}"
+                several = ", and the links fixed to them are lighter than air of their size"
         elif held:
             outcome, severity = "static", INFO
             so = " and is fixed to the world, where its mass has no effect"
