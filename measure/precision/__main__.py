@@ -34,7 +34,7 @@ from urdftool.lint.discover import find_descriptions
 from urdftool.lint.group import group
 from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
-from urdftool.lint.repository import find_robots
+from urdftool.lint.robot_search import find_robots
 
 PAGE = ROOT / "docs" / "lint-precision.md"
 KEPT = Path(__file__).with_name("verdicts.jsonl")
